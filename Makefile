@@ -30,8 +30,8 @@ unexport PYTHONPATH PYTHONHOME
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
-.PHONY: help env dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification lint lint-python lint-imports lint-types lint-page lint-stubs lint-format lint-cpp stubs \
-        format docs wheel bench dome robust ubend cup s-rail compare peers clean
+.PHONY: help env dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification mutants lint lint-python lint-imports lint-types lint-page lint-stubs lint-format lint-cpp stubs \
+        format docs wheel bench dome robust balances ubend cup s-rail compare peers clean
 
 help:  ## show this help
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -78,9 +78,13 @@ dome: env  ## a sphere pressed into sheets of up to 160 000 elements: time, memo
 	@$(BIN)/python benchmarks/dome.py --json build/dome.json --plot docs/images/dome.png --page docs/performance-increments.md $(ARGS)
 	@$(BIN)/python tools/performance_numbers.py
 
-robust: env  ## 300 random jobs and how many finish (some 10 minutes of CPU); writes docs/robust-rate.md
+balances: env  ## 63 jobs of all kinds whose balances are watched (some 4 minutes of CPU); writes docs/balances.md
+	@$(BIN)/python benchmarks/balances.py --json build/balances.json --page docs/balances.md $(ARGS)
+
+robust: env  ## 300 random jobs and how many finish (some 10 minutes of CPU), then the balances; writes docs/robust-rate.md
 	@$(BIN)/python benchmarks/robust.py --json build/robust.json --page docs/robust-rate.md $(ARGS)
 	@$(BIN)/python tools/performance_numbers.py
+	@$(MAKE) balances ARGS=
 
 ubend: env  ## a U-bend with friction, beside CalculiX if it is there (a quarter of an hour)
 	$(SAY) 'Drawing the U-bend'
@@ -124,6 +128,10 @@ test-long: dev  ## the long verification runs
 test-clang: dev  ## build the kernels with clang, warnings as errors, and test them (skipped without clang)
 	$(SAY) 'Testing a build by clang'
 	@bash tools/clang.sh $(BIN)/python release
+
+mutants: dev  ## put small errors into a copy, each of which a test must notice: make mutants ARGS="Free springs"
+	$(SAY) 'Trying the mutants of tests/mutants.toml'
+	@$(BIN)/python tools/mutants.py $(ARGS)
 
 sanitize: dev  ## tests with clang's sanitizers: addresses, undefined behaviour, threads (an hour)
 	$(SAY) 'Testing with AddressSanitizer and UndefinedBehaviorSanitizer'

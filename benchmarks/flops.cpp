@@ -84,9 +84,13 @@ void answer(const Law& law, const SolidShell<Nodes, Counted>& element,
 
 template <int Nodes>
 void count(const Technology& technology) {
-    const int surface_points = read_count(), layers = read_count();
-    const std::vector<double> t = read(layers), weights = read(layers);
-    const SolidShell<Nodes, Counted> element(technology, {surface_points, surface_points}, {t, weights}, true);
+    const int surface_points = read_count(), columns = read_count(), layers = read_count();
+    std::vector<Rule> rules;
+    for (int column = 0; column < columns; ++column) {
+        std::vector<double> t = read(layers);
+        rules.push_back({std::move(t), read(layers)});
+    }
+    const SolidShell<Nodes, Counted> element(technology, {surface_points, surface_points}, std::move(rules), true);
     const std::vector<double> law = read(read_count()), X = read(3 * Nodes), u = read(3 * Nodes);
     typename SolidShell<Nodes, Counted>::Nodal local_X, local_u;
     std::copy(X.begin(), X.end(), local_X.begin());

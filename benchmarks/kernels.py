@@ -87,8 +87,11 @@ def description(element: Element, model: Model, constants: list[float], u: np.nd
         numbers.append(len(mode))
         for term in mode:
             numbers += [index(term.component), term.factor, term.a, term.b, term.c]
-    t, w = elements.thickness_rule(model.thickness_points, model.thickness_rule)
-    numbers += [element.nodes, element.surface_points, len(t), *t, *w, len(constants), *constants]
+    t, w = (np.atleast_2d(part) for part in model.body.through)
+    numbers += [element.nodes, element.surface_points, *t.shape]
+    for heights, weights in zip(t, w, strict=True):
+        numbers += [*heights, *weights]
+    numbers += [len(constants), *constants]
     ids = model.mesh.connectivity[0]
     for field in (model.mesh.points, u.reshape(-1, 3)):
         lower, upper = field[ids[: element.nodes // 2]].T, field[ids[element.nodes // 2 :]].T

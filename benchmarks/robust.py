@@ -22,10 +22,9 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 import record
 import umform as uf
+from imbalance import FORCES, largest_drift, resultants
 from jobs import COUNT, Done, Job, job
 from robust_page import drawn, failures, page, table
 from umform.errors import NoConvergence, UmformError
@@ -33,13 +32,11 @@ from umform.timing import Timing, timings
 
 #: CPU seconds after which a job counts as one that hangs; wall seconds may be as many times more.
 LIMIT, PATIENCE = 100, 10
-#: Largest imbalance of forces and moments. A drift of the energies above the second number, over the largest energy,
-#: must be that of coarse increments: by increments of half the size it must fall to this part of it, or below.
-FORCES, ENERGIES, FALLS = 1e-6, 0.02, 0.6
+#: A drift of the energies above the first number, over the largest energy, must be that of coarse increments: by
+#: increments of half the size it must fall to this part of it, or below.
+ENERGIES, FALLS = 0.02, 0.6
 #: What the warning of a jump says.
 JUMPED = "jumped to the next stable state"
-#: Part of the largest energy below which forces are round-off: a sheet that nothing touches yet.
-NOTHING = 1e-12
 #: Jobs of all kinds that the ordinary tests run: the cheapest ones, cheap ones that throw much away, and two that jump
 #: at the end of a stable path.
 SAMPLE = (
@@ -88,17 +85,15 @@ def outcome(number: int) -> dict[str, Any]:
 
 def drift(done: Done) -> float:
     """Largest drift of the energies in all runs of a job."""
-    return max(float(np.abs(result.balance().drift).max()) for result in done.results) if done.results else 0.0
+    return largest_drift(done.results)
 
 
 def imbalance(task: Job, done: Done) -> str:
     """What does not balance in what a job gave; nothing if all does."""
     found = []
-    for balance in (result.balance() for result in done.results):
-        stored = np.abs(balance.elastic + balance.plastic + balance.contact)
-        loaded = (stored > NOTHING * stored.max()) & (np.arange(len(stored)) > 0)  # the start may be out of it
-        found += [("forces", float(balance.force_imbalance[loaded].max(initial=0.0)), FORCES)]
-        found += [("moments", float(balance.moment_imbalance[loaded].max(initial=0.0)), FORCES)]
+    for result in done.results:
+        force, moment = resultants(result.balance())
+        found += [("forces", force, FORCES), ("moments", moment, FORCES)]
     found += [(name, *pair) for name, pair in done.deviations.items()]
     coarse = drift(done)
     if coarse > ENERGIES:

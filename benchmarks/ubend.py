@@ -37,13 +37,15 @@ E, NU, SWIFT = 206e3, 0.3, (565.32, 0.007117, 0.2589)
 FLAT, ARC = 2.0, 40
 
 
-def build(friction: float | None = MU, stroke: float = STROKE, rule: str = "points") -> tuple[Any, list[Any]]:
-    """Model and steps in umform."""
+def build(
+    friction: float | None = MU, stroke: float = STROKE, rule: str = "points", mesh: Any = None, stiffer: float = 1.0
+) -> tuple[Any, list[Any]]:
+    """Model and steps in umform; another mesh has its lower face at z = 0, all penalties can be stiffer."""
     import umform as uf
 
-    mesh = uf.mesh.strip(LENGTH, 1.0, THICKNESS, (CELLS, 1)).transformed(
-        lambda x: x + np.array([0.0, 0.0, THICKNESS / 2])
-    )
+    if mesh is None:
+        mesh = uf.mesh.strip(LENGTH, 1.0, THICKNESS, (CELLS, 1))
+        mesh = mesh.transformed(lambda x: x + np.array([0.0, 0.0, THICKNESS / 2]))
     model = uf.Model(mesh, "BEND8", material=uf.J2(E=E, nu=NU, hardening=uf.Swift(*SWIFT)))
     model.symmetry("x0", normal="x")
     model.fix(lambda x, y, z: x > -1.0, "y")
@@ -51,9 +53,9 @@ def build(friction: float | None = MU, stroke: float = STROKE, rule: str = "poin
     holder = model.tool("holder", uf.Plane((0, 0, THICKNESS), (0, 0, -1)))
     punch = model.tool("punch", uf.Box((0, 0, THICKNESS + 100), (2 * PUNCH, 100, 200), RADIUS))
     each = {rule: 3, "friction": friction}
-    model.contact("lower", die, name="on_die", penalty=PENALTY, **each)
-    model.contact("upper", holder, name="under_holder", penalty=HOLDER_PENALTY, **each)
-    model.contact("upper", punch, name="under_punch", penalty=PENALTY, **each)
+    model.contact("lower", die, name="on_die", penalty=stiffer * PENALTY, **each)
+    model.contact("upper", holder, name="under_holder", penalty=stiffer * HOLDER_PENALTY, **each)
+    model.contact("upper", punch, name="under_punch", penalty=stiffer * PENALTY, **each)
     hold, ram = model.press(holder, "z", name="hold"), model.drive(punch, "z", name="stroke")
     return model, [uf.Move(hold, to=-HOLDING, steps=2), uf.Move(ram, to=-stroke)]
 
@@ -107,12 +109,19 @@ def sections() -> dict[str, np.ndarray[Any, np.dtype[np.float64]]]:
     return {"DIE": np.array(die), "HOLDER": np.array(line((DIE + RADIUS, t), (far, t))), "PUNCH": np.array(punch)}
 
 
-def deck() -> list[str]:
-    """Lines of the deck: solid elements with incompatible modes, rigid tools of facets, contact of surfaces."""
+def deck(
+    mesh: Any = None, friction: float | None = MU, stroke: float = STROKE, ways: tuple[float, float] = (0.07, 0.28)
+) -> list[str]:
+    """Lines of the deck: solid elements with incompatible modes, rigid tools of facets, contact of surfaces.
+
+    The ways of the punch in the first increment and in one at most are given; its force is printed.
+    """
     import umform as uf
 
-    mesh = uf.mesh.strip(LENGTH, 1.0, THICKNESS, (CELLS, 1), layers=LAYERS)
-    points = mesh.points + np.array([0.0, 0.0, THICKNESS / 2])
+    if mesh is None:
+        mesh = uf.mesh.strip(LENGTH, 1.0, THICKNESS, (CELLS, 1), layers=LAYERS)
+        mesh = mesh.transformed(lambda x: x + np.array([0.0, 0.0, THICKNESS / 2]))
+    points = mesh.points
     cells = mesh.connectivity
     made = ["*NODE,NSET=NSHEET", *(f"{n},{x:.9g},{y:.9g},{z:.9g}" for n, (x, y, z) in enumerate(points.tolist(), 1))]
     made.append("*ELEMENT,TYPE=C3D8I,ELSET=SHEET")
@@ -153,17 +162,36 @@ def deck() -> list[str]:
             "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR",
             f"{penalty},0.,0.01",
         ]
-        made += ["*FRICTION", f"{MU},{STICK * penalty:g}"]
+        made += [] if friction is None else ["*FRICTION", f"{friction},{STICK * penalty:g}"]
         made += [f"*CONTACT PAIR,INTERACTION=I{name},TYPE=SURFACE TO SURFACE", f"{face},S{name}"]
     made += node_set("MIDDLE", (np.flatnonzero(points[:, 0] < 1e-9) + 1).tolist())
     free = {"DIE": "", "HOLDER": "3", "PUNCH": ""}
+    made += node_set("RAM", [held["PUNCH"][0]])
     made += ["*BOUNDARY", "NSHEET,2,2", "MIDDLE,1,1"]
     for name, (reference, rotation) in held.items():
         made += [f"{reference},{axis},{axis}" for axis in "123" if axis != free[name]] + [f"{rotation},1,3"]
     step = ["*STEP,NLGEOM,INC=100000", "*STATIC,SOLVER=SPOOLES"]
     made += [*step, "0.1,1.,1e-9,0.5", "*CLOAD", f"{held['HOLDER'][0]},3,{-HOLDING}", "*END STEP"]
-    made += [*step, "0.001,1.,1e-9,0.004", "*BOUNDARY", f"{held['PUNCH'][0]},3,3,{-STROKE}"]
-    return [*made, "*END STEP"]
+    made += [*step, f"{ways[0] / stroke:.3g},1.,1e-9,{ways[1] / stroke:.3g}"]
+    made += ["*BOUNDARY", f"{held['PUNCH'][0]},3,3,{-stroke}"]
+    return [*made, "*NODE PRINT,NSET=RAM,TOTALS=ONLY", "RF", "*END STEP"]
+
+
+def run_deck(folder: Path, lines: list[str], seconds: float) -> None:
+    """Run a deck in ccx in a folder, for so many CPU seconds at most."""
+    (folder / "job.inp").write_text("\n".join(lines) + "\n", encoding="ascii")
+
+    def limit() -> None:
+        resource.setrlimit(resource.RLIMIT_CPU, (int(seconds), int(seconds) + 5))
+
+    subprocess.run(
+        ["ccx", "job"],
+        cwd=folder,
+        capture_output=True,
+        preexec_fn=limit,
+        check=False,
+        env={"OMP_NUM_THREADS": "1", "PATH": "/usr/bin:/bin"},
+    )
 
 
 def in_calculix(seconds: float) -> dict[str, Any] | None:
@@ -172,20 +200,8 @@ def in_calculix(seconds: float) -> dict[str, Any] | None:
         return None
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        (folder / "job.inp").write_text("\n".join(deck()) + "\n", encoding="ascii")
-
-        def limit() -> None:
-            resource.setrlimit(resource.RLIMIT_CPU, (int(seconds), int(seconds) + 5))
-
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        subprocess.run(
-            ["ccx", "job"],
-            cwd=folder,
-            capture_output=True,
-            preexec_fn=limit,
-            check=False,
-            env={"OMP_NUM_THREADS": "1", "PATH": "/usr/bin:/bin"},
-        )
+        run_deck(folder, deck(), seconds)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         rows = [line.split() for line in (folder / "job.sta").read_text().splitlines()[2:]]
         done = [row for row in rows if row[0] == "2" and not row[2].endswith("U")]

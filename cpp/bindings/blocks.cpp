@@ -11,7 +11,15 @@ using namespace umform;
 
 namespace {
 
-Rule to_rule(const Input& x, const Input& w) { return {to_vector(x), to_vector(w)}; }
+/// Abscissae and weights (points,), or of each column (columns, points).
+ThicknessRule to_rule(const Input& x, const Input& w) {
+    require(x.size() == w.size() && x.size() > 0 && x.ndim() <= 2, "there is one weight for each thickness point");
+    const std::size_t count = x.shape(x.ndim() - 1);
+    std::vector<Rule> columns;
+    for (std::size_t at = 0; at < x.size(); at += count)
+        columns.push_back({{x.data() + at, x.data() + at + count}, {w.data() + at, w.data() + at + count}});
+    return columns;
+}
 
 std::unique_ptr<ShellBlock> shell_block(const Technology& technology, const SurfacePoints& surface_points,
                                         const Input& t, const Input& w, std::shared_ptr<Material> material,

@@ -84,6 +84,8 @@ void bind_found(nb::module_& m) {
             nb::sig("def slip(self) -> NDArray[float64]"), "Distances slid so far (held,).")
         .def_ro("stored", &ContactFound::stored, "Energy of the elastic slip.")
         .def_ro("friction_work", &ContactFound::friction_work, "Work of friction so far, at all points.")
+        .def_ro("work_above_mean", &ContactFound::work_above_mean,
+                "Part of the work of friction that the mean of the forces at both ends of each increment misses.")
         .def_prop_ro(
             "points", [](const ContactFound& f) { return view(f.points); }, inside,
             nb::sig("def points(self) -> NDArray[int32]"),

@@ -550,6 +550,12 @@ class ContactFound:
         """Work of friction so far, at all points."""
 
     @property
+    def work_above_mean(self) -> float:
+        """
+        Part of the work of friction that the mean of the forces at both ends of each increment misses.
+        """
+
+    @property
     def points(self) -> NDArray[int32]:
         """
         Numbers of the points that are held, ascending; the arrays that follow are of these points.

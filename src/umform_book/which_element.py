@@ -73,7 +73,7 @@ ADVICE = (
     ),
     Advice(
         "springback, above all of a mild bend",
-        "any element with its defaults (complete order, 18 `graded` points); `thickness_order=1` or 5 points err by "
+        "any element with its defaults (complete order, `staggered` points); `thickness_order=1` or 5 points err by "
         "20 to 100 %",
         cases=("bend-springback", "material-bending"),
     ),

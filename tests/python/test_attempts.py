@@ -72,7 +72,7 @@ def test_a_run_counts_its_evaluations_and_strategies():
 
 def test_attempts_that_run_out_of_iterations_are_thrown_away():
     model, punch = strip(steel())
-    options = uf.NewtonOptions(max_iterations=4)
+    options = uf.NewtonOptions(max_iterations=5)
     result = uf.solve(model, uf.Move(punch, to=-3, steps=4), options=options, frames=0, progress=False)
     attempts = result.timing.attempts
     assert 0.1 < attempts.share < 1.0

@@ -36,6 +36,7 @@ DIMENSIONS = {
         "stress_von_mises",
         "contact_pressure",
     ): (1, -2),
+    ("_penalty",): (1, -3),
 }
 
 

@@ -138,6 +138,7 @@ class _Api:
         measures = job.summary.get("measures", {})
         live = self.queue.live(job.id) if job.state == "running" else {}
         row["summary"] = {"measures": measures, "seconds": job.summary.get("seconds")}
+        row["summary"]["collides"] = bool(job.summary.get("collisions"))
         return row | {"fraction": live.get("fraction", 0.0), "phase": live.get("phase", "")}
 
     def _known(self, request: Request) -> Job:

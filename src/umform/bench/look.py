@@ -2,28 +2,26 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from pydantic import ValidationError
 
+from umform.bench.forces import before, press
 from umform.bench.library import ROOM, tools_for
 from umform.bench.refusals import said
 from umform.bench.shelf import Shelf
 from umform.bench.wanted import Wanted, problems_of
 from umform.errors import UmformError
-from umform.materials import J2, Metal
 from umform.processes.air_bending.drawn_tools import drawn_sizes
-from umform.processes.air_bending.formulas import FORCE_FACTORS, tensile_strength
+from umform.processes.air_bending.formulas import INNER_RADIUS, shop_forces, strength
 from umform.processes.air_bending.parameters import AirBending
 from umform.processes.bend_sequence.collisions import die_body, punch_body
+from umform.processes.bend_sequence.foreseen import foreseen_collisions
 from umform.processes.bend_sequence.parameters import Bodies
 
 #: Openings over the thickness that are usual on a press brake.
 _NARROW, _WIDE = 5.0, 16.0
-#: Inside radius over the opening that the shop reckons with, for steel.
-_RADIUS = 0.16
 
 
 def look(values: object, shelf: Shelf | None = None) -> dict[str, Any]:
@@ -100,27 +98,37 @@ def drawing(case: AirBending, *, bodies: bool = False) -> dict[str, Any]:
 
 def _expected(wanted: Wanted, case: AirBending) -> dict[str, Any]:
     """What the rules of the shop say before the run."""
-    strength = _strength(case.material, 0.0 if case.rolling is None else 90.0 - case.rolling)
-    low, high = (factor * strength * case.thickness**2 / case.opening for factor in FORCE_FACTORS)
+    forces = before(wanted, case)
     return {
-        "tensile_strength": strength,
-        "force": [low, high],
-        "press": high * wanted.length / 1e3,
-        "radius": _RADIUS * case.opening,
+        "tensile_strength": strength(case),
+        "force": list(shop_forces(case)),
+        "forces": [{"operation": one.operation, "force": [one.low, one.high], "beyond": one.beyond} for one in forces],
+        "press": press(forces).over(wanted.length),
+        "radius": INNER_RADIUS * case.opening,
         "ratio": case.opening / case.thickness,
     }
 
 
-@lru_cache(maxsize=256)
-def _strength(material: J2 | Metal, angle: float) -> float:
-    """Tensile strength of a law; a test in tension takes some milliseconds."""
-    return tensile_strength(material, angle)
+def _collisions(wanted: Wanted, case: AirBending) -> list[dict[str, Any]]:
+    """Collisions to be expected of several bends: they are said in red, but the run is the judge."""
+    if wanted.work != "sequence":
+        return []
+    try:
+        sequence = wanted.sequence(case)
+    except UmformError:
+        return []  # a problem that is said elsewhere
+    found = []
+    for number, hits in foreseen_collisions(sequence).items():
+        for hit in hits:
+            bounds = {"stroke": round(max(hit.stroke, 0.0), 1)}
+            found.append({"where": f"bend {number}", "kind": f"collides_{hit.tool}", "bounds": bounds, "level": "bad"})
+    return found
 
 
 def _warnings(wanted: Wanted, case: AirBending) -> list[dict[str, Any]]:
     """What is unusual, by kind and numbers; the page puts it into words."""
     ratio = case.opening / case.thickness
-    found: list[dict[str, Any]] = []
+    found = _collisions(wanted, case)
     if not _NARROW <= ratio <= _WIDE:
         found.append({"where": "opening", "kind": "ratio", "bounds": {"ratio": round(ratio, 1)}})
     sharpest = max(case.die_angle, case.punch_angle)

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from umform.bench.folders import RESULTS
+from umform.bench.forces import after, press
 from umform.bench.live import Watch
 from umform.bench.live_strips import StripTold
 from umform.bench.wanted import Wanted
@@ -22,7 +23,7 @@ FILES = (*part_files.FILES, *hem_files.FILES)
 #: Most points of a profile on the page.
 _MOST = 400
 #: What the page shows of a record as it is.
-_AS_IT_IS = ("flanges", "length_balance", "increments", "warnings", "seconds")
+_AS_IT_IS = ("collisions", "coarse_mesh", "flanges", "length_balance", "increments", "warnings", "seconds")
 
 
 def run_strip(folder: Path, title: str, wanted: Wanted, sheet: AirBending, note: str) -> dict[str, Any]:
@@ -59,7 +60,12 @@ def run_strip(folder: Path, title: str, wanted: Wanted, sheet: AirBending, note:
         else:
             part_files.write_files(results, done, note)
     watch.phase("end", 1.0)
-    return _of_hem(done) if isinstance(done, Hem) else _of_part(done)
+    part = done.first if isinstance(done, Hem) else done
+    forces = {"bend": max(bend.measures.largest_force for bend in part.bends)}
+    if isinstance(done, Hem):
+        forces["flatten"] = done.measures.largest_force
+    needed = press(after(wanted, sheet, forces)).over(wanted.length)
+    return (_of_hem(done) if isinstance(done, Hem) else _of_part(done)) | {"press": needed}
 
 
 def _of_part(part: Part) -> dict[str, Any]:

@@ -195,6 +195,8 @@ def problems_of(error: ValidationError) -> list[dict[str, Any]]:
     for row in error.errors(include_url=False, include_input=False):
         where = ".".join(str(part) for part in row["loc"][:1]) or "goal"
         row_number = next((part + 1 for part in row["loc"][1:2] if isinstance(part, int)), None)
+        part = next((str(part) for part in row["loc"][2:3]), None)
         bounds = {key: value for key, value in row.get("ctx", {}).items() if isinstance(value, int | float | str)}
-        found.append({"where": where, "kind": row["type"], "bounds": bounds, "what": row["msg"], "row": row_number})
+        given = {"where": where, "kind": row["type"], "bounds": bounds, "what": row["msg"]}
+        found.append({**given, "row": row_number, "part": part})
     return found[:20]

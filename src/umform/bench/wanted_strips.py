@@ -53,8 +53,8 @@ class WantedStrip(BaseModel):
 
     strip_length: Annotated[float, Field(ge=1.0, le=4000.0)] = 80.0
     bends: Annotated[list[WantedBend], Field(min_length=1, max_length=20)] = [
-        WantedBend(position=25.0),
-        WantedBend(position=55.0),
+        WantedBend(position=20.0),
+        WantedBend(position=60.0),
     ]
     gap: Annotated[float, Field(ge=0.05, le=50.0)] = 1.0
     flange: Annotated[float, Field(ge=1.0, le=500.0)] = 12.0

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from umform.bench.folders import DECK, ORDER, OUTCOME, RESULTS, owned
+from umform.bench.forces import after, press
 from umform.bench.limits import limit_memory
 from umform.bench.live import BendTold, DeckTold, Watch, write_live
 from umform.bench.refusals import said
@@ -124,7 +125,8 @@ def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     summary["spread"] = {} if budget is None else {name: budget.total(name) for name in summary["measures"]}
     summary["spread"] = {name: value for name, value in summary["spread"].items() if value == value}
     watch.phase("end", 1.0)
-    return {**summary, "length": wanted.length, "note": note}
+    needed = press(after(wanted, case, {wanted.work: done.measures.largest_force}))
+    return {**summary, "length": wanted.length, "note": note, "press": needed.over(wanted.length)}
 
 
 def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from umform.cli.contacts import show_contacts
 from umform.cli.root import console
 from umform.cli.warnings import echo_warnings
 
@@ -20,7 +21,6 @@ def show_bend(done: AirBend, rows: list[Measures], errors: Budget | None, note: 
     from umform.processes.air_bending.formulas import shop_forces
     from umform.processes.air_bending.remarks import remarks, tools_text, total_force
     from umform.processes.air_bending.words import summary, summary_header, table_header, table_rows
-    from umform.results.penetration import penetrations
 
     screen = console()
     screen.print(tools_text(done.case), soft_wrap=True)
@@ -34,8 +34,7 @@ def show_bend(done: AirBend, rows: list[Measures], errors: Budget | None, note: 
         screen.print(remark, soft_wrap=True)
     if rows:
         _print_table("Bending table", table_header(), table_rows(rows))
-    for name, said in penetrations(done.result.model, done.result).items():
-        screen.print(f"contact {name}: {said}", soft_wrap=True)
+    show_contacts(screen, done.result)
     if note:
         screen.print(note, soft_wrap=True)
     echo_warnings(done.warnings)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from umform.cli.contacts import show_contacts
 from umform.cli.metal import law_of
 from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
@@ -23,8 +24,6 @@ if TYPE_CHECKING:
     from umform.processes.draw.u_bend import UBend
 
 _TOOLS = "Tools (mm, N)"
-#: Printed where springback has no error.
-_ONE_MESH = "springback of one mesh, its error is unknown: three meshes (without --coarse, or --extrapolate) give it"
 #: Options of diameters by the radii of a cup.
 _DIAMETERS = {
     "die_radius": "half of --opening",
@@ -86,7 +85,9 @@ def cup(
     layers: Layers = 1,
     thickness_points: ThicknessPoints = None,
     contact_points: Annotated[int, option("Contact points per direction and facet.", SOLUTION)] = 2,
-    penalty: Annotated[float | None, option("Contact pressure per penetration.", SOLUTION)] = None,
+    penalty: Annotated[
+        float | None, option("Contact pressure per penetration; default by the allowed penetration.", SOLUTION)
+    ] = None,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
@@ -118,7 +119,7 @@ def cup(
         layers=layers or None,
         thickness_points=thickness_points,
         contact_points=contact_points,
-        penalty=_chosen(penalty, coarse, 1e4, 3e4),
+        penalty=penalty,
     )
     _run(case, draw, out, "cup", note, limit_curve, overwrite=overwrite, timing=timing)
 
@@ -279,8 +280,7 @@ def _show(drawn: Drawn, note: str) -> None:
     from rich import box
     from rich.table import Table
 
-    from umform.processes.draw.words import summary, title
-    from umform.results.penetration import penetrations
+    from umform.processes.draw.words import about_errors, summary, title
 
     columns, *rows = summary(drawn)
     table = Table(title=title(drawn), box=box.SIMPLE_HEAD)
@@ -290,10 +290,9 @@ def _show(drawn: Drawn, note: str) -> None:
         table.add_row(*row)
     screen = console()
     screen.print(table)
-    for name, said in penetrations(drawn.result.model, drawn.result).items():
-        screen.print(f"contact {name}: {said}", soft_wrap=True)
-    if drawn.angles is not None and not drawn.estimates:
-        screen.print(_ONE_MESH, soft_wrap=True)
+    show_contacts(screen, drawn.result)
+    if remark := about_errors(drawn):
+        screen.print(remark, soft_wrap=True)
     if note:
         screen.print(note, soft_wrap=True)
     echo_warnings(drawn.warnings)

@@ -11,6 +11,7 @@ import typer
 
 from umform.cli import INTERRUPTED
 from umform.cli.check import Changes, DeckFile, Force, deck_errors, read
+from umform.cli.contacts import show_contacts
 from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks, petsc_options
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing, say_of
 from umform.cli.step_table import step_tables
@@ -90,7 +91,6 @@ def finish(outcome: Outcome, *, timing: bool = False) -> None:
 def show(outcome: Outcome) -> None:
     """The table, events, and the files."""
     from umform.report.symmetry import modelled_part
-    from umform.results.penetration import penetrations
 
     screen = console()
     result = outcome.result
@@ -101,8 +101,7 @@ def show(outcome: Outcome) -> None:
     part = modelled_part(result.model)
     if part:
         screen.print(part, soft_wrap=True)
-    for name, said in penetrations(result.model, result).items():
-        screen.print(f"contact {name}: {said}", soft_wrap=True, markup=False)
+    show_contacts(screen, result)
     show_measures(outcome.taken, screen)
     for event in result.events:
         screen.print(event, soft_wrap=True, markup=False)

@@ -26,17 +26,21 @@ def run_sequence(
     tolerance: float,
     overwrite: bool,
 ) -> None:
-    """Bend the part of a file, print the results and write them."""
+    """Bend the part of a file, print the results and write them; a part that collides ends with exit code 1."""
     from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.processes.bend_sequence import bend_sequence
     from umform.processes.bend_sequence.files import FILES, RESULTS, write_files
+    from umform.processes.bend_sequence.foreseen import foreseen_collisions, foreseen_text
     from umform.processes.bend_sequence.form import read_sequence
 
     sequence = read_sequence(file).sequence(sheet)
     say = partial(typer.echo, err=True)
     tell = partial(folder_for, out, Path("results/sequence"), RESULTS, overwrite=overwrite)
     place = tell(say=lambda text: say(f"umform: {text}"))
+    for number, hits in foreseen_collisions(sequence).items():
+        for hit in hits:
+            say(f"umform: {foreseen_text(sequence, number, hit)}")
     with staging(place, FILES):
         part = bend_sequence(sequence, tolerance=tolerance)
         try:
@@ -45,6 +49,10 @@ def run_sequence(
         finally:  # even if the table cannot be printed
             files = write_files(place, part, note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+    if part.collisions:
+        text = "umform: this part cannot be bent so: " + "; ".join(part.collisions)
+        typer.secho(text, fg=typer.colors.RED, err=True)
+        raise typer.Exit(1)
 
 
 def _show(part: Part, note: str, length: float | None) -> None:
@@ -69,4 +77,4 @@ def _show(part: Part, note: str, length: float | None) -> None:
         said.append(total_force(max(done.measures.largest_force for done in part.bends), length))
     for text in (*said, *remarks(part), *([note] if note else [])):
         screen.print(text, soft_wrap=True)
-    echo_warnings(part.warnings)
+    echo_warnings(text for text in part.warnings if text not in part.collisions)

@@ -10,6 +10,7 @@ import numpy as np
 
 from umform.deck.clearance import away, clearances
 from umform.deck.contents import Contents
+from umform.deck.controls import ControlPart, Displacement, Drive, MidLine, Moment, Press, Spring, Turn
 from umform.deck.deck import Deck
 from umform.deck.findings import Finding, error, ok, warning
 from umform.deck.material import FromLibrary
@@ -123,13 +124,26 @@ def idle(deck: Deck) -> Iterator[Finding]:
     for name in deck.contents.tools:
         if ("tools", name) not in used:
             yield warning(f"tool {name}", "no contact has it", "add a contact, or take it out")
-    for name in deck.contents.controls:
+    for name, part in deck.contents.controls.items():
         if ("controls", name) not in used:
-            yield warning(f"control {name}", "no step moves it: it stays at 0", "add it to a step, or take it out")
+            yield unmoved(f"control {name}", part)
     before = deck.contents.before
     if before is not None and ("controls", before.control) not in used:
         text = "no step moves it to 0: forces of the operation before stay on the part as dead loads"
         yield warning(f"control {before.control}", text, f"to = {{ {before.control} = 0.0 }} in the first step")
+
+
+def unmoved(about: str, part: ControlPart) -> Finding:
+    """What a control does that no step moves."""
+    add = "add it to a step"
+    if isinstance(part, Spring):
+        return ok(about, "a spring with its preload holds the tool; no step adds a force")
+    if isinstance(part, Press | Moment):
+        return warning(about, "no step applies it: nothing holds the tool", f"{add}; without it the tool is fixed")
+    if isinstance(part, Displacement | MidLine):
+        return warning(about, "no step moves it: it holds its nodes", f"{add}, or fix the nodes in [[supports]]")
+    still = "the tool stays where it is" if isinstance(part, Drive | Turn) else "it stays at 0"
+    return warning(about, f"no step moves it: {still}", f"{add}, or take it out")
 
 
 def effort(contents: Contents, problem: Problem) -> Finding:

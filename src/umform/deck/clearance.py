@@ -15,6 +15,7 @@ from umform.deck.controls import Drive, Moment, Press, Spring, Turn
 from umform.deck.deck import Deck
 from umform.deck.findings import Finding, ok, warning
 from umform.deck.problem import Problem
+from umform.deck.references import references
 from umform.deck.steps import Move
 from umform.model import Model
 from umform.model.contact import Contact
@@ -65,28 +66,30 @@ def _judged(about: str, distance: float, place: Floats, number: int, thickness: 
 
 
 def away(deck: Deck, problem: Problem) -> Iterator[Finding]:
-    """Tools whose first stroke moves them away from the sheet, while no other tool approaches it."""
+    """Tools whose first stroke moves them away from the sheet, while no other tool approaches it.
+
+    Where grips, loads or a pressure move the sheet too, as in stretch bending, it may follow a tool that moves away
+    from its initial place: nothing is said.
+    """
     if deck.contents.before is not None:  # tools of the operation before may open first
         return
     model, met = problem.model, set[Tool]()
-    pulls = {
-        name
-        for name, part in deck.contents.controls.items()
-        if not isinstance(part, Drive | Turn | Press | Spring | Moment)
-    }
+    controls = deck.contents.controls
+    used = {name for kind, name, _ in references(deck.source.data) if kind == "controls"}
+    if not all(isinstance(controls[name], Drive | Turn | Press | Spring | Moment) for name in used & set(controls)):
+        return
     for number, before, after in strokes(deck, problem):
-        step = deck.contents.steps[number - 1]
         grown = {}
         for tool in model.tools:
             start, end = _pose(tool, before), _pose(tool, after)
-            if start is None or end is None or _same(start, end) or not tool.pairs:
+            turns = start is not None and end is not None and not np.array_equal(start[0], end[0])
+            if start is None or end is None or turns or _same(start, end) or not tool.pairs:
                 continue
             gaps = [min(_least(pair, model.u, pose) for pair in tool.pairs) for pose in (start, end)]
             grown[tool] = gaps[0], gaps[1], float(np.linalg.norm(end[1] - start[1]))
         nearer = any(last < first for first, last, _ in grown.values())
-        moved = set(step.to) if isinstance(step, Move) else set()
         for tool, (first, last, way) in grown.items():
-            if tool not in met and not nearer and not moved & pulls and last - first > _AWAY * way > 0.0:
+            if tool not in met and not nearer and last - first > _AWAY * way > 0.0:
                 text = f"the stroke moves the tool {tool.name} away from the sheet: gap {first:.4g}, then {last:.4g}"
                 names = " or ".join(control.name for control in tool.ways)
                 yield warning(f"step {number}", text, f"the other sign or direction of {names}")

@@ -33,8 +33,8 @@ class ElementPart(Part):
     """Fewer Gauss points across a strip of one element whose nodes are all held across it; same results."""
     thickness_points: Annotated[int, Field(ge=2, le=20)] | None = None
     """Points through the thickness; by default those of the material."""
-    thickness_rule: Literal["gauss", "lobatto", "split", "graded"] | None = None
-    """Quadrature rule; by default gauss, but graded if the default of the material applies."""
+    thickness_rule: Literal["gauss", "lobatto", "split", "graded", "staggered"] | None = None
+    """Quadrature rule; by default gauss, but staggered if the default of the material applies."""
 
     def options(self) -> dict[str, Any]:
         """The given options, for the catalogue and the model."""

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from umform.deck.findings import Finding, error, ok, warning
 from umform.deck.r_values import r_values
+from umform.deck.sizes import sheet_length
 from umform.deck.units import units
 from umform.mesh.quality import jacobians
 from umform.model import Model
@@ -57,7 +58,7 @@ def mesh(model: Model) -> Finding:
 
 def gaps(model: Model, place: Placing | None = None) -> Iterator[Finding]:
     """Gap or overlap of each contact pair at the start."""
-    thickness, size = sheet_thickness(model.mesh), float(np.ptp(model.mesh.points, axis=0).max())
+    thickness, size = sheet_thickness(model.mesh), sheet_length(model)
     for contact in model.contacts:
         at = contact.locate(model.u, contact.pose)
         gap = at.gap

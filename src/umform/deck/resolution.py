@@ -18,7 +18,7 @@ from umform.deck.controls import Displacement, Drive, MidLine
 from umform.deck.deck import Deck
 from umform.deck.findings import Finding, ok, warning
 from umform.deck.problem import Problem
-from umform.deck.sizes import size_near
+from umform.deck.sizes import sheet_length, size_near
 from umform.deck.steps import Move
 from umform.deck.tools import ToolPart, along, smallest_radius
 from umform.deck.units import first_yield
@@ -67,6 +67,31 @@ def bends(deck: Deck, problem: Problem) -> Iterator[Finding]:
         yield from through_thickness(problem.model, problem.model.material, h, *sharpest)
 
 
+def coarse(deck: Deck, problem: Problem) -> list[str]:
+    """Warning of a mesh whose elements are too long for the radii that bend the sheet."""
+    found = []
+    for name, part in deck.contents.contacts.items():
+        tool = deck.contents.tools[part.tool]
+        radius = smallest_radius(tool, problem.tools[part.tool])
+        if not radius:
+            continue
+        contact = problem.contacts[name]
+        degrees, most = math.degrees(size_near(contact, problem.model, along(tool)) / radius), _arc(contact)
+        if degrees > most:
+            found.append(f"{degrees:.3g} degrees of the radius {radius:.4g} at contact {name} ({most:g} at most)")
+    if not found:
+        return []
+    return [
+        f"coarse mesh: an element spans {', '.join(found)}. Forces, thinning, strains and springback are those of this "
+        "mesh and their error is unknown: repeat with finer elements"
+    ]
+
+
+def _arc(contact: Contact) -> float:
+    """Most degrees of a radius per element."""
+    return _ARC[contact.facets.shape[1]]
+
+
 def element_size(contact: Contact, model: Model, tool: ToolPart, radius: float) -> Finding:
     """Angle of the smallest radius of a tool per element where the tool is nearest."""
     about = f"contact {contact.name}"
@@ -76,7 +101,7 @@ def element_size(contact: Contact, model: Model, tool: ToolPart, radius: float) 
         return warning(about, "the tool has a sharp edge", remedy)
     degrees = math.degrees(size / radius)
     text = f"an element is {size:.3g} long and spans {degrees:.3g} degrees of the radius {radius:.4g}"
-    most = _ARC[contact.facets.shape[1]]
+    most = _arc(contact)
     if degrees <= most:
         return ok(about, text)
     wanted = most / 1.2
@@ -99,7 +124,7 @@ def through_thickness(model: Model, material: Plastic, h: float, radius: float, 
         sharp = layers == 1 and radius + 0.5 * h < _STRAIGHT * h
         yield ok("element", f"{text}: thickness order {order} can follow{note if sharp else ''}")
     least = _SHARP_POINTS if strain > _SHARP else _POINTS
-    points = layers * model.thickness_points
+    points = layers * model.body.section_points
     if points < least and strain > first_yield(material) / material.E:
         remedy = f"take {math.ceil(least / layers)}" + (" in each layer" if layers > 1 else "")
         yield warning("element", f"{points} thickness points for a strain of {100 * strain:.3g} %", remedy)
@@ -146,8 +171,7 @@ def contact_points(problem: Problem) -> Iterator[Finding]:
 
 def ways(deck: Deck, problem: Problem) -> Iterator[Finding]:
     """Travel of the controls that are lengths, in total and per increment."""
-    mesh = problem.model.mesh
-    thickness, span = sheet_thickness(mesh), float(np.ptp(mesh.points, axis=0).max())
+    thickness, span = sheet_thickness(problem.model.mesh), sheet_length(problem.model)
     controls = deck.contents.controls
     stands = dict.fromkeys(controls, 0.0)
     for number, step in enumerate(deck.contents.steps):

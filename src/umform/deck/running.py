@@ -9,12 +9,15 @@ from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
+import numpy as np
+
 from umform.deck.check import before_run
 from umform.deck.deck import Deck
 from umform.deck.findings import accept
 from umform.deck.kept import Kept
 from umform.deck.measured import Taken
 from umform.deck.problem import Problem, Solving
+from umform.deck.resolution import coarse
 from umform.deck.results import CHECKPOINT, FILES, RESULTS, says_what_is_kept, write, written_at
 from umform.errors import UmformError
 from umform.io.atomic import remove_left_behind
@@ -258,12 +261,16 @@ def _written(kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: C
     """Solve, write the results, and remove the checkpoint unless the user asked for it or it is needed."""
     assert isinstance(problem, Problem)  # one process, or the first of several
     before = written_at(checkpoint)
+    with np.errstate(all="ignore"):  # points of the sheet on the axis of a tool
+        cautions = coarse(kept.deck, problem)
     with staging(out, FILES) as stage:
         remove_left_behind(checkpoint)
         result, ended_by = _solved(solve)
         with result.timing.files, says_what_is_kept(stage, checkpoint, before):
             if stage.make_again():
                 result.warn(f"the folder {out} was removed during the run; it was made again")
+            for caution in cautions:
+                result.warn(caution)
             written = write(kept.deck, problem, result, stage, whole=ended_by is None)
         over = ended_by is None or isinstance(ended_by, UmformError)
         if over and checkpoint.resolve() == (kept.out / CHECKPOINT).resolve():

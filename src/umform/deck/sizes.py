@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from umform.model import Model
 from umform.model.contact import Contact
+from umform.report.symmetry import mirrors
 
 Floats = NDArray[np.float64]
 #: Ratio of the principal curvatures above which a tool is round in all directions.
@@ -49,6 +50,14 @@ def size_near(contact: Contact, model: Model, axis: Floats | None) -> float:
     if curved.any():
         return float(across[_nearest(np.where(curved, gaps, np.nan), size)].min())
     return float(lengths[_nearest(gaps, size)].min())
+
+
+def sheet_length(model: Model) -> float:
+    """Largest extent of the whole sheet: of a half or a quarter, with its images."""
+    spans = np.ptp(model.mesh.points, axis=0)
+    for mirror in mirrors(model):
+        spans[mirror.axis] *= 2.0
+    return float(spans.max())
 
 
 def _nearest(gaps: Floats, size: float) -> NDArray[np.bool_]:

@@ -11,7 +11,7 @@ from umform.elements.catalogue import (
     membrane_modes,
     thickness_modes,
 )
-from umform.elements.complete_order import at_order
+from umform.elements.complete_order import at_order, at_order_by_column, column_modes
 from umform.elements.rolling import Rolling, rolling_at, rolling_directions
 from umform.elements.technology import COMPONENTS, Element, Mode, Term, Tying
 from umform.elements.through_thickness import thickness_rule
@@ -30,6 +30,8 @@ __all__ = [
     "Term",
     "Tying",
     "at_order",
+    "at_order_by_column",
+    "column_modes",
     "element",
     "membrane_modes",
     "rolling_at",

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import TypedDict
 
 from umform.elements.plane_strain import in_plane_strain
-from umform.elements.technology import SPRINGBACK, Element, Mode, Term, Tying
+from umform.elements.technology import Element, Mode, Term, Tying
 from umform.elements.through_thickness import MOST_POINTS
 from umform.errors import InvalidValue
 
@@ -155,7 +155,6 @@ def _build(
             surface_points=2 if cell == "hex8" else 3,
             thickness_order=thickness_order if thickness > 0 else 0,
             citation=citation,
-            plastic_points=SPRINGBACK if thickness > 0 else (5, "gauss"),
             complete=complete,
             options={
                 "thickness_modes": thickness_modes_count,

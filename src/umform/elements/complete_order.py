@@ -10,7 +10,7 @@ import numpy as np
 from umform import _core
 from umform.elements.catalogue import thickness_modes
 from umform.elements.plane_strain import uniform_modes
-from umform.elements.technology import Element, Mode
+from umform.elements.technology import Element, Mode, Term
 
 
 def at_order(made: Element, order: int) -> Element:
@@ -35,6 +35,47 @@ def at_order(made: Element, order: int) -> Element:
     """
     changed = _exchanged(made, order) or {"modes": made.modes + _missing(made, order)}
     return replace(made, thickness_order=order, complete=False, **changed)
+
+
+def at_order_by_column(made: Element, order: int) -> Element:
+    """An element whose thickness strain is complete up to an order in t at each column of points by itself.
+
+    Columns with heights of their own share no mode: those of a column are zero at all others, and are eliminated by
+    themselves. They span all other modes of E_33 that vary through the thickness. eq. (2.46)
+
+    Parameters
+    ----------
+    made : Element
+        The element.
+    order : int
+        Highest Legendre polynomial in t, 1 to 19.
+    """
+    others = tuple(mode for mode in made.modes if any(term.component != "33" or term.c == 0 for term in mode))
+    modes = others + column_modes(made.surface_rule, order)
+    return replace(made, thickness_order=order, complete=False, modes=modes)
+
+
+def column_modes(surface: tuple[int, int], order: int) -> tuple[Mode, ...]:
+    """P_1(t) ... P_order(t) of E_33, each times the Lagrange polynomials of the Gauss points of the surface."""
+    along, across = (_lagrange(count) for count in surface)
+    return tuple(
+        tuple(
+            Term("33", a, b, p, factor=float(f * g))
+            for b, g in enumerate(of_s)
+            for a, f in enumerate(of_r)
+            if f * g != 0.0
+        )
+        for of_s in across
+        for of_r in along
+        for p in range(1, order + 1)
+    )
+
+
+def _lagrange(count: int) -> np.ndarray:
+    """Coefficients of the Lagrange polynomials of as many Gauss points, a row for each."""
+    values = np.vander(_core.gauss(count)[0], increasing=True)
+    coefficients = np.linalg.inv(values).T
+    return np.where(np.abs(coefficients) > 1e-14, coefficients, 0.0)
 
 
 def _exchanged(made: Element, order: int) -> dict[str, Any] | None:

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from umform import _core
 from umform.elements.legendre import legendre
+from umform.elements.staggered import default_points
 from umform.errors import InvalidValue
-
-#: Points that find the permanent set of a mild bend (docs/theory, 2.10).
-SPRINGBACK = (18, "graded")
 
 #: Voigt order of the strain components.
 COMPONENTS = ("11", "22", "33", "12", "23", "13")
@@ -92,6 +90,12 @@ class Term:
 Mode = tuple[Term, ...]
 
 
+def _without_mean(order: int, t: NDArray[np.float64], w: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A Legendre polynomial less its mean under the rule of each column; constants stay. eq. (2.48)"""
+    values = legendre(order, t)
+    return values - 0.5 * (w * values).sum(axis=-1, keepdims=True) if order > 0 else values
+
+
 @dataclass(frozen=True)
 class Element:
     """A solid-shell element as data.
@@ -116,8 +120,8 @@ class Element:
     citation : str
         Reference (a key of references.bib).
     plastic_points : tuple (int, str), optional
-        Default points through the thickness and their rule with a plastic law, one with a history. Default: 18 graded
-        points with an enhanced thickness strain, else 5 Gauss points.
+        Default points through the thickness and their rule with a plastic law, one with a history. Default: staggered
+        points with an enhanced thickness strain (12 in each of 2 x 2 columns), else 5 Gauss points.
     complete : bool, optional
         Whether a plastic law raises the thickness order to the number of points minus one: modes of E_33 that are
         missing are added to those of the element, see :func:`umform.elements.at_order`. Default: with an enhanced
@@ -217,7 +221,7 @@ class Element:
         """Points through the thickness and their rule with a plastic law."""
         if self.plastic_points is not None:
             return self.plastic_points
-        return SPRINGBACK if self.thickness_order > 0 else (5, "gauss")
+        return (default_points(self.surface_rule), "staggered") if self.thickness_order > 0 else (5, "gauss")
 
     @property
     def nodes(self) -> int:
@@ -225,16 +229,20 @@ class Element:
         return {"hex8": 8, "hex18": 18}[self.cell]
 
     def mode_values(self, t: NDArray[np.float64], w: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Modes at all points as the kernels have them, shape (6 points, modes), for a rule in t. eq. (2.48)"""
+        """Modes at all points as the kernels have them, shape (6 points, modes), for a rule in t. eq. (2.48)
+
+        The rule is one for all columns of points, or has a row for each.
+        """
         along, across = (_core.gauss(count)[0] for count in self.surface_rule)
-        r, s, layers = (grid.ravel() for grid in np.meshgrid(along, across, t, indexing="ij"))
-        values = np.zeros((len(COMPONENTS), len(r), len(self.modes)))
+        s, r = (grid.ravel()[:, None] for grid in np.meshgrid(across, along, indexing="ij"))
+        values = np.zeros((len(COMPONENTS), len(self.modes), len(r), np.shape(t)[-1]))
+        through = {c: _without_mean(c, t, w) for c in {term.c for mode in self.modes for term in mode}}
         for k, mode in enumerate(self.modes):
             for term in mode:
-                mean = 0.5 * float(w @ legendre(term.c, t)) if term.c > 0 else 0.0
-                constant = mean * replace(term, c=0)(r, s, layers)
-                values[COMPONENTS.index(term.component), :, k] += term(r, s, layers) - constant
-        return values.reshape(len(COMPONENTS) * len(r), len(self.modes))
+                in_plane = term.factor * r**term.a * s**term.b
+                values[COMPONENTS.index(term.component), k] += in_plane * through[term.c]
+        values = np.moveaxis(values, 1, -1)
+        return values.reshape(len(COMPONENTS) * len(r) * np.shape(t)[-1], len(self.modes))
 
     def check_modes(self, t: NDArray[np.float64], w: NDArray[np.float64]) -> None:
         """Reject modes that vanish or are linearly dependent at the Gauss points, for a rule in t.
@@ -244,7 +252,10 @@ class Element:
         InvalidValue
             If the parameters of the modes are not unique.
         """
-        values, points = self.mode_values(t, w), f"{self.surface_points} x {self.width_points} x {len(t)} points"
+        values, points = (
+            self.mode_values(t, w),
+            f"{self.surface_points} x {self.width_points} x {np.shape(t)[-1]} points",
+        )
         for mode, largest in zip(self.modes, np.abs(values).max(axis=0), strict=True):
             if largest <= 1e-10 * max(abs(term.factor) for term in mode):
                 raise InvalidValue(

@@ -7,10 +7,15 @@ from numpy.typing import NDArray
 
 from umform import _core
 from umform.elements.legendre import legendre
+from umform.elements.staggered import staggered
 from umform.errors import InvalidValue
+
+Rule = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 #: Most points through the thickness.
 MOST_POINTS = 20
+#: The names of the rules.
+RULES = ("gauss", "lobatto", "split", "graded", "staggered")
 #: Abscissae on [0, 1] of the graded rule by the number of points in both halves, and the weights of the outermost
 #: that are free (docs/theory, 2.10; found by tools/graded_points.py from 16 points on).
 _GRADED: dict[int, tuple[tuple[float, ...], tuple[float, ...]]] = {
@@ -32,22 +37,31 @@ _GRADED: dict[int, tuple[tuple[float, ...], tuple[float, ...]]] = {
 }
 
 
-def thickness_rule(points: int, rule: str = "gauss") -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def thickness_rule(points: int, rule: str = "gauss", surface: tuple[int, int] = (2, 2)) -> Rule:
     """Abscissae and weights through the thickness on [-1, 1].
 
     Parameters
     ----------
     points : int
         2 to 20.
-    rule : {"gauss", "lobatto", "split", "graded"}
+    rule : {"gauss", "lobatto", "split", "graded", "staggered"}
         ``split`` puts points/2 Gauss points into each half, exact for the kink of the stress at the mid-surface;
         ``graded`` puts as many nearer to the faces, where a mild bend begins to flow: 8, 10, 12, 16, 18 or 20
-        points.
+        points; with ``staggered`` neighbouring columns of points have different heights, an even number from 6 on.
+    surface : (int, int)
+        Points of the element along r and s: the staggered rule has a set of heights for each of their columns.
+
+    Returns
+    -------
+    ndarray, ndarray
+        Arrays (points,); of the staggered rule (columns, points), where r varies first.
     """
     if points not in range(2, MOST_POINTS + 1):
         raise InvalidValue("the number of thickness points must be a whole number from 2 to 20", value=points)
-    if rule not in ("gauss", "lobatto", "split", "graded"):
-        raise InvalidValue("unknown thickness rule", value=rule, remedy="gauss, lobatto, split or graded")
+    if rule not in RULES:
+        raise InvalidValue("unknown thickness rule", value=rule, remedy=f"{', '.join(RULES[:-1])} or {RULES[-1]}")
+    if rule == "staggered":
+        return staggered(points, surface)
     if rule == "graded":
         return _graded(points)
     if rule == "split" and points % 2:
@@ -57,7 +71,7 @@ def thickness_rule(points: int, rule: str = "gauss") -> tuple[NDArray[np.float64
     return {"gauss": _core.gauss, "lobatto": _core.lobatto, "split": _core.split}[rule](points)
 
 
-def _graded(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _graded(points: int) -> Rule:
     """Abscissae and free weights of the table; the inner weights make each half exact to a degree. eq. (2.47)"""
     if points not in _GRADED:
         raise InvalidValue(f"the graded rule has {_counts()} points", value=points, remedy="take 18")

@@ -58,7 +58,7 @@ class CompiledLaw:
         Whether it is anisotropic, so that a model needs the rolling direction.
     thickness_points : int, optional
         Default number of Gauss points through the thickness. Without it a law with a history counts as plastic: the
-        points and the complete order of the element for plastic laws, mostly 18 graded points; one without has 2.
+        points and the complete order of the element for plastic laws, mostly staggered points; one without has 2.
     name : str
         For messages and fingerprints of runs; without a library, give each function its own name.
 

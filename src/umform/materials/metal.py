@@ -54,6 +54,10 @@ class FallingModulus:
                 remedy="FallingModulus(saturated=152e3, rate=30.8); none for a constant modulus",
             )
 
+    def share(self, E: float, eqps: Floats) -> Floats:
+        """Modulus over its first value E, at plastic strains."""
+        return 1.0 - (1.0 - self.saturated / E) * -np.expm1(-self.rate * eqps)
+
 
 @dataclass(frozen=True, init=False)
 class Metal(Plastic):

@@ -45,7 +45,7 @@ class Umat:
         Whether it is anisotropic, so that a model needs the rolling direction; False for an isotropic one.
     thickness_points : int, optional
         Default number of Gauss points through the thickness. Without it a law with a history counts as plastic: the
-        points and the complete order of the element for plastic laws, mostly 18 graded points; one without has 2.
+        points and the complete order of the element for plastic laws, mostly staggered points; one without has 2.
     symbol : str, optional
         Name of the function; default: the usual names that compilers give to UMAT.
     name : str

@@ -70,7 +70,7 @@ class UserLaw:
         History of the virgin material; its length is the size of the history.
     thickness_points : int, optional
         Default number of Gauss points through the thickness. Without it a law with a history counts as plastic: the
-        points and the complete order of the element for plastic laws, mostly 18 graded points; one without has 2.
+        points and the complete order of the element for plastic laws, mostly staggered points; one without has 2.
     name : str
         For messages.
     energy : callable, optional

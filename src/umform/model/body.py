@@ -63,10 +63,12 @@ class Body(Term):
     thickness_points : int, optional
         Points through the thickness, 2 to 20, at least thickness_order + 1. Default: those of the law, if it names a
         number; else 2 with an elastic law, the ``plastic_points`` of the element with a plastic one (any law with a
-        history): 18, or 5 without an enhanced thickness strain. With a plastic law the thickness order of an element
-        that is ``complete`` is then the number of points minus one, see :class:`umform.Element`.
-    thickness_rule : {"gauss", "lobatto", "split", "graded"}, optional
-        Quadrature rule; default gauss, but graded if the default of 18 points applies.
+        history): 12 in each of 2 x 2 columns, 18 of 3 x 3, 20 with ``plane_strain`` and 8 nodes, 5 without an enhanced
+        thickness strain. With a plastic law the thickness order of an element that is ``complete`` is then the number
+        of points minus one, see :class:`umform.Element`.
+    thickness_rule : {"gauss", "lobatto", "split", "graded", "staggered"}, optional
+        Quadrature rule, see :func:`umform.elements.thickness_rule`; default staggered where the default number of
+        points of a plastic law applies and the element has an enhanced thickness strain, else gauss.
     rolling : array_like, shape (3,) or (cells, 3), or callable, optional
         Rolling direction of the sheet, or that of each cell, or a function of the coordinates x, y, z of the centres of
         the cells; :func:`umform.rolling_at` for an angle to a bend line. e_1 of the local axes is its projection onto
@@ -124,7 +126,7 @@ class Body(Term):
             )
         through = points_through(made, material, thickness_points, thickness_rule)
         self.thickness_points, self.thickness_rule = through
-        self.element = completed(made, material, self.thickness_points)
+        self.element = completed(made, material, *through)
         least = self.element.thickness_order + 1
         if self.thickness_points < least:
             raise InvalidValue(
@@ -133,7 +135,7 @@ class Body(Term):
                 cause="fewer points cannot see the highest mode",
                 remedy=f"thickness_points={least} or more",
             )
-        self.through = make_thickness_rule(self.thickness_points, self.thickness_rule)
+        self.through = make_thickness_rule(*through, self.element.surface_rule)
         self.element.check_modes(*self.through)
         self._selection, self._given_rolling = cells, rolling
         self.elsewhere = False
@@ -204,6 +206,11 @@ class Body(Term):
             ) from error
         block.set_numbers(self._numbers.astype(np.int32))
         return block
+
+    @property
+    def section_points(self) -> int:
+        """Different heights of its points in a section of an element."""
+        return len(np.unique(self.through[0]))
 
     @property
     def symmetric(self) -> bool:  # type: ignore[override]

@@ -1,4 +1,4 @@
-"""The part of a model inside of a line, with an edge on the line: its mesh, displacement and state."""
+"""The mesh of the part of a sheet inside of a line, with an edge on the line."""
 
 from __future__ import annotations
 
@@ -7,23 +7,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.errors import MeshError
 from umform.mesh import Mesh
 from umform.mesh.fitted.layer import Layer
 from umform.mesh.fitted.sheet import Sheet
 from umform.mesh.mesh import FACES
-from umform.model.model import Model
-from umform.model.transfer import Weights, can_transfer, transferred
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 
 #: Lateral faces of a cell by the side of its stack: s0, r1, s1, r0.
 _SIDES = np.array([FACES.index(name) for name in ("s0", "r1", "s1", "r0")])
-#: Rings of stacks around those that change, whose points the state is taken from.
-_RINGS = 2
-#: Largest number of corrections of enhanced parameters; the change that ends them, relative to them.
-_CORRECTIONS, _SETTLED = 12, 1e-9
 
 
 @dataclass(frozen=True)
@@ -173,77 +166,3 @@ class _LateralFaces:
             ]
         )
         return np.array([row for part in found for row in part], dtype=np.int32).reshape(-1, 2)
-
-
-def refuse_unknown(whole: Model) -> None:
-    """Reject laws whose history cannot be interpreted.
-
-    Raises
-    ------
-    MeshError
-        If there are any.
-    """
-    for body in whole.bodies:
-        if not can_transfer(body):
-            raise MeshError(
-                "the meaning of the history of a law is unknown, so it cannot be moved to other points",
-                where=body.name,
-                value=type(body.material).__name__,
-            )
-
-
-def move_state(whole: Model, sheet: Sheet, x: Floats, layer: Layer, made: FittedMesh, model: Model) -> None:
-    """Give the changed cells of a model, which have the state of their parents, that of their places. eq. (1.32)"""
-    layers = sheet.cells.shape[1]
-    stacks = np.flatnonzero(~made.same.reshape(-1, layers)[:, 0])
-    there = np.concatenate([x, np.zeros((layer.new, 2))])
-    there[layer.moved] = np.einsum("na,nai->ni", layer.places.weights, x[sheet.quads[layer.places.quad]])
-    corners = there[layer.quads[stacks]]
-    for body in model.bodies:
-        old = next(other for other in whole.bodies if other.name == body.name)
-        history, alpha = body.block.state, body.block.alpha
-        for k in range(layers):
-            cells = stacks * layers + k
-            own = np.isin(cells, body.cells)
-            if not own.any():
-                continue
-            sources = _around(sheet, np.unique(layer.parents[stacks[own]]))
-            sources = sources[np.isin(sheet.cells[sources, k], old.cells)]
-            weights = Weights.between(sheet, x, sources, corners[own], body.element.surface_rule)
-            rows = np.searchsorted(body.cells, cells[own])
-            of = np.searchsorted(old.cells, sheet.cells[sources, k])
-            history[rows], alpha[rows] = transferred(old, of, whole.u, model.mesh, body, rows, model.u, weights)
-        body.restore({"history": history, "alpha": alpha})
-    _settle(model, made)
-
-
-def _settle(model: Model, made: FittedMesh) -> None:
-    """Bring the enhanced parameters of the changed cells to equilibrium at fixed nodes. eq. (2.19)"""
-    history = [body.block.state for body in model.bodies]
-    alpha = [body.block.alpha for body in model.bodies]
-    zero = np.zeros_like(model.u)
-    for _ in range(_CORRECTIONS):
-        if model.evaluate(model.u).failed >= 0:
-            raise MeshError("the state of the sheet cannot be carried by elements that end on the line")
-        change = 0.0
-        for k, body in enumerate(model.bodies):
-            body.recover(zero, False)
-            body.block.commit()
-            after = body.block.alpha
-            after[made.same[body.cells]] = alpha[k][made.same[body.cells]]
-            change = max(change, float(np.abs(after - alpha[k]).max(initial=0.0)))
-            alpha[k] = after
-            body.restore({"history": history[k], "alpha": after})
-        if change <= _SETTLED * max(float(np.abs(a).max(initial=0.0)) for a in alpha):
-            break
-
-
-def _around(sheet: Sheet, stacks: Numbers) -> Numbers:
-    """Stacks and those around them."""
-    inside = np.zeros(len(sheet.quads), dtype=bool)
-    inside[stacks] = True
-    for _ in range(_RINGS):
-        fibres = np.zeros(len(sheet.nodes), dtype=bool)
-        fibres[sheet.quads[inside]] = True
-        inside[:] = fibres[sheet.quads].any(axis=1)
-    return np.flatnonzero(inside)

@@ -15,8 +15,9 @@ from umform.mesh.part import MeshPart
 from umform.model.body import Body
 from umform.model.contact import Contact
 from umform.model.contact.kept import KeptContact
-from umform.model.fitted_part import fitted_mesh, move_state
+from umform.model.fitted_part import fitted_mesh
 from umform.model.model import Model
+from umform.model.moved_state import move_state
 from umform.model.state import Snapshot
 from umform.model.term import Energies, Found
 

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from umform.elements import at_order
+from umform.elements import at_order, at_order_by_column
+from umform.elements.staggered import default_points
 from umform.elements.technology import Element
 from umform.materials.material import Material
+
+#: Points of a plastic law where only another rule than the default is named.
+_NAMED = 18
 
 
 def points_through(element: Element, material: Material, points: int | None, rule: str | None) -> tuple[int, str]:
@@ -15,14 +19,17 @@ def points_through(element: Element, material: Material, points: int | None, rul
     if material.thickness_points is not None:
         return max(material.thickness_points, least), rule or "gauss"
     wanted, wanted_rule = element.plastic_rule if _plastic(material) else (2, "gauss")
-    return max(wanted, least), rule or wanted_rule
+    if "staggered" in (rule, wanted_rule) and rule != wanted_rule and rule is not None:
+        wanted = default_points(element.surface_rule) if rule == "staggered" else _NAMED
+    wanted, rule = max(wanted, least), rule or wanted_rule
+    return wanted + wanted % 2 if rule == "staggered" else wanted, rule
 
 
-def completed(element: Element, material: Material, points: int) -> Element:
+def completed(element: Element, material: Material, points: int, rule: str) -> Element:
     """The element with the complete order of E_33, if the law is plastic. eq. (2.46)"""
     if points <= element.thickness_order + 1 or not (element.raised and _plastic(material)):
         return element
-    return at_order(element, points - 1)
+    return (at_order_by_column if rule == "staggered" else at_order)(element, points - 1)
 
 
 def _plastic(material: Material) -> bool:

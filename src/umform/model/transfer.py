@@ -16,7 +16,7 @@ from umform import _core
 from umform.errors import InvalidValue
 from umform.materials import J2, SVK, Metal
 from umform.mesh import Mesh
-from umform.mesh.fitted.places import bilinear
+from umform.mesh.fitted.places import bilinear, located
 from umform.mesh.fitted.sheet import Sheet
 from umform.model.body import Body
 
@@ -35,66 +35,71 @@ def can_transfer(body: Body) -> bool:
 
 @dataclass(frozen=True)
 class Weights:
-    """For each in-plane point of new stacks the points of the old ones that surround it, and their shares. eq. (1.32)
+    """For each in-plane point of new stacks the points of the old one in which it lies, and their shares. eq. (1.32)
 
     Attributes
     ----------
     stacks : ndarray of int
-        Old stacks.
-    of : ndarray of int, shape (new, points, 3)
+        Old stacks in which they lie, ascending.
+    of : ndarray of int, shape (new, points, 4)
         Rows of points, in the order of the old stacks.
-    share : ndarray, shape (new, points, 3)
+    share : ndarray, shape (new, points, 4)
         Not negative; their sum is one.
+    heights : ndarray, shape (points, layers)
+        Of the points through the thickness, over each in-plane point of a stack.
     """
 
     stacks: Numbers
     of: Numbers
     share: Floats
+    heights: Floats
 
     @classmethod
-    def between(cls, sheet: Sheet, x: Floats, stacks: Numbers, new: Floats, rule: tuple[int, int]) -> Weights:
-        """Linear interpolation in triangles between the points of old stacks.
+    def between(
+        cls, sheet: Sheet, x: Floats, stacks: Numbers, new: Floats, rule: tuple[int, int], t: Floats
+    ) -> Weights:
+        """Bilinear interpolation between the points of an old stack, no further than to the last one.
 
         Parameters
         ----------
         sheet : Sheet
             The old sheet, with middles of its fibres x (fibres, 2).
         stacks : ndarray of int
-            Those of it that surround the new ones.
+            Those of it in which they may lie.
         new : ndarray, shape (new, 4, 2)
             Corners of the new ones.
         rule : tuple of int
             Points in r and s.
+        t : ndarray, shape (layers,) or (points, layers)
+            Heights of the points through the thickness.
         """
-        from scipy.spatial import Delaunay  # slow to import
-
-        own, two = _in_plane(rule), _in_plane((max(rule[0], 2), max(rule[1], 2)))
-        sources = np.einsum("qa,eai->eqi", two, x[sheet.quads[stacks]]).reshape(-1, 2)
+        own = _in_plane(rule)
         targets = np.einsum("qa,eai->eqi", own, new).reshape(-1, 2)
-        second, first = np.divmod(np.arange(len(two)), max(rule[0], 2))  # a single point across stands for two
-        row = np.minimum(second, rule[1] - 1) * rule[0] + np.minimum(first, rule[0] - 1)
-        rows = (np.arange(len(stacks))[:, None] * len(own) + row).ravel()
-        net = Delaunay(sources)
-        simplex = net.find_simplex(targets)
-        outside = np.flatnonzero(simplex < 0)
-        share = _barycentric(net.transform[simplex], targets)
-        for k in outside:  # beyond the last points, on the way to the edge of the sheet
-            every = _barycentric(net.transform, targets[k])
-            simplex[k] = int(np.nan_to_num(every.min(axis=1), nan=-np.inf).argmax())
-            share[k] = every[simplex[k]]
-        share = np.maximum(share, 0.0)
-        share /= share.sum(axis=1, keepdims=True)
-        shape = (len(new), len(own), 3)
-        return cls(stacks, rows[net.simplices[simplex]].reshape(shape), share.reshape(shape))
+        places = located(targets, x, sheet.quads[stacks])
+        used, quad = np.unique(places.quad, return_inverse=True)
+        (i, a), (j, b) = (_between(_core.gauss(n)[0], places.rs[:, k]) for k, n in enumerate(rule))
+        row = quad.reshape(-1, 1) * len(own) + np.stack(
+            [j[:, p] * rule[0] + i[:, q] for p in (0, 1) for q in (0, 1)], 1
+        )
+        share = np.stack([b[:, p] * a[:, q] for p in (0, 1) for q in (0, 1)], axis=1)
+        shape = (len(new), len(own), 4)
+        heights = np.broadcast_to(t, (len(own), np.shape(t)[-1]))
+        return cls(stacks[used], row.reshape(shape), share.reshape(shape), heights)
 
     def mean(self, values: Floats) -> Floats:
-        """Means (new, points, ...) of values (old, points, ...) at all points, layer by layer through the thickness."""
+        """Means (new, points, ...) of values (old, points, ...) at all points, height by height."""
         across = self.of.shape[1]
         layers = np.moveaxis(values.reshape(len(values), -1, across, *values.shape[2:]), 1, 2)
         flat = layers.reshape(-1, *layers.shape[2:])  # [stack and point in the plane][layer]
-        mean = np.moveaxis(np.einsum("eqk,eqk...->eq...", self.share, flat[self.of]), 2, 1)
+        to, of = np.arange(across)[None, :, None], self.of % across
+        there = np.einsum("eqkab,eqkb...->eqka...", self._between_heights()[to, of], flat[self.of])
+        mean = np.moveaxis(np.einsum("eqk,eqk...->eq...", self.share, there), 2, 1)
         out: Floats = mean.reshape(len(mean), -1, *values.shape[2:])
         return out
+
+    def _between_heights(self) -> Floats:
+        """Linear interpolation from the heights of one column to those of another [to][of], and beyond their ends."""
+        return np.array([[_line_through(of, to) for of in self.heights] for to in self.heights])
 
 
 def _in_plane(rule: tuple[int, int]) -> Floats:
@@ -103,16 +108,28 @@ def _in_plane(rule: tuple[int, int]) -> Floats:
     return bilinear(np.stack([r.ravel(), s.ravel()], axis=1))[0]
 
 
-def _barycentric(transform: Floats, points: Floats) -> Floats:
-    """Barycentric coordinates (n, 3) of points (n, 2), or of one point, in triangles."""
-    ab = np.einsum("nij,nj->ni", transform[:, :2], points - transform[:, 2])
-    return np.column_stack([ab, 1.0 - ab.sum(axis=1)])
+def _between(points: Floats, at: Floats) -> tuple[Numbers, Floats]:
+    """For places on a line the two points around each one (n, 2), and their shares; beyond the last one it has all."""
+    after = np.clip(np.searchsorted(points, at), 1, max(len(points) - 1, 1))
+    ends = np.minimum(np.stack([after - 1, after], axis=1), len(points) - 1)
+    low, high = points[ends].T
+    share = np.clip((at - low) / np.where(high > low, high - low, 1.0), 0.0, 1.0)
+    return ends, np.stack([1.0 - share, share], axis=1)
 
 
-def transferred(
-    old: Body, cells: Numbers, u_old: Floats, mesh: Mesh, new: Body, own: Numbers, u: Floats, weights: Weights
-) -> tuple[Floats, Floats]:
-    """History and enhanced parameters of new cells of one layer.
+def _line_through(points: Floats, at: Floats) -> Floats:
+    """Shares (at, points) of the two points around each place, or of the last two beyond them."""
+    shares = np.ones((len(at), len(points)))
+    if len(points) > 1:
+        after = np.clip(np.searchsorted(points, at), 1, len(points) - 1)
+        share = (at - points[after - 1]) / (points[after] - points[after - 1])
+        shares = np.zeros((len(at), len(points)))
+        shares[np.arange(len(at)), after - 1], shares[np.arange(len(at)), after] = 1.0 - share, share
+    return shares
+
+
+class Transfer:
+    """The state of old cells of one layer, moved to new ones. eqs. (1.32), (1.33)
 
     Parameters
     ----------
@@ -120,54 +137,82 @@ def transferred(
         The body of the whole sheet, in its state.
     cells : ndarray of int
         Its rows on the old stacks of the weights.
-    u_old, u : ndarray
-        Displacements of the old and the new mesh.
-    mesh : Mesh
-        The new mesh.
-    new : Body
-        The body on it.
-    own : ndarray of int
-        Rows of the new cells.
+    u : ndarray
+        Its displacement.
     weights : Weights
-        Of their points.
+        Of the points of the new cells.
     """
-    block = old.block
-    E, frame = _strains(old, cells, u_old, block.alpha[cells], old.mesh)
-    names, history = block.state_names, block.state[cells]
-    probe = _Probe(new, own, mesh, u)
-    if not names:
-        return np.zeros((len(own), block.points, 0)), probe.alpha
-    parts = _parts(names, history)
-    j2 = isinstance(old.material, J2)
-    elastic = _elastic(parts, E, _logarithm(E), j2)
 
-    def moved(tensor: Floats) -> Floats:
+    def __init__(self, old: Body, cells: Numbers, u: Floats, weights: Weights) -> None:
+        self._old, self._weights = old, weights
+        block = old.block
+        E, self._frame = _strains(old, cells, u, block.alpha[cells], old.mesh)
+        self._parts = _parts(block.state_names, block.state[cells])
+        if self._parts:
+            self._elastic = _elastic(self._parts, E, _logarithm(E), isinstance(old.material, J2))
+
+    def to(self, new: Body, own: Numbers, mesh: Mesh, u: Floats, plastic: NDArray[np.bool_]) -> tuple[Floats, Floats]:
+        """History and enhanced parameters of new cells of one layer.
+
+        Parameters
+        ----------
+        new : Body
+            The body on the new mesh.
+        own : ndarray of int
+            Rows of the new cells.
+        mesh : Mesh
+            The new mesh.
+        u : ndarray
+            Its displacement.
+        plastic : ndarray of bool
+            Cells with a history. The others have the initial one: they are free of stress where they are flat.
+        """
+        probe = _Probe(new, own, mesh, u)
+        names = new.block.state_names
+        state = np.tile(np.asarray(new.material.law().initial(), dtype=float), (len(own), new.block.points, 1))
+        if not names:
+            return state, probe.alpha
+        wanted = self._moved(self._elastic, probe.frame)
+        probe.meet(np.trace(wanted, axis1=2, axis2=3))
+        at = 0
+        moved = np.empty_like(state)
+        for name, size in names.items():
+            values = self._parts[name]
+            if size == 1:
+                moved[..., at] = self._weights.mean(values)
+            elif name == "Cp_inv":
+                moved[..., at : at + 6] = _voigt(_metric(probe.E, wanted), 1.0)
+            elif name == "plastic_strain":
+                moved[..., at : at + 6] = _voigt(_logarithm(probe.E) - wanted, 2.0)
+            else:
+                moved[..., at : at + 6] = _voigt(self._moved(values, probe.frame), 1.0)
+            at += size
+        state[plastic] = moved[plastic]
+        return state, probe.alpha
+
+    def _moved(self, tensor: Floats, frame: Floats) -> Floats:
         """Tensors (.., 3, 3) in the frames of the new points."""
-        if old.rolling is not None:
-            return weights.mean(tensor)
-        world = np.einsum("epki,epkl,eplj->epij", frame, tensor, frame)
-        return np.asarray(np.einsum("epik,epkl,epjl->epij", probe.frame, weights.mean(world), probe.frame))
+        mean = self._weights.mean
+        if self._old.rolling is not None:
+            return mean(tensor)
+        world = np.einsum("epki,epkl,eplj->epij", self._frame, tensor, self._frame)
+        return np.asarray(np.einsum("epik,epkl,epjl->epij", frame, mean(world), frame))
 
-    scalar = {name: weights.mean(values) for name, values in parts.items() if values.ndim == 2}
-    wanted = moved(elastic)
-    probe.meet(np.trace(wanted, axis1=2, axis2=3))
-    state = np.empty((len(own), history.shape[1], history.shape[2]))
-    at = 0
-    new_E, new_h = probe.E, _logarithm(probe.E)
-    deviator = wanted + ((np.trace(new_h - wanted, axis1=2, axis2=3)) / 3.0)[..., None, None] * np.eye(3)
-    for name, size in names.items():
-        if size == 1:
-            state[..., at] = scalar[name]
-        elif name == "Cp_inv":
-            state[..., at : at + 6] = _voigt(_metric(new_E, deviator), 1.0)
-        elif name == "plastic_strain":
-            state[..., at : at + 6] = _voigt(new_h - deviator, 2.0)
-        else:
-            state[..., at : at + 6] = _voigt(moved(parts[name]), 1.0)
-        at += size
-    virgin = scalar["eqps"] <= _ZERO
-    state[virgin] = old.material.law().initial()
-    return state, probe.alpha
+
+def flowed(old: Body, cells: Numbers, weights: Weights) -> NDArray[np.bool_]:
+    """New cells of one layer with a point that lies beside one that has flowed."""
+    eqps = _parts(old.block.state_names, old.block.state[cells]).get("eqps")
+    if eqps is None:
+        return np.zeros(len(weights.of), dtype=bool)
+    return np.asarray((weights.mean(eqps) > _ZERO).any(axis=1))
+
+
+def energies_at_points(body: Body, u: Floats) -> tuple[Floats, Floats]:
+    """Elastic energy and plastic work by volume (cells, points, 2), and volumes (cells, points), at all points."""
+    E, _, _, _, volume = body.block.point_fields(u)
+    count, state = volume.size, body.block.state
+    energies = body.material.law().energy(E.reshape(count, 6), state.reshape(count, -1))
+    return np.stack([np.reshape(e, volume.shape) for e in energies], axis=-1), volume
 
 
 class _Probe:

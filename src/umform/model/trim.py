@@ -18,8 +18,8 @@ from umform.mesh import Mesh
 from umform.mesh.fitted.layer import fitted_layer
 from umform.mesh.fitted.sheet import Sheet
 from umform.mesh.part import joined_by_faces, part_of_mesh, stacks
-from umform.model.fitted_part import refuse_unknown
 from umform.model.model import Model
+from umform.model.moved_state import refuse_unknown
 from umform.model.part import ModelPart
 from umform.surfaces import Extruded, Profile
 
@@ -50,9 +50,10 @@ class AtItsEnd(Protocol):
 class Trim:
     """A cut along a line.
 
-    The elements near the line are replaced by a layer of elements that ends on it, eqs. (1.28)-(1.33). Where this is
-    not possible (18-node elements, laws whose history is unknown), the edge follows elements, and the remark of the
-    part says why. Elements stacked through the thickness are kept or removed together.
+    The elements near the line are replaced by a layer of elements that ends on it, eqs. (1.28)-(1.34). Where this is
+    not possible (18-node elements, laws whose history is unknown, an energy that would change by more than 2 %), the
+    edge follows elements, and the remark of the part says why. Elements stacked through the thickness are kept or
+    removed together.
 
     Parameters
     ----------

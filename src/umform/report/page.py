@@ -100,7 +100,10 @@ def parameter_parts(values: Mapping[str, object], note: str) -> Iterator[str]:
 
 
 def closing(result: History) -> Iterator[str]:
-    """The end of every report: the time of the run, and versions."""
+    """The end of every report: its contacts, the time of the run, and versions."""
+    if result.model.contacts:
+        yield parts.heading("Contacts")
+        yield from contacts(result)
     yield parts.heading("Where the time went")
     yield time_spent(result)
     yield parts.heading("Versions")
@@ -135,7 +138,7 @@ def _attempts(attempts: Attempts) -> str:
 
 
 def settings(result: History) -> dict[str, object]:
-    """Model of a run as text, with the largest penetrations."""
+    """Model of a run as text."""
     model = result.model
     options = ", ".join(f"{name}={value}" for name, value in model.element.options.items())
     rows: dict[str, object] = {
@@ -145,5 +148,10 @@ def settings(result: History) -> dict[str, object]:
         "material": material_text(model.material),
         "degrees of freedom": f"{model.unknown_count} unknown of {model.u.size}",
     }
-    reached = penetrations(model, result)
-    return rows | {f"contact {pair.name}": f"{pair.tool.surface}, {reached[pair.name]}" for pair in model.contacts}
+    return rows | {f"contact {pair.name}": str(pair.tool.surface) for pair in model.contacts}
+
+
+def contacts(result: History) -> Iterator[str]:
+    """Allowed and reached penetration of each contact; marked where it was not kept."""
+    for name, reached in penetrations(result.model, result).items():
+        yield parts.note(f"contact {name}: {reached.text}", bad=not reached.kept)

@@ -80,12 +80,13 @@ def outline_picture(edge: Outline, unit: str = "mm", *, equal: bool = True) -> F
 
 
 def ears_picture(ears: EarProfile, unit: str = "mm", *, zero: str = "the x-axis") -> Figure:
-    """Height of a cup over the angle to a direction, and its mean."""
+    """Height of a cup over the angle to a direction, its mean, and how many ears it has."""
     whole = ears.whole()
     with house_style():
         figure, axes = _axes(f"angle to {zero} in degrees", of_unit("height of the cup", unit))
         axes.plot(np.append(whole.angle, whole.angle[0] + 360.0), np.append(whole.height, whole.height[0]), label="rim")
         axes.axhline(ears.mean, color=INK, linewidth=0.8, linestyle=":", label=f"mean {ears.mean:.4g}")
+        axes.set_title(ears.words(unit))
         axes.set_xticks(np.arange(0, 361, 45))
         least = 0.5 * _LEAST * abs(ears.mean)
         low, high = axes.get_ylim()

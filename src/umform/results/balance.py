@@ -1,9 +1,9 @@
 """The balance of a run: external work against energies, resultants of the external forces.
 
 External work is stored as elastic energy, dissipated by plastic flow and friction, or stored by the penalty of contact.
-The work is the trapezoidal rule over the converged states and does not use the energies, so that the difference
-measures the time discretisation. Relative to the largest energy it falls with the square of the increment. docs/theory,
-5.11
+The work is the trapezoidal rule over the converged states; beyond it there is only what friction takes where it begins
+to slip. It does not use the other energies, so that the difference measures the time discretisation. Relative to the
+largest energy it falls with the square of the increment. docs/theory, 5.11
 """
 
 from __future__ import annotations
@@ -62,6 +62,10 @@ class Balance:
     moment_imbalance : ndarray
         Sum of their moments about the origin, relative to the same sum times the largest initial distance of a node
         from it.
+    works : mapping of str to ndarray
+        Work of each tool on the sheet by its name, of "loads and supports" together, and of "friction beyond the mean",
+        the part of it within increments that no mean of forces contains, since the run began. Their sum is the change
+        of the external work, except that an opened tool adds the energy of its contact to that.
     """
 
     step: Floats
@@ -74,6 +78,7 @@ class Balance:
     drift: Floats
     force_imbalance: Floats
     moment_imbalance: Floats
+    works: Mapping[str, Floats]
 
 
 def drift(external_work: Floats, stored: Floats) -> Floats:
@@ -98,25 +103,29 @@ def drift(external_work: Floats, stored: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class _Tool:
-    """Pose of a tool, force and moment of the sheet on it, and the sum of the magnitudes of the contact forces."""
+    """Pose of a tool, force and moment of the sheet on it, sum of the magnitudes of the contact forces, and the part of
+    the work of friction that no mean of forces contains.
+    """
 
     point: Floats
     rotation: Floats
     force: Floats
     moment: Floats  # about the point
     magnitude: float
+    above_mean: float
 
     @classmethod
     def of(cls, tool: Tool, evaluation: Evaluation, ranks: Ranks) -> _Tool:
         rotation, shift = tool.pose(evaluation.controls, evaluation.time)
         point = rotation @ tool.reference_point + shift
-        force, moment, magnitude = np.zeros(3), np.zeros(3), 0.0
+        force, moment, magnitude, above = np.zeros(3), np.zeros(3), 0.0, 0.0
         for pair in tool.pairs:
             found: ContactFound = evaluation.found[pair]
             of_pair = found.resultant(point)
             force, moment = force + of_pair[0], moment + of_pair[1]
             magnitude += float(found.pressure @ found.area)
-        return cls(point, rotation, ranks.sum(force), ranks.sum(moment), ranks.sum(magnitude))
+            above += found.held.work_above_mean
+        return cls(point, rotation, ranks.sum(force), ranks.sum(moment), ranks.sum(magnitude), ranks.sum(above))
 
     def work_since(self, before: _Tool) -> float:
         """Work of the forces that move the tool against the sheet, from an earlier state. eq. (5.32)"""
@@ -165,6 +174,9 @@ class ExternalWork:
         Energies of the last state.
     imbalances : list of tuple of float
         Relative resultants of all external forces and moments, one pair for each state. eq. (5.34)
+    works : list of ndarray
+        Work of loads and supports, of friction beyond the mean, then of each tool, since the first state; one array for
+        each state.
     """
 
     def __init__(self, model: Model) -> None:
@@ -172,6 +184,7 @@ class ExternalWork:
         self.value = 0.0
         self.energies = Energies(0.0, 0.0, 0.0)
         self.imbalances: list[tuple[float, float]] = []
+        self.works: list[Floats] = []
         self._before: _State | None = None
         self._largest = 0.0  # sum of the magnitudes of the external forces
         distances = np.linalg.norm(model.mesh.points + model.u.reshape(-1, 3), axis=1)
@@ -185,8 +198,11 @@ class ExternalWork:
         self.energies = energies(model, evaluation)
         if self._before is None:
             self.value = 0.0 if np.isnan(self.energies.total) else self.energies.total
+            self.works.append(np.zeros(2 + len(tools)))
         else:
-            self.value += self._work(self._before, state)
+            parts = self._works(self._before, state)
+            self.value += parts[0] + sum(parts[1:])
+            self.works.append(self.works[-1] + parts)
         self._before = state
         self.imbalances.append(self._imbalance(state))
 
@@ -201,13 +217,23 @@ class ExternalWork:
     def copy(self) -> Self:
         """A copy that continues independently."""
         other = copy(self)
-        other.imbalances = list(self.imbalances)
+        other.imbalances, other.works = list(self.imbalances), list(self.works)
         return other
+
+    @property
+    def largest_moment(self) -> float:
+        """Scale of the moments of (5.34)."""
+        return self._largest * self._length
 
     def memory(self) -> dict[str, Any]:
         """All that the work of later states depends on, besides the model itself."""
-        imbalances = np.array(self.imbalances)
-        return {"value": self.value, "imbalances": imbalances, "largest": self._largest, "length": self._length}
+        return {
+            "value": self.value,
+            "imbalances": np.array(self.imbalances),
+            "works": np.array(self.works),
+            "largest": self._largest,
+            "length": self._length,
+        }
 
     def recall(self, memory: Mapping[str, Any], evaluation: Evaluation) -> None:
         """Restore the work of a run.
@@ -221,6 +247,7 @@ class ExternalWork:
         """
         self.advance(evaluation)
         self.imbalances = [(force, moment) for force, moment in memory["imbalances"].tolist()]
+        self.works = list(memory["works"])
         self.value, self._largest, self._length = memory["value"], memory["largest"], memory["length"]
 
     def _nodal_forces(self, evaluation: Evaluation) -> tuple[Floats, Floats]:
@@ -236,10 +263,11 @@ class ExternalWork:
         held = [own for term in model.others if (own := term.support_forces(at)) is not None]
         return forces, sum(held, start=forces)
 
-    def _work(self, before: _State, state: _State) -> float:
-        """Trapezoidal rule from one state to the next. eqs. (5.31), (5.32)"""
+    def _works(self, before: _State, state: _State) -> list[float]:
+        """Work of loads and supports, of friction beyond the mean, of each tool. eqs. (5.31), (4.220), (5.32)"""
         nodes = 0.5 * self.model.ranks.dot(before.forces + state.forces, state.u - before.u)
-        return nodes + sum(now.work_since(then) for now, then in zip(state.tools, before.tools, strict=True))
+        above = sum(tool.above_mean for tool in state.tools) - sum(tool.above_mean for tool in before.tools)
+        return [nodes, above, *map(_Tool.work_since, state.tools, before.tools)]
 
     def _imbalance(self, state: _State) -> tuple[float, float]:
         """Resultants in the current configuration, relative to the largest magnitudes so far. eq. (5.34)"""
@@ -255,4 +283,4 @@ class ExternalWork:
         self._largest = max(self._largest, magnitude)
         if self._largest == 0.0:
             return 0.0, 0.0
-        return math.hypot(*force) / self._largest, math.hypot(*moment) / (self._largest * self._length)
+        return math.hypot(*force) / self._largest, math.hypot(*moment) / self.largest_moment

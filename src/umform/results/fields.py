@@ -27,6 +27,9 @@ _STRESSES = ("stress_cauchy", "stress_cauchy_local", "stress_pk2", "stress_pk2_l
 class PointFields:
     """Fields at the Gauss points, arrays (cells, points, ...); points run through the surface, then the thickness.
 
+    Points over one place of the surface are a column. Their number in the thickness is not their height: columns may
+    have heights of their own (docs/theory, 2.10). Take :meth:`at_height`.
+
     Attributes
     ----------
     E, S : ndarray, shape (cells, points, 6)
@@ -39,6 +42,8 @@ class PointFields:
         Reference volume of a point.
     history : mapping of str to ndarray, shape (cells, points, size)
         Parts of the history of the law by their names, ``history["Cp_inv"]`` for instance.
+    heights : ndarray, shape (columns, layers)
+        Heights t of the points, -1 in the lower face and 1 in the upper face of a cell.
     """
 
     E: Floats
@@ -47,6 +52,7 @@ class PointFields:
     F: Floats
     volume: Floats
     history: Mapping[str, Floats]
+    heights: Floats
 
     @property
     def eqps(self) -> Floats | None:
@@ -81,6 +87,28 @@ class PointFields:
         found = _core.point_stresses(self.E, self.S, self.frame, self.F)
         return tuple(stress.reshape(self.S.shape) for stress in found)
 
+    def at_height(self, values: Floats, height: float | str) -> Floats:
+        """Values (cells, columns, ...) at one height, from values (cells, points, ...).
+
+        Parameters
+        ----------
+        values : ndarray
+            At all points.
+        height : float, "bottom" or "top"
+            t from -1 to 1; linear between the points of a column, and beyond the last.
+        """
+        t = {"bottom": -1.0, "top": 1.0}.get(height, height) if isinstance(height, str) else height
+        if isinstance(t, str) or not -1.0 <= t <= 1.0:
+            raise InvalidValue("a height is bottom, top or a number from -1 to 1", value=height)
+        columns, layers = self.heights.shape
+        above = np.array([np.clip(np.searchsorted(column, t), 1, layers - 1) for column in self.heights])
+        at = np.arange(columns)
+        low, high = self.heights[at, above - 1], self.heights[at, above]
+        share = ((t - low) / (high - low)).reshape(-1, *([1] * (values.ndim - 2)))
+        stacked = values.reshape(len(values), layers, columns, *values.shape[2:])
+        found: Floats = (1.0 - share) * stacked[:, above - 1, at] + share * stacked[:, above, at]
+        return found
+
     def cell_average(self, values: Floats) -> Floats:
         """Average over the volume of each cell of values (cells, points, ...)."""
         weight = self.volume / self.volume.sum(axis=1, keepdims=True)
@@ -97,7 +125,9 @@ def point_fields(model: Model) -> PointFields:
 def body_fields(body: Body, u: Floats) -> PointFields:
     """Fields at the Gauss points of the converged state of a body, at the displacement u, shape (3 n,)."""
     E, S, frame, F, volume = body.block.point_fields(u)
-    return PointFields(E, S, frame, F, volume, named_history(body))
+    t, columns = body.through[0], int(np.prod(body.element.surface_rule))
+    heights = np.broadcast_to(t, (columns, np.shape(t)[-1]))
+    return PointFields(E, S, frame, F, volume, named_history(body), heights)
 
 
 def named_history(body: Body) -> dict[str, Floats]:

@@ -15,6 +15,7 @@ from umform.model import Evaluation, Model
 from umform.model.frame import Frame
 from umform.results import fields
 from umform.results.balance import Balance, ExternalWork, drift
+from umform.results.volume import VolumeChange, volume_change
 from umform.solution.records import Iteration
 from umform.timing import Timing
 
@@ -87,9 +88,13 @@ class History:
             len(iterations),
         )
         if frame:
-            whole = model.whole_frame(self._frame(evaluation))
-            if whole is not None:
-                self.frames.append(whole)
+            self.add_frame(evaluation)
+
+    def add_frame(self, evaluation: Evaluation) -> None:
+        """Keep the state of the last row as a frame."""
+        whole = self.model.whole_frame(self._frame(evaluation))
+        if whole is not None:
+            self.frames.append(whole)
 
     def _term_columns(self, evaluation: Evaluation) -> dict[str, float]:
         """Columns of tools and of the pairs that touch them, then of all other terms."""
@@ -128,6 +133,7 @@ class History:
         names = ("elastic_energy", "plastic_work", "contact_energy", "friction_work")
         elastic, plastic, contact, friction = (self[name] for name in names)
         forces, moments = np.array(self._work.imbalances).T
+        workers = ("loads and supports", "friction beyond the mean", *(tool.name for tool in self.model.tools))
         return Balance(
             step=self["step"],
             time=self["time"],
@@ -139,7 +145,17 @@ class History:
             drift=drift(self["external_work"], elastic + plastic + contact + friction),
             force_imbalance=forces,
             moment_imbalance=moments,
+            works=dict(zip(workers, np.array(self._work.works).T, strict=True)),
         )
+
+    @property
+    def largest_moment(self) -> float:
+        """Largest sum of the magnitudes of external forces, times the largest distance of a node from the origin."""
+        return self._work.largest_moment
+
+    def volume_change(self) -> VolumeChange:
+        """Change of the volume of the sheet at the present state of the model, and its elastic part."""
+        return volume_change(self.model)
 
     def work_memory(self) -> dict[str, Any]:
         """All that the external work of later states follows from, beside the model and its last evaluation."""

@@ -1,64 +1,151 @@
-"""How far a run let the sheet into its tools, and whether that is more than was allowed."""
+"""How far a run let the sheet into its tools, whether that was allowed, and what it makes of the forces."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+
 import numpy as np
+from numpy.typing import NDArray
 
 from umform.model import Model
 from umform.model.contact import Contact
 from umform.model.contact.encounter import sheet_thickness
+from umform.model.contact.settings import ALLOWED
 from umform.results.history import History
 
 #: Penetration relative to the thickness that is reported, and that of a sufficient penalty.
 _DEEP, _SHALLOW = 0.1, 0.02
+#: Tolerance of the promise, relative to the allowed penetration.
+_ROUND_OFF = 1e-3
 
 
-def penetrations(model: Model, result: History) -> dict[str, str]:
-    """Of each contact the largest penetration of a run, what was allowed, and the penalty and points that did it."""
-    return {contact.name: _said(contact, _deepest(result, contact)) for contact in model.contacts}
+@dataclass(frozen=True)
+class Reached:
+    """The largest penetration of a contact in a run.
+
+    Attributes
+    ----------
+    contact : str
+        Name of the contact.
+    reached, allowed : float
+        The largest penetration in any state of the run, and the allowed one: that of the contact, or the default.
+    penalty, initial : float
+        Penalty at the end and at the start.
+    rule : str
+        Where the contact is measured.
+    force_error : float
+        Estimated error of the tool forces by the penetration of this contact, relative. eq. (4.202)
+    """
+
+    contact: str
+    reached: float
+    allowed: float
+    penalty: float
+    initial: float
+    rule: str
+    force_error: float
+
+    @property
+    def kept(self) -> bool:
+        """Whether every state of the run kept the allowed penetration."""
+        return self.reached <= (1.0 + _ROUND_OFF) * self.allowed
+
+    @property
+    def text(self) -> str:
+        """All of it as a line."""
+        share = self.reached / self.allowed
+        kept = "" if self.kept else f": MISSED {share:.3g} times over"
+        grown = "" if self.penalty == self.initial else f", {self.initial:.3g} at the start"
+        force = f"; it changes the forces by about {100.0 * self.force_error:.2g} %"
+        return (
+            f"penetration up to {self.reached:.3g}, {self.allowed:.3g} allowed{kept}{force}; "
+            f"penalty {self.penalty:.3g}{grown}, {self.rule}"
+        )
 
 
-def _deepest(result: History, contact: Contact, first: int = 0) -> float:
-    """Largest penetration from a row of the history on."""
-    return float(np.max(result[f"{contact.name}_penetration"][first:], initial=0.0)) if len(result) else 0.0
+def penetrations(model: Model, result: History) -> dict[str, Reached]:
+    """The largest penetration of each contact by its name."""
+    return {contact.name: _reached(model, result, contact) for contact in model.contacts}
 
 
-def _said(contact: Contact, deepest: float) -> str:
-    allowed = "" if contact.allowed is None else f", {contact.allowed:.3g} allowed"
+def contact_record(result: History) -> dict[str, dict[str, object]]:
+    """The same as JSON data."""
+    return {
+        name: {**asdict(reached), "kept": reached.kept} for name, reached in penetrations(result.model, result).items()
+    }
+
+
+def force_error(result: History) -> float:
+    """Estimated relative error of the tool forces by the penetration of all contacts. eq. (4.202)"""
+    return sum(_force_error(result, contact.name) for contact in result.model.contacts)
+
+
+def _reached(model: Model, result: History, contact: Contact) -> Reached:
     rule = "at the nodes" if contact.points == "nodes" else "{} x {} contact points on each facet".format(*contact.rule)
-    return f"penetration up to {deepest:.3g}{allowed}; penalty {contact.penalty:.3g}, {rule}"
+    return Reached(
+        contact.name,
+        _deepest(result, contact),
+        ALLOWED * sheet_thickness(model.mesh) if contact.allowed is None else contact.allowed,
+        contact.penalty,
+        contact.initial_penalty,
+        rule,
+        _force_error(result, contact.name),
+    )
+
+
+def _deepest(result: History, contact: Contact) -> float:
+    """Largest penetration of the increments; that of the start is of a run before."""
+    return float(np.max(result[f"{contact.name}_penetration"][1:], initial=0.0)) if len(result) else 0.0
+
+
+def _force_error(result: History, name: str) -> float:
+    """Change of the energy of penetration at a fixed penalty over the work in the same increment. eq. (4.202)"""
+    if len(result) < 2:
+        return 0.0
+    energy, penalty, work = (
+        result[column] for column in (f"{name}_penetration_energy", f"{name}_penalty", "external_work")
+    )
+    way = np.abs(np.diff(work)).sum()
+    changes: NDArray[np.float64] = energy[1:] - energy[:-1] * penalty[:-1] / penalty[1:]
+    return float(np.abs(changes).sum() / way) if way > 0.0 else 0.0
 
 
 def warn_of_contact(model: Model, result: History) -> None:
     """Warn once for each contact whose penetration exceeds the allowed one, or a tenth of the thickness."""
     thickness = sheet_thickness(model.mesh)
     for contact in model.contacts:
-        found = _excess(contact, _deepest(result, contact))
-        found = found or _deep(contact, _deepest(result, contact, first=1), thickness)  # not that of a run before
-        message = f"contact {contact.name}: {found}"
-        if found and message not in result.warnings:  # a run that was taken up at its end
-            result.warn(message)
+        for found in _findings(contact, _deepest(result, contact), thickness):
+            message = f"contact {contact.name}: {found}"
+            if message not in result.warnings:  # a run that was taken up at its end
+                result.warn(message)
 
 
-def _excess(contact: Contact, deepest: float) -> str:
-    """Penetration beyond the allowed one, with a remedy; empty without. eq. (4.30)"""
-    if contact.allowed is None or deepest <= 1.01 * contact.allowed:
-        return ""
+def _findings(contact: Contact, deepest: float, thickness: float) -> Iterator[str]:
+    """At most one finding: penetration beyond the allowed one, or a tenth of the thickness or more."""
+    if contact.allowed is not None and deepest > (1.0 + _ROUND_OFF) * contact.allowed:
+        yield f"the penetration of {deepest:.3g} exceeds the {contact.allowed:.3g} allowed; {_remedy(contact, deepest)}"
+    elif deepest > _DEEP * thickness:
+        stiffer = deepest / (_SHALLOW * thickness) * contact.penalty
+        yield (
+            f"the penetration of {deepest:.3g} is {100.0 * deepest / thickness:.3g} % of the thickness "
+            f"{thickness:.4g}: so much of the stroke is lost, or a force is too large; "
+            + (
+                f"a penalty of {stiffer:.3g} or more, or none: it then follows from the allowed penetration"
+                if contact.allowed is None
+                else f"allow less, such as {_SHALLOW * thickness:.3g}"
+            )
+        )
+
+
+def _remedy(contact: Contact, deepest: float) -> str:
+    """What helps against a penetration beyond the allowed one. eq. (4.30)"""
+    assert contact.allowed is not None
+    if contact.adapts:
+        return (
+            f"the penalty had grown to {contact.penalty:.3g}, and Newton's method did not converge with a larger one; "
+            "smaller increments, or more elements on the radii of the tools"
+        )
     stiffer = (deepest / contact.allowed) ** 1.5
     remedy = f"a penalty of {stiffer * contact.penalty:.3g}, {stiffer:.2g} times the present one"
-    if not contact.augmented:
-        remedy += ", or augmented=True"
-    return f"the penetration of {deepest:.3g} exceeds the {contact.allowed:.3g} allowed; {remedy}"
-
-
-def _deep(contact: Contact, deepest: float, thickness: float) -> str:
-    """Penetration of a tenth of the thickness or more, with a remedy; empty without."""
-    share = deepest / thickness
-    if not share > _DEEP:
-        return ""
-    stiffer = share / _SHALLOW * contact.penalty
-    text = f"the penetration of {deepest:.3g} is {100.0 * share:.3g} % of the thickness {thickness:.4g}"
-    remedy = f"a penalty of {stiffer:.3g} or more, or none: it then follows from the allowed penetration"
-    if contact.allowed is not None:
-        remedy = f"allow less, such as {_SHALLOW * thickness:.3g}"
-    return f"{text}: so much of the stroke is lost, or a force is too large; {remedy}"
+    return remedy if contact.augmented else f"{remedy}, or none: it then grows in the run until the penetration is kept"

@@ -1,4 +1,4 @@
-"""Detect tools that were moved or pressed but never touched the sheet."""
+"""Detect tools that never touched the sheet: a warning of those that moved or were pressed, a note of fixed ones."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from umform.results.history import History
 
 
 def warn_of_untouched(model: Model, result: History) -> None:
-    """Warn of each tool that steps have moved or pressed and that no point of the sheet has touched."""
+    """Name each tool that no point of the sheet has touched; a fixed one may be a stop, and is no reason to warn."""
     if len(result) < 2:
         return
     for tool in model.tools:
@@ -17,9 +17,15 @@ def warn_of_untouched(model: Model, result: History) -> None:
             continue
         ways = [control for control in model.controls if tool in getattr(control, "tools", ())]
         moved = [control.name for control in ways if np.ptp(result[control.name]) > 0.0]
-        if not moved:
-            continue
         names = " and ".join(f"contact {pair.name}" for pair in tool.pairs)
+        if not moved:
+            rests = "at rest" if ways else "fixed"
+            note = (
+                f"{names} never touched the sheet: the tool {tool.name} is {rests}, and no part of the sheet reached it"
+            )
+            if tool.motion is None and note not in result.events:
+                result.note(note)
+            continue
         message = (
             f"{names} never touched the sheet, although {' and '.join(moved)} moved the tool {tool.name}: it "
             "moves away from the sheet, or the stroke is too short; another sign or direction, or a longer stroke"

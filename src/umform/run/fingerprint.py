@@ -124,7 +124,7 @@ def _contact(contact: Contact) -> str:
             contact.facets,
             contact.points,
             contact.cells,
-            contact.penalty,
+            contact.initial_penalty,
             contact.allowed,
             contact.augmented,
         ]

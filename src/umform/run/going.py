@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING, Any
 from umform.errors import NoConvergence
 from umform.progress import Tick, progress_bar
 from umform.results.bottoming import warn_of_bottoming
+from umform.results.drift import warn_of_drift
 from umform.results.penetration import warn_of_contact
 from umform.results.rest import tell_of_rest
 from umform.results.untouched import warn_of_untouched
+from umform.run.early import Stopped, ended_early
 from umform.run.interrupt import Interrupt, gentle_interrupt
 from umform.run.loose import note_springs
 from umform.run.result import Result
@@ -96,6 +98,7 @@ def taken(
             if last:
                 warn_of_contact(run.model, result)
                 warn_of_untouched(run.model, result)
+                warn_of_drift(run.model, result)
                 tell_of_rest(run.model, result)
             _pause(run, start, checkpoints, stop, last=last)
         except BaseException as error:  # whatever ends the run, the error carries the results so far
@@ -103,6 +106,8 @@ def taken(
             if isinstance(error, NoConvergence):
                 warn_of_bottoming(run.model, result, run.number, run.evaluation.found)
                 warn_of_contact(run.model, result)
+                warn_of_drift(run.model, result)
+            ended_early(run, checkpoints, error)
             error.result = result  # type: ignore[attr-defined]
             raise
 
@@ -135,4 +140,4 @@ def _pause(run: Run, start: float, checkpoints: Checkpoints | None, stop: Interr
         how = ""
         if checkpoints is not None and not checkpoints.problem:
             how = f"; umform.resume({str(checkpoints.path)!r}, ...) goes on"
-        raise KeyboardInterrupt(f"stopped between two increments{how}")
+        raise Stopped(f"stopped between two increments{how}")

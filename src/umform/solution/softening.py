@@ -75,7 +75,7 @@ def _stiffened(
     """Equilibrium with 10^-powers of the penalty, then with ten times as much, up to the full one. eq. (4.39)"""
     with _own_penalties(model) as penalties:
         for contact, penalty in penalties.items():
-            contact.penalty = 10.0**-powers * penalty
+            contact.use_penalty(10.0**-powers * penalty)
         converged = start()
         for power in range(powers - 1, -1, -1):
             evaluation = converged.evaluation
@@ -97,4 +97,4 @@ def _own_penalties(model: Model) -> Iterator[dict[Contact, float]]:
         yield penalties
     finally:
         for contact, penalty in penalties.items():
-            contact.penalty = penalty
+            contact.use_penalty(penalty)

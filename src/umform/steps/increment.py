@@ -8,6 +8,7 @@ from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from umform.errors import NoConvergence
 from umform.materials import UserLaw
@@ -16,12 +17,16 @@ from umform.model.checks import diagnosis
 from umform.model.control import Control
 from umform.model.loose_part import loose_part
 from umform.solution.augmentation import augmented
+from umform.solution.keeping import GROWTHS, excesses, kept, relaxed
 from umform.solution.records import Cause, Converged, Failed, Iteration
 from umform.solution.strategies import Increment, equilibrium
 from umform.steps.crushed import crushed
+from umform.steps.limit_load import limit_load
 from umform.steps.loop import Run
 from umform.steps.trail import Trail, changes
 from umform.surfaces import UserSurface
+
+Floats = NDArray[np.float64]
 
 log = logging.getLogger("umform.steps")
 
@@ -36,11 +41,12 @@ def take_increment(
         control.value = float(value)
     model.time = time
     x_before = model.x.copy()
+    penalties = {contact: contact.penalty for contact in model.contacts}
     try:
         starts = dict(zip(controls, before, strict=True))
         guess = None if extrapolation is None or run.trail is None else run.trail.guess(extrapolation)
         increment = Increment(model, run.newton, run.habits, starts, time_before, guess, run.evaluation)
-        converged = equilibrium(increment)
+        converged, x_soft = _within_allowed(run, increment)
         try:
             with _counted(run):
                 converged = augmented(model, run.newton, converged)
@@ -53,14 +59,43 @@ def take_increment(
         for control, value in zip(controls, before, strict=True):
             control.value = value
         model.time = time_before
+        for contact, penalty in penalties.items():
+            contact.use_penalty(penalty)
         model.revert()
         raise
     model.commit(converged.evaluation)
     way = changes(model.controls, controls, np.subtract(values, before))
     earlier = run.trail if run.newton.options.extrapolate > 1 else None
-    run.trail = Trail.of(model.x - x_before, way, earlier, extrapolation)
+    reached = model.x if x_soft is None else x_soft
+    run.trail = Trail.of(reached - x_before, way, earlier, extrapolation)
     run.evaluation = converged.evaluation.without_tangent()
     return converged
+
+
+def _within_allowed(run: Run, increment: Increment) -> tuple[Converged, Floats | None]:
+    """Equilibrium with penalties that keep the allowed penetration; if they grew, the displacement before."""
+    model, attempts = run.model, run.newton.timing.attempts
+    try:
+        converged = equilibrium(increment)
+    except Failed:  # perhaps grown penalties are too stiff for this increment
+        if not relaxed(model):
+            raise
+        model.prepare()
+        converged = equilibrium(increment)
+    if not excesses(model, converged):
+        return converged, None
+    x_soft = converged.x.copy()
+    penalties = {contact: contact.penalty for contact in model.contacts}
+    for growth in GROWTHS:
+        try:
+            with attempts.trying("stiffer penalties"):
+                return kept(model, run.newton, converged, growth), x_soft
+        except Failed:
+            for contact, penalty in penalties.items():
+                contact.use_penalty(penalty)
+            model.prepare()
+            converged = equilibrium(replace(increment, guess=x_soft - model.x))
+    return converged, x_soft  # with more penetration: the next increment tries again
 
 
 def _multipliers_stay(run: Run, failure: Failed | None) -> None:
@@ -107,6 +142,9 @@ def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], value
             f"{cause}; the sheet is {slenderness:.0f} times as long as thick, and bending resists less than round-off"
         )
         remedy = f"hold the sheet in more places, or take a thicker or a shorter one; else {remedy}"
+    limit = limit_load(run, controls) if loose is None else None
+    if limit is not None:
+        cause, remedy = limit
     remedy += own_parts(run.model)
     pressed = pressed_tools(run)
     if pressed:

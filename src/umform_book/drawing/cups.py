@@ -8,11 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import NoConvergence
-from umform.materials import Metal, Yld2004
+from umform.materials import J2, Metal, Voce, Yld2004
 from umform.materials.j2 import Plastic
 from umform.mesh import Mesh
 from umform.processes.draw import Cup
-from umform.results.forming import EarProfile, ear_profile, forming_fields
+from umform.processes.draw.drawn import let_go, passage
+from umform.results.forming import EarProfile, LargestForce, ear_profile, forming_fields, largest_force, section
 from umform.run import Result
 from umform.sheet_metals import get
 from umform.steps import Move
@@ -30,6 +31,11 @@ def aa6016(card: str = "", exponent: float | None = None, hardening: str = "") -
     if exponent is not None and isinstance(function, Yld2004):
         function = replace(function, exponent=exponent)
     return Metal(law.E, law.nu, hardening=law.hardening, yield_function=function)
+
+
+def isotropic() -> J2:
+    """The same curve of NTNU without directions."""
+    return J2(70e3, 0.33, hardening=Voce(125.95, 314.98, 12.22))
 
 
 def esaform(material: Plastic | None = None, **changes: object) -> Cup:
@@ -58,8 +64,12 @@ class Made:
         Its rim.
     flange : EarProfile
         Radius of the rim over the angle at the stroke FLANGE or before, while it is on the flange.
-    force : float
-        Largest force of the punch on the whole cup, kN.
+    force : LargestForce
+        Largest force of the punch on the whole cup over passages of an element, kN.
+    after : LargestForce
+        The same after the flange has left the holder, while the rim is ironed.
+    peak : float
+        Largest force of the history, kN.
     thinning : float
         Largest thinning in per cent.
     elements : int
@@ -70,7 +80,9 @@ class Made:
 
     ears: EarProfile
     flange: EarProfile
-    force: float
+    force: LargestForce
+    after: LargestForce
+    peak: float
     thinning: float
     elements: int
     wall: tuple[float, float]
@@ -78,15 +90,16 @@ class Made:
     def row(self) -> tuple[int | float, ...]:
         """What tables show of it."""
         low, high = float(self.ears.height.min()), float(self.ears.height.max())
-        return self.elements, self.ears.mean, low, high, fourth(self.ears)[0], self.force, self.thinning, *self.wall
+        forces = self.force.value, self.force.ripple, self.after.value, self.after.ripple, self.peak
+        return self.elements, self.ears.mean, low, high, cosine(self.ears), *forces, self.thinning, *self.wall
 
 
 #: Stroke in mm at which the rim is still on the flat of the die.
 FLANGE = 20.0
 #: Columns of such a table.
 COLUMNS = (
-    *("", "elements", "mean height", "lowest", "highest", "fourth harmonic", "punch force, kN", "thinning, %"),
-    *("wall, mm", "its rim, mm"),
+    *("", "elements", "mean height", "lowest", "highest", "cos 4θ", "punch force, kN", "±", "off the holder, kN", "±"),
+    *("largest of all, kN", "thinning, %", "wall, mm", "its rim, mm"),
 )
 #: Height in mm above the bottom at which the wall begins, above the edge of the punch.
 WALL = 8.0
@@ -106,10 +119,19 @@ def make(page: Page, label: str, case: Cup, increments: int | None = None) -> Ma
     except NoConvergence as error:
         page.text(f"{label}: {where}. {error.where}; {error.cause}.")
         return None
-    force = 4e-3 * float(np.abs(drawn["punch_fz"]).max())
+    punch, stroke = 4e-3 * np.abs(drawn["punch_fz"]), drawn["stroke"]
+    way = passage(case, section(model.mesh, drawn.frames[-1].points["displacement"]))
+    left = let_go(stroke, np.abs(drawn["holder_fz"]))
+    force, after = (largest_force(stroke, punch, way, between=part) for part in ((0.0, left), (left, np.inf)))
     thinning = float(forming_fields(model.mesh, model.u)["thinning"].max())
     ears, cells = ear_profile(model.mesh, model.u), len(model.mesh.connectivity)
-    return Made(ears, _flange(drawn), force, thinning, cells, _wall(model.mesh, model.u))
+    return Made(ears, _flange(drawn), force, after, float(punch.max()), thinning, cells, _wall(model.mesh, model.u))
+
+
+def cosine(ears: EarProfile) -> float:
+    """Amplitude of cos 4θ, negative where the ears stand between the axes: a quarter has it at 0 or 45 degrees."""
+    size, angle = ears.wave(4)
+    return size if abs(angle) < 22.5 else -size
 
 
 def _wall(mesh: Mesh, u: Floats) -> tuple[float, float]:
@@ -138,11 +160,3 @@ def _flange(drawn: Result) -> EarProfile:
     x, y = (mesh.points + frame.points["displacement"])[ids, :2].T
     order = np.argsort(np.arctan2(y, x))
     return EarProfile(np.degrees(np.arctan2(y, x))[order], np.hypot(x, y)[order])
-
-
-def fourth(ears: EarProfile) -> tuple[float, float]:
-    """Size of the fourth harmonic of the height, and the angle in degrees at which it is highest, from -45 to 45."""
-    angle = np.arange(0.0, 360.0, 0.5)
-    height = ears.at(angle)
-    both = 2.0 * np.mean((height - height.mean()) * np.exp(4j * np.radians(angle)))
-    return float(abs(both)), float(np.degrees(np.angle(both)) / 4.0)

@@ -9,6 +9,7 @@ import numpy as np
 from umform.errors import NoConvergence
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
+from umform_book.drawing.rim import SYMMETRIC
 from umform_book.drawing.spherical import (
     ALUMINIUM,
     BLANK,
@@ -51,8 +52,6 @@ _KNOWN = 0.012
 _CAUSE = "mesh: elements of 3 in place of 2 mm change the strains by 0.01, see the budget"
 #: Largest relative change of the volume, which is elastic: that of balanced tension of 400 MPa.
 VOLUME = 2.0 * 400.0 * (1.0 - 2.0 * 0.33) / 69.2e3
-#: What rounding and Newton's tolerance leave of the symmetry about 45 degrees, mm.
-SYMMETRIC = 1e-6
 
 
 def outside(cup: Drawn, band: dict[str, Floats], metal: str) -> Floats:

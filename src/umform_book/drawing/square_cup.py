@@ -19,6 +19,7 @@ from umform.steps import Close, Move
 from umform.surfaces import LedAround, Plane, Profile
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
+from umform_book.drawing.rim import SYMMETRIC
 from umform_book.page import Page
 
 Floats = NDArray[np.float64]
@@ -70,8 +71,8 @@ TO_THE_END = {
     "mild steel, 4.5 mm": Setup(4.5, **_STEEL),  # type: ignore[arg-type]
     "mild steel, 3.5 mm": Setup(3.5, **_STEEL),  # type: ignore[arg-type]
 }
-#: Largest deviation from the measured mean, and of one side from the other of the isotropic sheet, mm.
-WITHIN, SYMMETRIC = 0.5, 1e-6
+#: Largest deviation from the measured mean, mm.
+WITHIN = 0.5
 #: Runs and strokes that are drawn: name of the picture and caption.
 PICTURES = {
     (FINEST, STROKE): ("cup", f"Aluminium at {STROKE:g} mm, elements of {FINEST}, a quarter of the cup"),

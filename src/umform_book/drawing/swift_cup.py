@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from umform.materials import J2, Hill48, Metal, Voce
+from umform.materials import Hill48, Metal
 from umform.sheet_metals import balanced, uniaxial
 from umform_book.case import Case
-from umform_book.drawing.cups import COLUMNS, aa6016, esaform, make
+from umform_book.drawing.cups import COLUMNS, aa6016, esaform, isotropic, make
+from umform_book.drawing.rim import SYMMETRIC
 from umform_book.page import Page
-
-_VOCE = Voce(125.95, 314.98, 12.22)
-#: Largest difference of heights that Newton's tolerance and the rounding of the order of elimination leave, mm.
-_SYMMETRIC = 1e-9
 
 
 def hill_of(metal: Metal) -> Metal:
@@ -27,10 +24,10 @@ def run(page: Page) -> None:
     """Fill the page."""
     coarse: dict[str, object] = {"turn": 30.0, "around": 8, "penalty": 1e4, "contact_points": 2}
     if page.short:
-        coarse = {"turn": 45.0, "around": 4, "penalty": 3e3, "contact_points": 2, "stroke": 5.0}
+        coarse = {"turn": 45.0, "around": 6, "penalty": 3e3, "contact_points": 2, "stroke": 5.0}
     quadratic = aa6016(exponent=2)
     cases = {
-        "without directions": esaform(J2(70e3, 0.33, hardening=_VOCE), **coarse),
+        "without directions": esaform(isotropic(), **coarse),
         "Yld2004 of exponent 2": esaform(quadratic, **coarse),
         "Hill48 of the same stresses": esaform(hill_of(quadratic), **coarse),
     }
@@ -39,7 +36,7 @@ def run(page: Page) -> None:
     page.table("Heights in mm", COLUMNS, [(label, *cup.row()) for label, cup in found.items()])
     height = found["without directions"].ears.height
     page.at_most("without directions: largest difference of heights at theta and 90 degrees - theta, mm",
-                 float(np.abs(height - height[::-1]).max()), _SYMMETRIC)  # fmt: skip
+                 float(np.abs(height - height[::-1]).max()), SYMMETRIC)  # fmt: skip
     both = [found[label].ears.height for label in list(cases)[1:]]
     page.at_most(
         "Yld2004 of exponent 2 less Hill48: largest difference of heights, mm",
@@ -57,9 +54,9 @@ isotropic metal, whose cup is the same at theta and 90 degrees - theta; with the
 exponent 2; and with the function of Hill that this is.
 """,
     reference="""
-Symmetry: the mesh is symmetric about 45 degrees, and so is the cup but for rounding. Quadratic Yld2004: a quadratic
-function of the deviator that is symmetric about the axes of the sheet is that of Hill (1948); its constants follow from
-the yield stresses at 0, 45 and 90 degrees and in balanced tension.
+Symmetry: the mesh is symmetric about 45 degrees, and so is the cup but for the heights of its points. Quadratic
+Yld2004: a quadratic function of the deviator that is symmetric about the axes of the sheet is that of Hill (1948); its
+constants follow from the yield stresses at 0, 45 and 90 degrees and in balanced tension.
 """,
     run=run,
     cost=40.0,

@@ -15,6 +15,7 @@ from umform_book.friction import (
     turning,
     u_bend,
     unconstrained,
+    work,
 )
 
 CHAPTER = Chapter(
@@ -22,6 +23,7 @@ CHAPTER = Chapter(
     "Stick, slip, reversal, strips over cylinders, turning tools, partial slip, drawing and bending.",
     (
         block.CASE,
+        work.CASE,
         capstan.CASE,
         history.CASE,
         turning.CASE,

@@ -68,6 +68,7 @@ def block(variant: Variant, divisions: int, points: int | str, *, augmented: boo
     contact = model.contact(
         "lower", plane, penetration=PENETRATION, points=points, friction=MU, slip=SLIP, augmented=augmented, name="foot"
     )
+    contact.penalty = contact.penalty  # the penetration is prescribed: it must not grow
     return Block(model, contact, plane, press, push)
 
 

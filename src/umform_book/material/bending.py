@@ -12,7 +12,7 @@ from umform.materials import Metal
 from umform.steps import Move
 from umform_book.case import Case
 from umform_book.material.fibres import Fibres, path_of
-from umform_book.material.metals import HARDENING
+from umform_book.metals import HARDENING
 from umform_book.page import Page
 from umform_book.plastic.bent_sheet import LENGTH, THICKNESS, WIDTH, end_section, model_of
 from umform_book.plastic.curves import lines_figure

@@ -9,7 +9,7 @@ import umform as uf
 from umform.materials import J2, Swift
 from umform.materials.material import Material
 from umform_book.case import Case
-from umform_book.material.metals import CARDS, STEEL
+from umform_book.metals import CARDS, STEEL
 from umform_book.page import Page
 from umform_book.variants import Variant
 

@@ -9,7 +9,7 @@ import umform as uf
 from umform.materials import J2, Chaboche, Hardening, Metal, Perfect, Swift, Voce, YoshidaUemori
 from umform.materials.material import Material
 from umform_book.case import Case
-from umform_book.material.metals import CARDS, SPCC, SPCC_YIELD, STEEL, YIELD_FUNCTIONS
+from umform_book.metals import CARDS, SPCC, SPCC_YIELD, STEEL, YIELD_FUNCTIONS
 from umform_book.page import Page
 from umform_book.plastic.curves import lines_figure
 from umform_book.variants import Variant

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from umform.materials import Chaboche, Linear, Metal, Perfect, Voce, point_path, tension
 from umform_book.case import Case
-from umform_book.material.metals import HARDENING, SPCC, SPCC_YIELD
+from umform_book.metals import HARDENING, SPCC, SPCC_YIELD
 from umform_book.page import Page
 from umform_book.plastic.curves import lines_figure
 from umform_book.references import table

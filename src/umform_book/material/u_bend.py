@@ -7,7 +7,7 @@ from dataclasses import fields
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
 from umform_book.friction.u_bend import HOLDER, MU, STROKE, THICKNESS, Measured, Setup, draw, punch_force, u_bend
-from umform_book.material.metals import HARDENING
+from umform_book.metals import HARDENING
 from umform_book.page import Page
 
 INTERVALS = 100

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 import umform as uf
 from umform.materials import Metal, Perfect, YieldFunction, tension
 from umform_book.case import Case
-from umform_book.material.metals import AA2090, AA6111, MILD, YIELD_FUNCTIONS
+from umform_book.metals import AA2090, AA6111, MILD, YIELD_FUNCTIONS
 from umform_book.page import Page
 from umform_book.plastic.curves import lines_figure
 from umform_book.references import table

@@ -7,6 +7,7 @@ from umform_book.plastic import (
     necking,
     pinched_cylinder,
     plate_bending,
+    pulled_bend,
     tension,
     thick_walled_tube,
     thickness_points,
@@ -18,6 +19,7 @@ CHAPTER = Chapter(
     (
         plate_bending.CASE,
         thickness_points.CASE,
+        pulled_bend.CASE,
         thick_walled_tube.CASE,
         tension.CASE,
         hourglass_stability.CASE,

@@ -3,8 +3,11 @@
 #include <random>
 
 #include "check.hpp"
+#include "umform/contact/cells.hpp"
+#include "umform/contact/coulomb.hpp"
 #include "umform/contact/facet_block.hpp"
 #include "umform/contact/penalty.hpp"
+#include "umform/surfaces/plane.hpp"
 #include "umform/surfaces/sphere.hpp"
 
 using namespace umform;
@@ -230,9 +233,76 @@ void check_found() {
     for (int k = 0; k < 3; ++k) CHECK_NEAR(total[k], 0.0, 1e-14);
 }
 
+/// The works of a facet on a plane that is pressed down, slides and leaves, whether it is near afterwards, far or let go.
+void check_works(bool cells) {
+    auto friction = std::make_shared<CoulombFriction>();
+    friction->pressure = {0.0}, friction->mu = {0.3};
+    auto law = std::make_shared<ContactLawOf<Coulomb>>(Coulomb{50.0, 0.4, 0.05, friction});
+    auto tool = std::make_shared<SurfaceOf<Plane>>(Plane{{0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}});
+    const Connectivity part{4, {0, 1, 2, 3}};
+    std::unique_ptr<ContactBlock> block;
+    if (cells)
+        block = std::make_unique<ContactBlockOf<4, OverCells<4>>>(part, X, CellSetting{2}, tool, law);
+    else
+        block = std::make_unique<ContactBlockOf<4>>(part, X, ContactRule{{2, 2}, false}, tool, law);
+    const auto go = [&](double x, double z) {
+        const std::vector<double> u{x, 0, z, x, 0, z, x, 0, z, x, 0, z};
+        evaluate(*block, u);
+        return block->found();
+    };
+    const std::vector<double> above{0, 0, 0.1, 0, 0, 0.1, 0, 0, 0.1, 0, 0, 0.1};
+    block->locate(above.data());
+    block->begin();
+    go(0.0, -0.1), block->commit();
+    go(1.0, -0.1), block->commit();
+    const ContactFound held = go(1.0, -0.1);
+    const double bound = 1.5, slid = 0.95, stored = 0.5 * bound * 0.05;
+    CHECK_NEAR(held.friction_work, bound * slid, 1e-13);
+    CHECK_NEAR(held.stored, stored, 1e-13);
+    CHECK_NEAR(held.work_above_mean, 0.5 * bound * slid, 1e-13);
+    CHECK_NEAR(held.contact_work, cells ? 0.25 : 0.0, 1e-13);
+    for (const double z : {0.5, 1e3, 999.0}) {
+        const ContactFound left = go(1.2, z);
+        CHECK(block->far_facets() == (z == 999.0 ? 1 : 0));  // its distance is known from before
+        CHECK_NEAR(left.friction_work, held.friction_work + 0.5 * bound * 0.2 + stored, 1e-13);
+        CHECK_NEAR(left.work_above_mean, held.work_above_mean, 1e-13);
+        CHECK_NEAR(left.stored, 0.0, 1e-13);
+        CHECK_NEAR(left.contact_work, 0.0, 1e-13);
+    }
+    block->open = true;  // loads take the place of the tool, and of its works
+    const ContactFound let_go = go(1.2, -0.1);
+    CHECK_NEAR(let_go.friction_work, held.friction_work, 1e-13);
+    CHECK_NEAR(let_go.work_above_mean, held.work_above_mean, 1e-13);
+    CHECK_NEAR(let_go.stored, 0.0, 1e-13);
+}
+
+/// Where the tool holds cells they do the work of their nodal forces, and not more where the facet tilts about the mean gap.
+void check_work_of_cells(const std::shared_ptr<const Surface>& tool, double allowed) {
+    auto law = std::make_shared<ContactLawOf<Penalty>>(Penalty{50.0});
+    ContactBlockOf<4, OverCells<4>> block(Connectivity{4, {0, 1, 2, 3}}, X, CellSetting{2}, tool, law);
+    std::vector<double> u = lowered(std::vector<double>(12), 0.1);
+    Answer before = evaluate(block, u);
+    const double first = block.found().contact_work;
+    double work = 0.0;
+    for (int i = 0; i < 2; ++i) {
+        block.commit();
+        const std::vector<double> way{0, 0, 0.01, 0, 0, -0.02, 0, 0, -0.03, 0, 0, 0.01};
+        for (int j = 0; j < 12; ++j) u[j] += way[j];
+        const Answer after = evaluate(block, u);
+        for (int j = 0; j < 12; ++j) work += 0.5 * (before.f[j] + after.f[j]) * way[j];
+        before = after;
+    }
+    CHECK(work > 0.01);
+    CHECK_NEAR(block.found().contact_work - first, work, allowed);
+}
+
 }  // namespace
 
 int main() {
+    check_works(false);
+    check_works(true);
+    check_work_of_cells(std::make_shared<SurfaceOf<Plane>>(Plane{{0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}}), 1e-14);
+    check_work_of_cells(std::make_shared<SurfaceOf<Sphere>>(Sphere{{0.5, 0.5, -4.99}, 5.0, false}), 1e-6);
     check_tangent(facet());
     check_tangent(skewed());
     check_product();

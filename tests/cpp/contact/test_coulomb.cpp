@@ -6,7 +6,7 @@ using namespace umform;
 
 namespace {
 
-constexpr int numbers = 20;
+constexpr int numbers = 21;
 
 Coulomb law(double mu = 0.3) {
     auto friction = std::make_shared<CoulombFriction>();
@@ -28,6 +28,8 @@ struct Ball {
             for (int l = 0; l < 3; ++l) H(k, l) = ((k == l ? 1.0 : 0.0) - n[k] * n[l]) / length;
     }
 };
+
+double square(const Vec3& a) { return dot(a, a); }
 
 Reaction at(const Coulomb& law, const Vec3& x, const double* state, double* trial) {
     const Ball ball(x);
@@ -68,7 +70,9 @@ void check_states() {
     CHECK(stiffness > 50.0 * 0.4);
     CHECK_NEAR(first.tangential[0], -stiffness * 0.25 * 0.0484, 1e-3);
     check_tangent(rubbing, touched, state, false);
-    CHECK_NEAR(held[18], 0.0, 1e-15);  // elastic slip stores all of the work
+    // The work is that of half of the traction on the whole way along the tool, not of what follows the touch; a part is stored.
+    const Vec3 all{0.04, 0.0, -0.4};
+    CHECK_NEAR(held[18], -0.5 * dot(first.tangential, all) - square(first.tangential) / (2.0 * held[19]), 1e-15);
 
     // It sticks, then slips: the traction is at its bound, against the way.
     check_tangent(rubbing, {0.06, 0.01, 1.9}, held, false);
@@ -85,10 +89,17 @@ void check_states() {
     const Vec3 n = Ball(x).n,
                t_n = Carried(Pose{}, Facing({0.0, x, n, Ball(x).H, Pose{}}), first.tangential, Ball(touched).n, true)
                          .value;
-    double work = 0.0;
-    for (int k = 0; k < 3; ++k) work -= 0.5 * (t_n[k] + slip.tangential[k]) * (way[k] - n[k] * dot(n, way));
-    CHECK_NEAR(after[18], work - stored, 1e-12);
-    CHECK(after[17] > held[17]);
+    // It begins to slip where the traction reaches the bound, and does not slip at less: that much more than the mean.
+    const double s = std::sqrt(square(slip.tangential));
+    Vec3 D, trial;
+    for (int k = 0; k < 3; ++k) D[k] = way[k] - n[k] * dot(n, way), trial[k] = t_n[k] - after[19] * D[k];
+    const double irreversible = (std::sqrt(square(trial)) - s) / after[19];
+    const double above = 0.5 * (s - dot(t_n, slip.tangential) / s) * irreversible;
+    CHECK(above > 0.1 * after[18]);
+    const double mean = -0.5 * (dot(first.tangential, way) + dot(slip.tangential, way));
+    CHECK_NEAR(after[18], held[18] + mean + above - stored, 1e-12);
+    CHECK_NEAR(after[20], above, 1e-12);
+    CHECK_NEAR(after[17], held[17] + std::sqrt(square(D)), 1e-14);
 
     // At rest nothing moves, and the tangent sticks.
     double again[numbers]{};
@@ -100,7 +111,126 @@ void check_states() {
     // It lets go: what is left is the place, the distance slid and the work.
     double gone[numbers]{};
     CHECK(!at(rubbing, {0.30, 0.10, 2.1}, after, gone).held);
-    CHECK(gone[1] == 0.0 && gone[8] == 0.0 && gone[17] == after[17] && gone[18] == after[18]);
+    CHECK(gone[1] == 0.0 && gone[8] == 0.0 && gone[17] == after[17] && gone[20] == after[20]);
+    CHECK(gone[19] == 50.0 * 0.4);  // as of a place that was never held
+    // Half of the traction that it had still works on the way, and what was stored is lost to it.
+    CHECK_NEAR(gone[18], after[18] - 0.5 * slip.tangential[2] * 0.22 + square(slip.tangential) / (2.0 * after[19]),
+               1e-14);
+    // Loads that replace the tool do that work, and take what was stored.
+    rubbing.leave({0.3, 0.1, 2.1}, after, gone);
+    rubbing.forget_work(after, gone);
+    CHECK(gone[18] == after[18] && rubbing.rubbing(gone).stored == 0.0);
+}
+
+/// A tool that is flat, under a pressure of 5 or another one, in any pose.
+struct Flat {
+    Coulomb rubbing = law();
+    double state[numbers]{};
+
+    Reaction at(double x, double y, double pressure = 5.0, const Pose& pose = {}) {
+        const Vec3 n = pose.turn(Vec3{0.0, 0.0, 1.0}), place = pose.to_space({x, y, -pressure / 50.0});
+        const Mat3 H{};
+        double trial[numbers]{};
+        std::copy_n(state + 14, 3, trial + 14);
+        Reaction reaction{};
+        reaction.held = rubbing.respond({-pressure / 50.0, place, n, H, pose}, 1.0, state, trial, reaction);
+        CHECK(reaction.held);
+        rubbing.settle(trial);
+        std::copy_n(trial, numbers, state);
+        return reaction;
+    }
+    double slip() const { return state[17]; }
+    double work() const { return state[18]; }
+};
+
+/// Under a constant pressure the work is the bound times the way less the elastic slip, in few increments or in many.
+void check_slides() {
+    const double bound = 1.5, elastic = 0.05;  // 0.3 of the pressure, which it reaches within the slip that is allowed
+    for (const int increments : {1, 2, 7, 30}) {
+        Flat flat;
+        flat.at(0.0, 0.0);
+        for (int i = 1; i <= increments; ++i) flat.at(0.6 * i / increments, 0.8 * i / increments);
+        CHECK_NEAR(flat.work(), bound * (1.0 - elastic), 1e-14);
+        CHECK_NEAR(flat.slip(), 1.0, 1e-14);
+        flat.at(0.3, 0.4);  // back: it sticks for twice the elastic slip
+        CHECK_NEAR(flat.work(), bound * (1.0 - elastic) + bound * (0.5 - 2.0 * elastic), 1e-14);
+        CHECK_NEAR(flat.slip(), 1.5, 1e-14);
+    }
+    // A pressure that grows while it slides on: the mean traction is the right one.
+    Flat growing;
+    growing.at(0.0, 0.0), growing.at(1.0, 0.0);
+    const double before = growing.work(), stored = bound * elastic / 2.0;
+    growing.at(2.0, 0.0, 10.0);
+    CHECK_NEAR(growing.work(), before + 1.5 * bound - (2.0 * stored - stored), 1e-14);
+    CHECK_NEAR(growing.state[20], 0.5 * bound * (1.0 - elastic), 1e-14);  // all of it from the beginning of the slide
+    // One that falls below the traction while it sticks: it slips at the mean of both.
+    Flat falling;
+    falling.at(0.0, 0.0, 10.0), falling.at(0.04, 0.0, 10.0);
+    CHECK(falling.work() == 0.0);
+    falling.at(0.04, 0.0, 5.0);
+    CHECK(falling.state[20] == 0.0);
+    CHECK(falling.state[19] == 60.0);  // the stiffness stays that of the largest bound
+    // A pressure that grows as it begins to slip: the elastic slip is that of the bound at the end.
+    Flat both;
+    both.at(0.0, 0.0), both.at(1.0, 0.0, 10.0);
+    CHECK_NEAR(both.work(), 3.0 * (1.0 - elastic), 1e-14);
+}
+
+/// The way is that in the frame of the tool: one that carries the place does no work, one that slides under it all.
+void check_moving_tool() {
+    Flat carried, slid, turned;
+    for (Flat* flat : {&carried, &slid, &turned}) flat->at(0.0, 0.0), flat->at(0.3, 0.0);
+    const double before = carried.work();
+    Pose away;
+    away.Q = Mat3{{std::cos(0.7), 0.0, std::sin(0.7), 0.0, 1.0, 0.0, -std::sin(0.7), 0.0, std::cos(0.7)}};
+    away.c = {3.0, -2.0, 1.0};
+    carried.at(0.3, 0.0, 5.0, away);
+    CHECK_NEAR(carried.work(), before, 1e-14);
+    CHECK_NEAR(carried.slip(), 0.3, 1e-14);
+    turned.at(0.9, 0.0, 5.0, away), slid.at(0.9, 0.0);
+    CHECK_NEAR(turned.work(), slid.work(), 1e-14);
+    CHECK_NEAR(slid.work(), before + 1.5 * 0.6, 1e-14);
+}
+
+/// Multipliers take over a traction in the frame of the tool: at rest it stays once they have, and nothing of it is stored.
+void check_multipliers() {
+    const Coulomb rubbing{50.0, 0.4, std::numeric_limits<double>::infinity(), law().friction};
+    double state[numbers]{}, trial[numbers]{}, read[numbers]{};
+    Pose pose;
+    pose.Q = Mat3{{std::cos(0.7), 0.0, std::sin(0.7), 0.0, 1.0, 0.0, -std::sin(0.7), 0.0, std::cos(0.7)}};
+    const auto ask = [&](const Vec3& z, const double* before, const Vec3* carry = nullptr) {
+        const Ball ball(z);
+        const Vec3 x = pose.to_space(z), n = pose.turn(ball.n);
+        const Mat3 H = pose.turn(ball.H);
+        const Place place{ball.gap, x, n, H, pose};
+        Reaction reaction{};
+        if (carry != nullptr)
+            rubbing.augment(place, *carry, before, trial);
+        else
+            CHECK(rubbing.respond(place, 1.0, before, trial, reaction));
+        return reaction.tangential;
+    };
+    rubbing.leave({0.0, 0.0, 2.0}, state, state);
+    ask({0.0, 0.0, 1.9}, state);
+    std::copy_n(trial, numbers, state);
+    const Vec3 z{0.02, 0.01, 1.9}, back{0.0, 0.0, 1.9};
+    const Vec3 t = ask(z, state);
+    CHECK_NEAR(rubbing.rubbing(trial).stored, square(t) / 40.0, 1e-14);
+    ask(z, state, &t);
+    std::copy_n(state, numbers, read);
+    rubbing.put_wanted(trial, read);
+    CHECK(read[14] == trial[14] && read[14] != 0.0);
+    const Vec3 taken = ask(back, state);  // the multipliers bear it where the place first stuck
+    CHECK_NEAR(square(taken), square(t), 1e-4 * square(t));
+    CHECK_NEAR(rubbing.rubbing(trial).stored, 0.0, 1e-15);
+    for (int k = 0; k < 3; ++k) CHECK_NEAR(rubbing.rubbing(trial).elastic_slip[k], 0.0, 1e-15);
+    rubbing.settle(trial);
+    std::copy_n(trial, numbers, state);
+    const Vec3 rest = ask(back, state);
+    for (int k = 0; k < 3; ++k) CHECK_NEAR(rest[k], taken[k], 1e-14);
+    pose.Q = Mat3{{1, 0, 0, 0, 1, 0, 0, 0, 1}};  // the tool turns and carries the place along
+    CHECK_NEAR(square(ask(back, state)), square(taken), 1e-14);
+    CHECK_NEAR(rubbing.rubbing(trial).stored, 0.0, 1e-15);
 }
 
 /// Friction that fades with the distance slid: the stiffness that follows the bound falls with it.
@@ -210,6 +340,19 @@ void check_transport() {
     CHECK_NEAR(std::abs(a[1]), std::abs(std::sin(turned)), 1e-5);
 }
 
+/// The slope over the distance slid, by differences.
+void check_fading_slope() {
+    CoulombFriction friction;
+    friction.pressure = {0.0}, friction.mu = {0.2}, friction.kinetic = 0.4, friction.decay = 0.3;
+    const double h = 1e-6, p = 7.0;
+    for (const double slip : {0.0, 0.1, 2.0}) {
+        const double ahead = friction.bound(p, slip + h, {}).value, behind = friction.bound(p, slip - h, {}).value;
+        CHECK_NEAR(friction.bound(p, slip, {}).by_slip, (ahead - behind) / (2.0 * h), 1e-9);
+    }
+    CHECK_NEAR(friction.bound(p, 0.0, {}).value, 0.2 * p, 1e-15);
+    CHECK_NEAR(friction.bound(p, 1e3, {}).value, 0.08 * p, 1e-15);
+}
+
 void check_laws() {
     CoulombFriction friction;
     friction.pressure = {1.0, 3.0}, friction.mu = {0.1, 0.3};
@@ -229,6 +372,10 @@ int main() {
     check_rest();
     check_frame();
     check_transport();
+    check_slides();
+    check_moving_tool();
+    check_multipliers();
+    check_fading_slope();
     check_laws();
     return report("contact friction");
 }

@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from umform.bench import forces
 from umform.bench.library import library, tools
 from umform.bench.look import look
 from umform.bench.wanted import MESHES, Wanted
@@ -31,7 +32,31 @@ def test_expected_force_is_the_rule_of_the_shop():
     rm = expected["tensile_strength"]
     assert rm == pytest.approx(310.0, rel=5e-3)  # that of DC04 in metals.toml
     assert expected["force"] == pytest.approx([1.33 * rm * 4 / 16, 1.42 * rm * 4 / 16])
-    assert expected["press"] == pytest.approx(2.0 * expected["force"][1])
+    assert expected["press"]["force"] == pytest.approx(2.0 * expected["force"][1])
+    assert expected["press"]["operation"] == "bend"
+
+
+HEM = {"opening": 16.0, "die_angle": 30.0, "punch_angle": 30.0, "punch_radius": 1.0, "flange": 24.0, "base": 60.0}
+
+
+def test_the_press_is_chosen_by_the_operation_with_the_largest_force():
+    """A hem of DC04, 2 mm over an insert of 2 mm, needs 606 N/mm (default mesh); its first bend 98."""
+    press = look({"work": "hem", **HEM, "gap": 2.0})["expected"]["press"]
+    assert press["operation"] == "flatten" and 606.0 < press["force"] < 1.5 * 606.0
+    wanted = Wanted(work="hem", **HEM, gap=2.0)
+    needed = forces.press(forces.after(wanted, wanted.case(), {"bend": 98.0, "flatten": 606.0})).over(500.0)
+    assert (needed["operation"], needed["basis"], needed["force"]) == ("flatten", "computed", 303.0)
+    tools = {"die_angle": 88.0, "punch_angle": 88.0, "angle": None}
+    given = look({"work": "bottom", "press_force": 800.0, "length": 2000.0, **tools})["expected"]["press"]
+    assert (given["operation"], given["basis"], given["force"]) == ("bottom", "given", 1600.0)
+    assert look({"work": "bottom", "travel": 0.0, **tools})["expected"]["press"]["beyond"]  # it resists as it must
+
+
+def test_a_part_that_will_collide_is_said_before_the_run():
+    assert look({"work": "sequence", "angle": None})["warnings"] == []  # the default part
+    bends = [{"position": 25.0}, {"position": 55.0}]
+    (row,) = look({"work": "sequence", "angle": None, "bends": bends})["warnings"]
+    assert (row["where"], row["kind"], row["level"]) == ("bend 2", "collides_punch", "bad")
 
 
 @pytest.mark.parametrize("angle", [50.0, 70.0, 84.0, 85.0])

@@ -81,6 +81,13 @@ def quick(page, stroke):
     page.fill("#f-stroke", str(stroke))
 
 
+def opened(page):
+    """Unfold all groups of fields."""
+    for group in page.locator("#fields details").all():
+        if group.get_attribute("open") is None:
+            group.locator("summary").click()
+
+
 def bent(page, stroke):
     quick(page, stroke)
     page.click("#run")
@@ -114,6 +121,83 @@ def test_angle_out_of_reach_is_refused_beside_its_field(visit):
     page.click("#n-angle button")
     page.wait_for_selector("#run:enabled")
     assert float(page.input_value("#f-die_angle")) < 70
+
+
+def test_decimal_comma_is_read_and_said_in_every_field(visit):
+    page = visit.page
+    opened(page)
+    page.locator("#f-opening").fill("")
+    page.locator("#f-opening").press_sequentially("12,5")
+    page.locator("#n-opening", has_text="read as 12.5").wait_for()
+    kept = "JSON.parse(localStorage.getItem('form'))"
+    assert page.evaluate(f"{kept}.opening") == 12.5
+    for name in ("thickness", "angle", "length", "die_radius", "punch_angle", "tensile_strength"):
+        before = page.input_value(f"#f-{name}")
+        for text, value in (("1,250", "may mean 1.25 or 1250"), ("1.250,5", "no clear number")):
+            page.fill(f"#f-{name}", text)
+            page.locator(f"#n-{name}", has_text=value).wait_for()
+            assert page.locator("#run").is_disabled(), name
+        page.fill(f"#f-{name}", before)
+    page.wait_for_selector("#run:enabled")
+    page.select_option("#f-work", "sequence")
+    page.fill("#b-0-position", "25,5")
+    page.locator("#n-bends", has_text="Bend 1: read as 25.5").wait_for()
+    page.fill("#b-0-position", "1,250")
+    page.locator("#n-bends", has_text="Bend 1: “1,250” may mean").wait_for()
+    assert page.locator("#run").is_disabled()
+    page.select_option("#f-work", "bend")
+    page.click("#table")
+    page.fill("#table-angles", "90,105")
+    page.click("#table-go")
+    page.locator("#table-dialog .note.bad", has_text="may mean").wait_for()
+
+
+@pytest.mark.parametrize("typed", ["70", "71"])
+def test_remedy_clicked_while_a_check_is_under_way_is_taken(visit, typed):
+    """Between the press of the button and its release an answer arrives: to the angle there, or to another one."""
+    page, held = visit.page, []
+    page.fill("#f-angle", "70")
+    page.wait_for_selector("#n-angle button")
+    page.route("**/api/look", lambda route: held.append(route))
+    page.fill("#f-angle", typed)
+    button = page.locator("#n-angle button").bounding_box()
+    page.mouse.move(button["x"] + 9, button["y"] + 9)
+    page.mouse.down()
+    for route in held:
+        route.continue_()
+    page.wait_for_timeout(500)
+    page.unroute("**/api/look")
+    page.mouse.up()
+    page.wait_for_selector("#run:enabled", timeout=10_000)
+    assert float(page.input_value("#f-die_angle")) < 70
+
+
+def test_list_of_drawn_tools_that_comes_late_leaves_the_notes(browser, link):
+    visit = Visit(browser, link)
+    page, held = visit.page, []
+    page.fill("#f-angle", "70")
+    page.wait_for_selector("#n-angle button")
+    page.route("**/api/tools", lambda route: held.append(route))
+    page.reload()
+    page.wait_for_selector("#n-angle button")
+    with page.expect_response("**/api/tools"):
+        held[0].continue_()
+    page.wait_for_timeout(200)
+    assert page.locator("#n-angle button").is_visible()
+    page.click("#n-angle button")
+    page.wait_for_selector("#run:enabled", timeout=10_000)
+    visit.context.close()
+
+
+def test_check_without_an_answer_is_asked_again(browser, link):
+    visit = Visit(browser, link)
+    page = visit.page
+    page.fill("#f-angle", "70")
+    page.wait_for_selector("#n-angle button")
+    page.route("**/api/look", lambda route: route.abort(), times=1)
+    page.click("#n-angle button")
+    page.wait_for_selector("#run:enabled", timeout=10_000)
+    visit.context.close()
 
 
 def test_jobs_are_compared_in_two_tabs_and_stay(visit, link):

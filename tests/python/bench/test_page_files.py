@@ -41,3 +41,28 @@ def test_page_names_no_other_server():
     for path in PAGE.iterdir():
         text = path.read_text(encoding="utf-8")
         assert not re.findall(r"https?://(?!www\.w3\.org/)", text), path.name
+
+
+def read_in_the_page(texts, language):
+    """Numbers of texts as the page reads them: a value, or the kind of mistake."""
+    script = "const [module, language, texts] = process.argv.slice(1);"
+    script += "import(module).then(({ read }) => console.log(JSON.stringify(JSON.parse(texts).map((text) => {"
+    script += "const found = read(text, language); return found.problem || [found.value, found.other]; }))));"
+    arguments = [(PAGE / "decimals.js").as_uri(), language, json.dumps(texts)]
+    command = ["node", "--experimental-default-type=module", "--no-warnings", "-e", script, *arguments]
+    return json.loads(subprocess.run(command, check=True, timeout=60, capture_output=True, text=True).stdout)
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="no Node to run JavaScript")
+def test_numbers_are_read_with_either_sign_and_never_guessed():
+    same = {"12": 12.0, " 12 ": 12.0, "-5": -5.0, "\u22125": -5.0, "1e-3": 1e-3, "": None}
+    wrong = ["1.250,5", "1,250.5", "1,2,3", "1.2.3", "1 250", "12mm", "twelve", "1'250", ".", "--1", "0x10", "Infinity"]
+    for language in ("en", "de"):
+        assert read_in_the_page(list(same), language) == [[value, False] for value in same.values()]
+        assert read_in_the_page(wrong, language) == ["unreadable"] * len(wrong)
+    texts = ["12,5", "12.5", ",5", "0,125", "0.125", "1,250", "1.250", "1,25", "1234,567"]
+    values = [12.5, 12.5, 0.5, 0.125, 0.125, 1.25, 1.25, 1.25, 1234.567]
+    for language, sign in (("en", "."), ("de", ",")):
+        wanted = [[value, sign not in text] for text, value in zip(texts, values, strict=True)]
+        wanted[5 if language == "en" else 6] = "ambiguous"  # three decimals, or thousands
+        assert read_in_the_page(texts, language) == wanted

@@ -64,6 +64,14 @@ def test_part_of_a_bend_is_that_of_the_library(bench):
     assert job["summary"]["flanges"] == part.flanges and len(job["summary"]["profile"]) > 20
     assert set(job["files"]) == set(PART_FILES)
     assert job["live"]["operation"] == job["live"]["operations"] == 1 and len(job["live"]["outline"]) > 20
+    assert job["summary"]["coarse_mesh"] and "force, springback and thinning" in job["summary"]["coarse_mesh"][0]
+    assert job["summary"]["press"]["force"] >= 0.5 * bend["largest_force"]
+    for collisions in ([], ["bend 1: the part collides"]):  # which is not listed as done
+        summary = {**job["summary"], "collisions": collisions}
+        assert collisions or summary == job["summary"]
+        bench.queue.index.change(name, "done", summary=summary)
+        row = next(row for row in bench.client.get("/api/jobs").json()["jobs"] if row["id"] == name)
+        assert row["summary"]["collides"] == bool(collisions)
 
 
 @pytest.mark.long

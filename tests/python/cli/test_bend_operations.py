@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
+
 import pytest
 from typer.testing import CliRunner
 
 from umform.cli import app
 from umform.errors import InvalidValue
+from umform.processes.bend_sequence.collisions import Collision
 
 PRESS = ["--bottoming", "--die-angle", "88", "--punch-angle", "88"]
 
@@ -37,6 +40,22 @@ def test_the_command_refuses(typed, message, tmp_path, monkeypatch):
     assert done.exit_code == 1
     assert message in done.stderr
     assert not (tmp_path / "out").exists()
+
+
+def test_a_part_that_collides_is_not_done(tmp_path, monkeypatch):
+    (tmp_path / "part.toml").write_text("length = 40.0\n[[bends]]\nposition = 18.0\nstroke = 0.4\n")
+    coarse = ["--elements-per-thickness", "1", "--layers", "1", "--increment", "0.025"]
+    typed = ["bend", "--sequence", str(tmp_path / "part.toml"), *coarse, "--out", str(tmp_path / "out"), "--overwrite"]
+    assert CliRunner().invoke(app, typed).exit_code == 0
+    hits = [Collision("punch", 0.3, 9.0)]
+    monkeypatch.setattr("umform.processes.bend_sequence.run.collisions", lambda *given: hits)
+    monkeypatch.setattr("umform.processes.bend_sequence.foreseen.collisions", lambda *given: hits)
+    done = CliRunner().invoke(app, typed)
+    assert done.exit_code == 1
+    assert "bend 1: by its geometry the part will collide with the body of the punch" in done.stderr
+    assert done.stderr.count("this part cannot be bent so: bend 1: the part collides") == 1
+    (said,) = json.loads((tmp_path / "out" / "sequence.json").read_text())["collisions"]
+    assert "at 27 mm from the left end" in said
 
 
 @pytest.mark.parametrize("thickness", [1.0, 3.0])

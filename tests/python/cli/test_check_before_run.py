@@ -56,7 +56,7 @@ def test_a_run_warns_of_what_is_unusual(deck):
     assert run.exit_code == 0
     assert run.stderr.count("the force climbs in stairs") == 1
     quiet = umform("run", deck, *SHORT, *fine, "--overwrite")
-    assert quiet.stderr == ""
+    assert "stairs" not in quiet.stderr
 
 
 @pytest.mark.parametrize(

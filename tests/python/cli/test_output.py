@@ -50,7 +50,7 @@ def disk_full(*arguments, **options):
 def test_a_run_whose_words_find_no_place_says_where_its_files_are(lead, cause, deck):
     run = shell(f"$umform run deck.toml --out out {' '.join(FAST)} {lead}", deck.parent)
     assert run.returncode == 1
-    assert run.stderr.count("umform:") == 1
+    assert run.stderr.count("remedy:") == 1
     assert "standard output takes no text" in run.stderr
     assert cause in run.stderr
     assert "the files of the run are in out" in run.stderr

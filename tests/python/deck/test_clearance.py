@@ -40,6 +40,46 @@ def test_a_stroke_away_from_the_sheet(texts, found):
     assert any("away from the sheet" in finding.text for finding in below)
 
 
+def test_a_tool_of_stretch_bending_may_move_away(texts, found):
+    """Grips that pull the sheet over a block bring it after a tool that moves away from its first place."""
+    text = texts("hat-rail")
+    wrong = {"steps__1__to__stroke": -40.0}
+    assert any("away" in row.text for row in found(text, "step 2", **wrong))  # without grips it is a mistake
+    pull = '[controls.pull]\nkind = "force"\nnodes = "x1"\nforce = [1.0, 0.0, 0.0]\n'
+    first, _, last = text.rpartition("[[steps]]")  # the one that opens the tools
+    grips = f'{first}{pull}[[steps]]\nkind = "move"\nto = {{ pull = 1.0 }}\nincrements = 2\n[[steps]]{last}'
+    assert grips != text and not any("away" in row.text for row in found(grips, "step 2", **wrong))
+
+
+def test_a_quarter_of_a_disc_is_as_long_as_the_disc(texts, found):
+    """Its radius is 53.75: a stroke of 60 mm is not longer than the sheet, one of 120 is."""
+    said = [
+        [row.level.value for row in found(texts("cup"), "step 1", steps__0__to__stroke=way)] for way in (60.0, 120.0)
+    ]
+    assert said == [["ok"], ["warning"]]
+    text = texts("cup")
+    far = [found(text.replace("[0.0, 0.5], [30.0, 0.5], [30.0, 90.0]", f"[0.0, {z}], [30.0, {z}], [30.0, 290.0]"),
+                 "contact punch") for z in (80.0, 120.0)]  # fmt: skip
+    assert [any("farther away" in row.text for row in rows) for rows in far] == [False, True]
+
+
+def test_controls_that_no_step_moves_are_what_they_are(texts, found):
+    """A cushion on a spring works without a step; a grip is a support; a press without its force lets the tool go."""
+    text = texts("hat-rail")
+
+    def idle(lines, text=text):
+        return found(f"{text}\n[controls.still]\n{lines}", "control still")
+
+    (spring,) = idle('kind = "spring"\ncontact = "die"\ndirection = "z"\nstiffness = 50.0\npreload = 100.0')
+    assert spring.level is Level.OK and "a spring with its preload" in spring.text
+    (grip,) = idle('kind = "displacement"\nnodes = "x1"\ndirection = "y"', texts("cantilever"))
+    assert grip.level is Level.WARNING and "fix the nodes" in grip.remedy and "take it out" not in grip.remedy
+    (press,) = idle('kind = "press"\ncontact = "die"\ndirection = "z"')
+    assert press.level is Level.WARNING and "nothing holds the tool" in press.text
+    (load,) = idle('kind = "pressure"\nfaces = "upper"')
+    assert load.level is Level.WARNING and "take it out" in load.remedy
+
+
 def test_an_overlap_after_a_new_thickness_names_the_key(texts, found):
     text = texts("hat-rail")
     (die,) = [row for row in found(text, "contact die", mesh__thickness=1.5) if "overlap" in row.text]

@@ -14,7 +14,7 @@ from umform.deck.templates import template, template_file
 from umform.deck.unloading import loading_steps
 from umform.errors import InvalidValue
 from umform.report.symmetry import Mirror
-from umform.results.forming import EarProfile, Section, forming_fields, lay_by_best_fit, section
+from umform.results.forming import Section, forming_fields, lay_by_best_fit, section
 from umform.results.forming.sections import horizontal
 
 SHORT = [
@@ -254,11 +254,3 @@ def test_a_section_that_is_no_hat():
     assert "heights = [" in caught.value.remedy
     with pytest.raises(InvalidValue, match="no hat: it has no flange"):
         half(hat(0.0)[:91]).angles((15.0, 35.0, 55.0), "formed")
-
-
-def test_waves_of_a_rim():
-    angle = np.linspace(0.0, 90.0, 46)
-    profile = EarProfile(angle, 20.0 + 0.8 * np.cos(np.radians(4 * angle)) + 0.1 * np.cos(np.radians(8 * angle)))
-    assert profile.harmonic(4) == pytest.approx(0.8, rel=5e-3)
-    assert profile.harmonic(8) == pytest.approx(0.1, rel=3e-2)
-    assert profile.harmonic(2) == pytest.approx(0.0, abs=1e-9)

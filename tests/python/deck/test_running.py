@@ -49,6 +49,15 @@ def whole(folder):
     return names
 
 
+def test_results_of_a_coarse_mesh_say_so(texts, tmp_path):
+    path = tmp_path / "bend.toml"
+    text = texts("air-bending").replace("increments = 100", "increments = 1").replace("stroke = 5.0", "stroke = 0.01")
+    path.write_text(text.split("[[steps]]                  # springback")[0])
+    answer = umform("run", path, "--out", tmp_path / "out", "--set", "mesh.cells=[10, 1]")
+    assert "coarse mesh: an element spans" in answer.output and "error is unknown" in answer.output
+    assert "coarse mesh: an element spans" in (tmp_path / "out" / "report.html").read_text()
+
+
 def test_run_writes_everything(deck, tmp_path):
     deck.write_text('title = "A strip that is pulled <far>"\n' + deck.read_text())
     out = tmp_path / "a" / "b"
@@ -113,8 +122,11 @@ def test_interrupt_writes_what_was_reached(deck, tmp_path, monkeypatch):
     answer = umform("run", deck, "--out", tmp_path / "out", "--set", "steps.0.increments=9")
     assert answer.exit_code == 130
     assert "interrupted; the results so far are written" in answer.output
-    assert whole(tmp_path / "out") == FILES  # cut off within its first minute: there is no checkpoint yet
+    assert whole(tmp_path / "out") == FILES | {"checkpoint.h5"}  # also when it is cut off within its first minute
     assert len(rows(tmp_path / "out")) == 4
+    monkeypatch.undo()
+    assert umform("resume", tmp_path / "out" / "checkpoint.h5").exit_code == 0
+    assert len(rows(tmp_path / "out")) == 10 and whole(tmp_path / "out") == FILES
 
 
 def test_interrupt_while_writing_leaves_no_half_file(deck, tmp_path, monkeypatch):

@@ -13,6 +13,7 @@ import umform as uf
 from umform import _core, elements
 from umform import materials as mt
 from umform.elements import CATALOGUE, Element, Term, Tying, element, thickness_rule
+from umform.elements.staggered import section_rule
 from umform.errors import InvalidValue
 from umform.mesh import strip
 from umform.model import Model
@@ -271,12 +272,16 @@ def test_the_elements_for_bends_are_order_4_with_tying(name, base):
     ("name", "given", "through"),
     [
         ("DISP3D", {}, (5, "gauss")),
-        ("ANS3DEAS", {}, (18, "graded")),
+        ("ANS3DEAS", {}, (12, "staggered")),
         ("ANS3DEAS", {"thickness_rule": "lobatto"}, (18, "lobatto")),
-        ("BEND8", {}, (18, "graded")),
+        ("BEND8", {}, (12, "staggered")),
+        ("BEND8", {"thickness_order": 12}, (14, "staggered")),
+        ("BEND8", {"plane_strain": True}, (20, "staggered")),
         ("BEND8", {"thickness_points": 9}, (9, "gauss")),
         ("BEND8", {"thickness_rule": "gauss"}, (18, "gauss")),
-        ("BEND18", {}, (18, "graded")),
+        ("BEND18", {}, (18, "staggered")),
+        ("BEND18", {"thickness_rule": "graded"}, (18, "graded")),
+        ("DISP3D", {"thickness_rule": "staggered"}, (12, "staggered")),
     ],
 )
 def test_points_through_the_thickness_that_a_plastic_law_gets(name, given, through):
@@ -289,7 +294,7 @@ def test_points_through_the_thickness_that_a_plastic_law_gets(name, given, throu
 @pytest.mark.parametrize(
     ("name", "given", "order"),
     [
-        ("ANS3DEAS", {}, 17),
+        ("ANS3DEAS", {}, 11),
         ("MI9K3DEAS", {}, 17),
         ("EAS3DEAS", {"thickness_points": 5}, 4),
         ("ANS3DEAS", {"thickness_order": 1}, 1),
@@ -310,7 +315,9 @@ def test_a_plastic_law_gets_the_complete_order(name, given, order):
 def test_modes_of_ones_own_are_completed_unless_the_element_says_no(name):
     mine = replace(element("ANS3DEAS"), name=name, modes=elements.thickness_modes(1, 1))
     steel, sheet = uf.J2(kappa=175e3, mu=80e3, hardening=uf.Perfect(160.0)), uf.mesh.strip(2, 1, 1, (2, 1))
-    assert uf.Model(sheet, mine, material=steel).element.modes == elements.thickness_modes(1, 17)
+    assert uf.Model(sheet, mine, material=steel).element.modes == elements.column_modes((2, 2), 11)
+    graded = uf.Model(sheet, mine, material=steel, thickness_rule="graded")
+    assert graded.element.modes == elements.thickness_modes(1, 17)
     as_given = replace(mine, complete=False)
     assert uf.Model(sheet, as_given, material=steel).element == as_given
 
@@ -495,7 +502,8 @@ def test_graded_points_are_exact_on_each_half_and_dense_at_the_faces(points):
 
 def test_the_default_points_find_the_permanent_curvature_of_a_perfectly_plastic_strip():
     """One border of flow at 1/k, eq. (2.49): within 3 % at every curvature from 1.1 times the yield moment on."""
-    t, w = thickness_rule(*element("ANS3DEAS").plastic_rule)
+    made = element("ANS3DEAS")
+    t, w = section_rule(made.plastic_rule[0], made.surface_rule)
     k = np.linspace(1.12, 25.0, 4000)
     exact = k - (1.5 - 0.5 / k**2)
     moments = 1.5 * np.clip(np.outer(k, t), -1.0, 1.0) @ (w * t)
@@ -505,7 +513,10 @@ def test_the_default_points_find_the_permanent_curvature_of_a_perfectly_plastic_
     assert np.abs((k - moments) / exact - 1.0).max() > 0.05
 
 
-@pytest.mark.parametrize(("points", "rule"), [(1, "gauss"), (21, "gauss"), (4, "simpson"), (11, "graded")])
+@pytest.mark.parametrize(
+    ("points", "rule"),
+    [(1, "gauss"), (21, "gauss"), (4, "simpson"), (11, "graded"), (11, "staggered"), (4, "staggered")],
+)
 def test_thickness_rules_out_of_range_are_refused(points, rule):
     with pytest.raises(InvalidValue):
         thickness_rule(points, rule)

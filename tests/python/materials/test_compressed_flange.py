@@ -8,8 +8,8 @@ from scipy.integrate import quad
 
 from umform.materials import Hill48, Metal, Voce
 from umform.sheet_metals import uniaxial
-from umform_book.drawing.cups import aa6016, fourth
-from umform_book.drawing.rim import compressed_flange
+from umform_book.drawing.cups import aa6016
+from umform_book.drawing.rim import compressed_flange, narrow_ring
 
 BLANK, WALL = 53.75, 30.6
 
@@ -28,6 +28,16 @@ def test_ears_stand_where_the_rim_across_has_a_large_r() -> None:
     profile = compressed_flange(metal, BLANK, WALL)
     r = [uniaxial(metal.yield_function, angle + 90.0)[1] for angle in profile.angle]
     assert np.argmax(profile.height) == np.argmax(r)
-    size, angle = fourth(profile)
+    size, angle = profile.wave(4)
     assert size > 0.3
     assert abs(angle) < 5.0
+
+
+@pytest.mark.parametrize(("card", "rolling"), [("", 0.0), ("", 20.0), ("Postech", 0.0), ("Hill48", 0.0)])
+def test_a_narrow_ring_has_the_ears_of_its_r_values(card: str, rolling: float) -> None:
+    """Elements, law and rolling direction: every radius of a ring that is compressed around itself."""
+    found, expected = narrow_ring(aa6016(card), 0.2, rolling)
+    np.testing.assert_allclose(found.height, expected.height, atol=1e-3)
+    size, angle = found.wave(4)
+    assert size == pytest.approx(expected.wave(4)[0], rel=0.03) and size > 0.01
+    assert angle == pytest.approx(rolling, abs=0.01)

@@ -7,7 +7,7 @@ import pytest
 
 from umform import materials as mt
 from umform_book.material import fibres
-from umform_book.material.metals import HARDENING
+from umform_book.metals import HARDENING
 
 
 @pytest.mark.parametrize("name", HARDENING)

@@ -266,6 +266,50 @@ def test_the_work_of_friction_closes_the_balance():
     assert drifts[2] < 1e-4
 
 
+@pytest.mark.parametrize("rule", [{"points": 2}, {"points": "nodes"}, {"cells": 3}, {"augmented": True, "slip": 1e-4}])
+def test_the_work_of_friction_is_exact_in_few_increments(rule):
+    """Of a block drawn to and fro under a constant force, wherever in an increment it begins to slip."""
+    for steps in (3, 10):
+        model, ways = block(**rule)
+        moves = [Move(ways["z"], -0.01, steps=1), Move(ways["z"], -0.01, steps=20)]
+        moves += [Move(ways["x"], to, steps=steps) for to in (0.2, 0.05)]
+        result = solve(model, moves, frames=0)
+        normal = -result["table_fz"][-1]
+        there, back = result["table_elastic_slip"][[21 + steps, -1]]  # of the ends of both ways
+        shear = 0.2 * normal / 12.0 / (1000.0 / 2.0)  # of the block: the upper face goes that much farther at first
+        slid = 0.2 - there - shear + 0.15 - there - back - 2.0 * shear
+        np.testing.assert_allclose(-result["table_fz"][21:], normal, rtol=2e-3)
+        assert result["friction_work"][-1] == pytest.approx(0.2 * normal * slid, rel=2e-3)
+        drift = result.balance().drift
+        assert np.abs(drift[21:] - drift[21]).max() < 3e-3  # multipliers do a work before
+
+
+@pytest.mark.parametrize("rule", [{"points": 2}, {"points": "nodes"}, {"cells": 3}])
+def test_the_work_of_points_that_leave_the_tool_and_touch_it_closes_the_balance(rule):
+    """A block is drawn off the edge of a table and back, or the table below it, straight or about an axis."""
+    works = []
+    for mover in ("block", "table", "turning table"):
+        model = Model(strip(4.0, 1.0, 1.0, (8, 1)), material=mt.SVK(E=1e4, nu=0.0))
+        everything = np.arange(len(model.mesh.points))
+        way = model.prescribe(everything, "x", "way")
+        model.fix(everything, "y")
+        press = model.prescribe("upper", "z", "press")
+        table = model.tool("table", uf.Box((-4.0, 0.0, -2.5), (12.0, 20.0, 4.0), radius=0.5))
+        model.contact("lower", table, penalty=1e4, friction=0.3, slip=1e-4, name="table", **rule)
+        if mover == "table":
+            way = model.drive(table, "-x")
+        if mover == "turning table":
+            way = model.turn(table, "z", about=(0.0, -8.0, 0.0))
+        far = 0.3 if mover == "turning table" else 3.0
+        steps = [Move(press, -1e-3, steps=1), Move(way, far, steps=10), Move(way, 0.3 * far, steps=10)]
+        result = solve(model, steps, frames=0)
+        assert result["table_active"][1] > 2 and result["table_active"][11] == 0 and result["table_active"][-1] > 2
+        assert np.abs(result.balance().drift).max() < 0.01
+        works.append(result["friction_work"][-1])
+    assert works[1] == pytest.approx(works[0], rel=1e-9)
+    assert works[2] == pytest.approx(works[0], rel=0.1)  # another way, of about the same length
+
+
 def test_multipliers_take_the_elastic_slip_and_the_creep_away():
     model, ways = block(augmented=True, penetration=1e-5, slip=1e-5, penalty=1000.0)
     result = solve(model, [Move(ways["z"], -0.01, steps=2), Move(ways["x"], 0.0015, steps=30)])

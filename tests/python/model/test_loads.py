@@ -323,7 +323,7 @@ def test_thickness_points_by_default_suit_material_and_order():
 
     assert points(LAW) == 2
     assert points(LAW, thickness_order=3) == 4
-    assert points(mt.J2(E=1.0, nu=0.3, hardening=mt.Perfect(1.0))) == 18
+    assert points(mt.J2(E=1.0, nu=0.3, hardening=mt.Perfect(1.0))) == 12
 
 
 @pytest.mark.parametrize(

@@ -40,6 +40,7 @@ def test_a_holder_lies_on_its_blocks_and_lifts_off_under_the_largest_force(depth
     result = uf.solve(model, [uf.Close(hold, -300.0), uf.Move(hold, -400.0, steps=1)], progress=False)
     way, force, stop = forces(result)
     assert way == pytest.approx(at, abs=1e-14)
+    assert result["hold_way"].min() >= at - 1e-14  # on the way there too
     assert force == pytest.approx(borne, rel=2e-3)  # the sheet is not linear
     assert force + stop == pytest.approx(400.0, rel=1e-12)
     if depth > 0.0:
@@ -65,6 +66,11 @@ def test_a_rigid_stop_is_the_limit_of_elastic_ones():
     model.stop(hold, -0.05)
     result = uf.solve(model, [uf.Close(hold, -300.0), uf.Move(hold, 70.0, steps=1)], progress=False)
     assert forces(result) == pytest.approx((-0.05, 0.0, -70.0), abs=1e-12)
+
+
+def test_an_elastic_stop_that_is_not_reached_bears_nothing():
+    result = uf.solve(*_run(pressed(-1.0, stiffness=1e3)), progress=False)
+    assert result["holder_fz"][-1] == pytest.approx(300.0, rel=1e-9)
 
 
 def _run(built):

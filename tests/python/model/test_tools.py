@@ -297,8 +297,8 @@ def test_columns_and_work_are_those_of_the_tool_over_all_its_pairs():
     for column in ("bed_fz", "bed_my", "lift_force", "external_work", "contact_energy"):
         np.testing.assert_allclose(two[column], one[column], rtol=1e-9, atol=1e-9)
     assert [name for name in two.columns() if name.startswith("half")] == [
-        "half0_penetration", "half0_active", "half1_penetration", "half1_active",
-    ]  # fmt: skip
+        f"half{k}_{what}" for k in (0, 1) for what in ("penetration", "penetration_energy", "penalty", "active")
+    ]
 
 
 # The pose is a part of the state -----------------------------------------------------------------------------

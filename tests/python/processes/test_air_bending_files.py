@@ -239,7 +239,7 @@ def test_the_command_takes_a_metal_of_the_library(tmp_path):
     assert "DC04: EN 10130" in done.output
     assert "DC04: EN 10130" in (tmp_path / "report.html").read_text()
     record = json.loads((tmp_path / "bend.json").read_text())
-    reached = re.findall(r"contact (\w+): penetration up to (\S+), 0.01 allowed; penalty", done.output)
+    reached = re.findall(r"contact (\w+): penetration up to (\S+), 0.01 allowed;", done.output)
     assert [name for name, _ in reached] == ["die", "punch"]
     assert max(float(depth) for _, depth in reached) == pytest.approx(record["penetration"], rel=1e-2)
     assert 270.0 <= record["tensile_strength"] <= 350.0

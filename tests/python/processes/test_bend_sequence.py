@@ -14,6 +14,7 @@ from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.bend_sequence import Bend, BendSequence, Bodies, bend_sequence
 from umform.processes.bend_sequence.collisions import Collision, collisions, die_body, punch_body
 from umform.processes.bend_sequence.files import FILES, record, write_files
+from umform.processes.bend_sequence.foreseen import foreseen_collisions, foreseen_text
 from umform.processes.bend_sequence.form import read_sequence, sequence_form
 from umform.processes.bend_sequence.sides import Strip
 from umform.processes.bend_sequence.strip import strip_lines
@@ -81,6 +82,24 @@ def test_a_collision_is_told_in_plain_words(profile_z):
     (said,) = replace(profile_z, bends=(hit, *profile_z.bends[1:])).warnings
     assert "bend 1: the part collides with the body of the punch from a stroke of 7.8 mm on, at 30 mm from" in said
     assert "invalid" in said
+
+
+def test_collisions_are_foreseen_by_geometry():
+    """The parts of docs/bending-operations.md: runs find none in U and Z, and one in the narrow U from 2 mm on."""
+
+    def part(length, *bends):
+        return BendSequence(length, tuple(Bend(at, 90.0, direction=way) for at, way in bends), SHEET)
+
+    free = [part(120.0, (35.0, "up"), (85.0, "up")), part(110.0, (30.0, "up"), (75.0, "down"))]
+    assert [foreseen_collisions(one) for one in free] == [{}, {}]
+    narrow = part(145.0, (60.0, "up"), (85.0, "up"))
+    ((hit,),) = foreseen_collisions(narrow).values()
+    assert hit.tool == "punch" and 1.0 < hit.stroke < 3.5
+    over = part(145.0, (60.0, "down"), (85.0, "down"))  # the same, seen from the other face
+    ((same,),) = foreseen_collisions(over).values()
+    assert same.stroke == pytest.approx(hit.stroke) and same.distance == pytest.approx(-hit.distance)
+    assert "bend 2: by its geometry the part will collide" in foreseen_text(over, 2, same)
+    assert foreseen_collisions(part(145.0, (60.0, "up"), (85.0, "down"))) == {}
 
 
 def test_about_a_bend_line_the_mesh_is_that_of_a_single_bend():

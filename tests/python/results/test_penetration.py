@@ -41,12 +41,15 @@ def test_a_tool_that_touches_is_not_named():
     assert about(pressed(-1.0, above=-1e-4), "never touched") == []  # it opens
 
 
-def test_a_tool_at_rest_may_stay_apart():
+def test_a_fixed_tool_that_never_touches_is_noted_without_a_warning():
     model = uf.Model(uf.mesh.strip(4.0, 4.0, 1.0, (2, 2)), material=uf.SVK(E=2e5, nu=0.3))
     model.fix("x0")
     model.contact("lower", uf.Plane((0.0, 0.0, -3.0), "z"), name="stop")
     result = uf.solve(model, uf.Move(model.prescribe("x1", "x", "pull"), 0.01, steps=1), frames=0, progress=False)
     assert about(result, "never touched") == []
+    (note,) = [text for text in result.events if "never touched" in text]
+    assert "contact stop" in note and "the tool stop is fixed" in note
+    assert not any("never touched" in text for text in pressed(0.52, above=0.5).events)
 
 
 def test_the_penetration_of_a_run_before_is_not_named_again():

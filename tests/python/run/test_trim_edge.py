@@ -142,11 +142,9 @@ def test_plastic_strain_stays_between_its_extremes_and_releases_nothing_new(bent
     eqps = part.model.block.state[~part.same][..., 6]
     around = whole.block.state[1:5, :, 6]
     assert around.max() >= eqps.max() > 0.01 and eqps.min() >= 0.0
-    det = [np.linalg.det(part.model.block.state[~part.same][0, k, [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]) for k in (0, 9)]
-    np.testing.assert_allclose(det, 1.0, atol=1e-10)  # plastic flow keeps the volume
     work = part.model.block.energy(part.model.u)[1]
     springback(part)
-    assert part.model.block.energy(part.model.u)[1] == pytest.approx(work, rel=2e-3)
+    assert part.model.block.energy(part.model.u)[1] == pytest.approx(work, rel=1e-6)
 
 
 def test_a_line_on_the_formed_part_is_met_where_the_part_is(bent):
@@ -213,6 +211,24 @@ def test_states_beyond_the_last_points_are_means_of_known_ones():
     sheet = Sheet.of(mesh)
     x = mesh.points[sheet.nodes[:, 0], :2]
     new = np.array([[[0.0, 0.0], [0.1, 0.0], [0.1, 1.0], [0.0, 1.0]]])
-    weights = Weights.between(sheet, x, np.arange(2), new, (2, 2))
+    weights = Weights.between(sheet, x, np.arange(2), new, (2, 2), np.array([-0.6, 0.6]))
     assert (weights.share >= 0.0).all()
     np.testing.assert_allclose(weights.share.sum(axis=-1), 1.0, rtol=1e-14)
+
+
+def test_a_linear_field_of_the_points_is_met():
+    """In a new stack between the points of an old one, shares give back a linear field. eq. (1.32)"""
+    mesh = uf.mesh.strip(2.0, 1.0, 1.0, (1, 1))
+    sheet = Sheet.of(mesh)
+    x = mesh.points[sheet.nodes[:, 0], :2]
+    new = np.array([[[0.6, 0.3], [1.2, 0.4], [1.1, 0.6], [0.7, 0.7]]])
+    weights = Weights.between(sheet, x, np.arange(1), new, (2, 2), np.zeros(1))
+    g = 0.5 / np.sqrt(3.0)
+    places = np.array([[1.0 + 2.0 * a * g, 0.5 + b * g] for b in (-1, 1) for a in (-1, 1)])
+    N = [
+        [0.25 * (1.0 + a * 2 * g) * (1.0 + b * 2 * g) for a, b in ((k, m), (-k, m), (-k, -m), (k, -m))]
+        for m in (-1, 1)
+        for k in (-1, 1)
+    ]
+    expected = np.einsum("qa,ai->qi", N, new[0][[2, 3, 0, 1]])
+    np.testing.assert_allclose(weights.mean(places[None])[0], expected, atol=1e-12)

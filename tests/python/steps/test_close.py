@@ -64,6 +64,13 @@ def test_the_last_increment_of_closing_converges_quadratically():
     assert residuals[-1] < max(100.0 * residuals[-2] ** 1.7, 1e-11)
 
 
+def test_the_force_is_met_where_other_increments_are_loose():
+    model, punch = beam()
+    press = model.press(punch, "z", "press")
+    result = solve(model, Close(press, force=-200.0), options=NewtonOptions(residual=0.2, increment=1.0))
+    assert result["punch_fz"][-1] == pytest.approx(200.0, rel=1e-8)
+
+
 def test_closing_gives_what_a_press_gives_that_touched_before():
     """The way over which the tool came does not matter to the sheet, be it far away or too near."""
     near, far = [], []

@@ -69,6 +69,7 @@ def test_both_springbacks_agree(friction, apart):
     assert np.abs(faded.lower - opened.lower).max() < apart * springback
     reactions = result.frames[-1].points["reaction"].ravel()[gauge.held]
     assert np.abs(reactions).max() < 1e-8 * np.abs(result["die_fz"][0])
+    np.testing.assert_array_equal(result["hold"][1:], 0.0)
     for tool in ("die", "holder", "punch"):
         np.testing.assert_array_equal(result[f"{tool}_fz"][1:], 0.0)
         np.testing.assert_allclose(result[f"{tool}_left"][1:], np.linspace(1, 0, 7)[1:], atol=1e-12)
@@ -155,6 +156,7 @@ def test_tools_act_again_if_the_first_increment_fails():
     assert not any(tool.open for tool in part.model.tools)
     assert gauge.removed
     assert part.hold.value == -10.0
+    assert [tool.load.value for tool in part.model.tools] == [0.0, 0.0, 0.0]
     np.testing.assert_array_equal(part.model.u, u)
     found = part.model.evaluate(part.model.x).found[part.model.contacts[2]]
     np.testing.assert_allclose(found.resultant()[0], force, rtol=1e-9)

@@ -54,6 +54,15 @@ def test_springs_that_still_act_at_the_end_are_a_warning():
     assert any("still act" in warning for warning in result.warnings)
 
 
+def test_springs_stay_while_they_carry_part_of_the_load():
+    """Springs with 1.5 % of the forces of contact would let the sheet jump."""
+    model, hold = loose()
+    model.rest(stiffness=10.0)
+    result = solve(model, Close(hold, force=-200.0))
+    assert result["rest_acts"][-1] == 1.0
+    assert result["die_fz"][-1] == pytest.approx(-200.0 + 10.0 * 0.6, rel=1e-2)
+
+
 def test_springs_with_too_much_energy_are_a_warning():
     model, hold = loose()
     model.rest(stiffness=1.0)
@@ -71,7 +80,7 @@ def test_a_loose_sheet_that_tools_will_hold_rests_on_springs_by_itself():
     assert "translation z" in by_itself.events[0]
     assert by_itself["rest_acts"][[0, -1]].tolist() == [1.0, 0.0]
     assert 0.0 < by_itself["rest_energy"][-1] < 1e-6 * by_itself["external_work"][-1]
-    assert not by_itself.warnings
+    assert not [text for text in by_itself.warnings if "external work" not in text]
     other, hold = loose(0.2, supported=False)
     other.rest()
     np.testing.assert_array_equal(solve(other, Close(hold, force=-200.0))["holder_fz"], by_itself["holder_fz"])

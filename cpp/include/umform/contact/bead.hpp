@@ -27,8 +27,8 @@ struct Bead {
     static constexpr bool follows_places = true;
     static std::vector<Quantity> quantities() {
         return {{"multiplier", 1},  // none: always zero
-                {"held", 1},       {"place", 3}, {"share", 1}, {"traction", 3},        {"lift", 3},
-                {"stored", 1},     {"slip", 1},  {"work", 1},  {"work of the lift", 1}};
+                {"held", 1},       {"place", 3}, {"share", 1}, {"traction", 3},         {"lift", 3},
+                {"stored", 1},     {"slip", 1},  {"work", 1},  {"work of the lift", 1}, {"work above the mean", 1}};
     }
 
     double stiffness(const double*) const { return penalty; }
@@ -39,7 +39,7 @@ struct Bead {
         std::fill(trial + Held, trial + Slip, 0.0);
         trial[Slip] = state[Slip];
         put(trial + Where, z);
-        add_work(state, trial);
+        add_work(state, trial, 0.0);
     }
 
     /// What has happened since the converged state was the work of loads.
@@ -55,7 +55,7 @@ struct Bead {
         Vec3 elastic = at(history + Traction);
         const double size = std::sqrt(dot(elastic, elastic));
         for (double& value : elastic) value *= size > 0.0 ? -slip * std::abs(history[Share]) / size : 0.0;
-        return {elastic, history[Slip], history[Stored] + history[LiftWork], history[Work]};
+        return {elastic, history[Slip], history[Stored] + history[LiftWork], history[Work], history[Above]};
     }
 
     bool respond(const Place& place, double weight, const double* state, double* trial, Reaction& reaction) const {
@@ -97,7 +97,14 @@ struct Bead {
         put(trial + Lift, place.pose.turn_back(lift));
         trial[Stored] = 0.5 * s * slip * share * share;
         trial[Slip] = state[Slip] + std::abs(dot(band.c, slide.D));
-        add_work(state, trial);
+        double above = 0.0;
+        if (held && slips) {
+            const Vec3 t_n = at(state + Traction);
+            const double before = std::sqrt(dot(t_n, t_n)), irreversible = slip * std::abs(wanted - share);
+            const double onset = std::abs(state[Share]) == 1.0 ? before : std::max(before, s);
+            above = 0.5 * (onset - std::copysign(before, state[Share] * share)) * irreversible;
+        }
+        add_work(state, trial, above);
         return true;
     }
 
@@ -112,7 +119,8 @@ struct Bead {
         Stored = 12,
         Slip = 13,
         Work = 14,
-        LiftWork = 15
+        LiftWork = 15,
+        Above = 16
     };
 
     static Vec3 at(const double* history) { return {history[0], history[1], history[2]}; }
@@ -171,9 +179,11 @@ struct Bead {
         static constexpr double least = 0.1;
     };
 
-    /// Work of both tractions by their mean along the way in the frame of the tool, less what is stored. eq. (4.106)
-    void add_work(const double* state, double* trial) const {
-        double across = 0.0, up = 0.0;
+    /// Work of both tractions by their mean along the way in the frame of the tool, less what is stored, and what the mean misses.
+    /// eqs. (4.106), (4.220)
+    /// Not inlined: places near the tool and far from it get the same bits.
+    [[gnu::noinline]] void add_work(const double* state, double* trial, double above) const {
+        double across = above, up = 0.0;
         for (int k = 0; k < 3; ++k) {
             const double way = trial[Where + k] - state[Where + k];
             across -= 0.5 * (state[Traction + k] + trial[Traction + k]) * way;
@@ -181,6 +191,7 @@ struct Bead {
         }
         trial[Work] = state[Work] + across - (trial[Stored] - state[Stored]);
         trial[LiftWork] = state[LiftWork] + up;
+        trial[Above] = state[Above] + above;
     }
 };
 

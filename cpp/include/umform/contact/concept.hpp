@@ -40,6 +40,7 @@ struct Rubbing {
     Vec3 elastic_slip{};  // now, in the frame of the tool
     double slip = 0.0;    // distance slid in all
     double stored = 0.0, work = 0.0;
+    double above = 0.0;      // part of the work that the mean traction of each increment misses. eq. (4.220)
     double stiffness = 0.0;  // traction per elastic slip
 };
 

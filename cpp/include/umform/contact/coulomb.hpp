@@ -28,7 +28,8 @@ struct Coulomb {
                 {"change of tangential multiplier", 3},
                 {"slip", 1},
                 {"friction work", 1},
-                {"tangential stiffness", 1}};
+                {"tangential stiffness", 1},
+                {"friction work above the mean", 1}};
     }
 
     double stiffness(const double* history) const { return std::max(penalty, history[Stiffness]); }
@@ -38,9 +39,13 @@ struct Coulomb {
     void leave(const Vec3& z, const double* state, double* trial) const {
         std::fill(trial + Held, trial + Change, 0.0);
         put(trial + Where, z);
-        trial[Slip] = state[Slip], trial[Work] = state[Work];
+        trial[Slip] = state[Slip];
         trial[Stiffness] = ratio * penalty;
+        add_work(state, trial, 0.0);
     }
+
+    /// What has happened since the converged state was the work of loads.
+    void forget_work(const double* state, double* trial) const { trial[Work] = state[Work]; }
 
     /// Writes the requested multipliers to the input history.
     void put_wanted(const double* trial, double* read) const {
@@ -55,7 +60,7 @@ struct Coulomb {
         const Vec3 t = at(history + Traction), lambda = at(history + Tangential);
         Vec3 elastic;
         for (int k = 0; k < 3; ++k) elastic[k] = (lambda[k] - t[k]) / tangential_stiffness(history);
-        return {elastic, history[Slip], stored(history), history[Work], tangential_stiffness(history)};
+        return {elastic, history[Slip], stored(history), history[Work], history[Above], tangential_stiffness(history)};
     }
 
     /// Lets multipliers carry a traction at a place that is held, as far as it points along the tool. eq. (4.50)
@@ -132,7 +137,8 @@ struct Coulomb {
             for (int j = 0; j < 3; ++j) reaction.K[i][j] = -weight * (pressure * place.H(i, j) + dt(i, j));
         }
         trial[Stiffness] = eps;
-        remember(place.pose, facing, z, t, slide, state, trial);
+        const double irreversible = slips ? (size - bound.value) / eps : 0.0;
+        remember(place.pose, facing, z, t, slide, irreversible, state, trial);
     }
 
   private:
@@ -150,8 +156,11 @@ struct Coulomb {
         Change = 14,
         Slip = 17,
         Work = 18,
-        Stiffness = 19
+        Stiffness = 19,
+        Above = 20
     };
+    /// Held
+    static constexpr double sticking = 1.0, sliding = 2.0;
 
     double tangential_stiffness(const double* history) const {
         return history[Held] != 0.0 ? history[Stiffness] : ratio * penalty;
@@ -166,21 +175,36 @@ struct Coulomb {
         return 0.5 * (dot(t, t) - dot(lambda, lambda)) / tangential_stiffness(history);
     }
 
-    /// The new history. The work of friction is that of the mean traction along the way, less what is stored. eq. (4.49)
+    /// The new history. `irreversible` is the part of the way along the tool that is no change of the elastic slip.
     void remember(const Pose& pose, const Facing& facing, const Vec3& z, const Vec3& t, const Slide& slide,
-                  const double* state, double* trial) const {
+                  double irreversible, const double* state, double* trial) const {
         const bool held = state[Held] != 0.0;
-        const Carried t_n(pose, facing, at(state + Traction), at(state + Normal), held);
         const Carried lambda(pose, facing, sum(at(state + Tangential), at(trial + Change)), at(state + Normal), held);
-        trial[Held] = 1.0;
+        double above = 0.0;
+        if (held && irreversible > 0.0) {
+            const Vec3 t_n = Carried(pose, facing, at(state + Traction), at(state + Normal), true).value;
+            const double before = std::sqrt(dot(t_n, t_n)), after = std::sqrt(dot(t, t));
+            const double onset = state[Held] == sliding ? before : std::max(before, after);
+            above = after > 0.0 ? 0.5 * (onset - dot(t_n, t) / after) * irreversible : 0.0;
+        }
+        trial[Held] = irreversible > 0.0 ? sliding : sticking;
         put(trial + Where, z);
         put(trial + Normal, pose.turn_back(facing.n));
         put(trial + Traction, pose.turn_back(t));
         put(trial + Tangential, pose.turn_back(lambda.value));
-        double work = 0.0;
-        for (int k = 0; k < 3; ++k) work -= 0.5 * ((held ? t_n.value[k] : 0.0) + t[k]) * slide.D[k];
         trial[Slip] = state[Slip] + slide.length;
-        trial[Work] = state[Work] + work - (stored(trial) - (held ? stored(state) : 0.0));
+        add_work(state, trial, above);
+    }
+
+    /// Work of the mean traction along the way in the frame of the tool, whether it holds the place at both ends or at one, less
+    /// what is stored; and what the mean misses. eqs. (4.49), (4.220)
+    /// Not inlined: places near the tool and far from it get the same bits.
+    [[gnu::noinline]] void add_work(const double* state, double* trial, double above) const {
+        double work = above - stored(trial) + stored(state);
+        for (int k = 0; k < 3; ++k)
+            work -= 0.5 * (state[Traction + k] + trial[Traction + k]) * (trial[Where + k] - state[Where + k]);
+        trial[Work] = state[Work] + work;
+        trial[Above] = state[Above] + above;
     }
 };
 

@@ -73,9 +73,7 @@ class ContactBlockOf final : public ContactBlock {
             const int i = q - e * per_facet();
             const Reaction& reaction = workspace.reactions[i];
             const Rubbing rubbing = law_->rubbing(history);
-            found.friction_work += area_[q] * rubbing.work;
-            found.stored += area_[q] * rubbing.stored;
-            found.contact_work += area_[q] * rule_.contact_work(history + of_law_);
+            add_works(found, area_[q], rubbing, rule_.contact_work(history + of_law_));
             if (!reaction.held) return;
             round_off.add(e, weight_of_errors(q, history), values_at(e, q));
             const Vec3 &x = locator_.positions()[at(q)], &n = locator_.normals()[at(q)];
@@ -225,6 +223,11 @@ class ContactBlockOf final : public ContactBlock {
         }
     }
 
+    static void add_works(ContactFound& found, double area, const Rubbing& rubbing, double contact_work) {
+        found.friction_work += area * rubbing.work, found.work_above_mean += area * rubbing.above;
+        found.stored += area * rubbing.stored, found.contact_work += area * contact_work;
+    }
+
     /// Works of friction and pressure so far at the points of far facets, and what their law has stored.
     void add_works_of_far(ContactFound& found) const {
         if (!remembers()) return;
@@ -234,9 +237,7 @@ class ContactBlockOf final : public ContactBlock {
             leave(e, trial.data());
             for (int q = 0; q < per_facet(); ++q) {
                 const double *row = trial.data() + history_.size() * q, area = area_[e * per_facet() + q];
-                const Rubbing rubbing = law_->rubbing(row);
-                found.friction_work += area * rubbing.work, found.stored += area * rubbing.stored;
-                found.contact_work += area * rule_.contact_work(row + of_law_);
+                add_works(found, area, law_->rubbing(row), rule_.contact_work(row + of_law_));
             }
         }
     }

@@ -22,6 +22,7 @@ struct ContactFound {
     std::vector<double> slip;                  // distance slid so far
     // Energy of the elastic slip, and the work of friction so far, at all points:
     double stored = 0.0, friction_work = 0.0;
+    double work_above_mean = 0.0;    // part of the work of friction that no mean of forces has. eq. (4.220)
     double contact_work = 0.0;       // of the pressure so far, of rules that measure it along the way
     double penetration = 0.0;        // the largest, zero if there is none
     double round_off_squared = 0.0;  // see ContactBlock

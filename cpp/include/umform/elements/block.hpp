@@ -18,7 +18,7 @@ class ShellBlockOf final : public ShellBlock {
     using Element = SolidShell<Nodes, Lanes>;
     static constexpr int size = Element::size;
 
-    ShellBlockOf(const Technology& technology, const SurfacePoints& surface_points, const Rule& thickness,
+    ShellBlockOf(const Technology& technology, const SurfacePoints& surface_points, const ThicknessRule& thickness,
                  std::shared_ptr<const Material> material, Connectivity part, std::vector<double> X,
                  std::vector<double> rolling = {})
         : element_(technology, surface_points, thickness, material->symmetric()), material_(std::move(material)),

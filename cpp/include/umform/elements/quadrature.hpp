@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace umform {
@@ -12,6 +13,28 @@ namespace umform {
 struct Rule {
     std::vector<double> x, w;
     int size() const { return static_cast<int>(x.size()); }
+};
+
+/// Rules through the thickness, of the columns of points that stand on the surface: one for all, or one for each.
+class ThicknessRule {
+  public:
+    ThicknessRule(Rule same) : columns_{std::move(same)} {}
+    ThicknessRule(std::vector<Rule> columns) : columns_(std::move(columns)) {
+        if (columns_.empty()) throw std::invalid_argument("a thickness rule has one column or more");
+        for (const Rule& column : columns_)
+            if (column.size() != size()) throw std::invalid_argument("all columns have as many thickness points");
+    }
+
+    /// Points of a column.
+    int size() const { return columns_.front().size(); }
+    const Rule& operator[](int column) const { return columns_.size() == 1 ? columns_.front() : columns_.at(column); }
+    void require(int columns) const {
+        if (columns_.size() != 1 && columns_.size() != static_cast<std::size_t>(columns))
+            throw std::invalid_argument("there is one thickness rule for all points of the surface, or one for each");
+    }
+
+  private:
+    std::vector<Rule> columns_;
 };
 
 /// Rules along the coordinates r and s of the surface.

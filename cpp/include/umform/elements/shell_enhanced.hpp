@@ -27,12 +27,12 @@ class ShellEnhanced : public ShellProducts<Nodes, Real> {
   protected:
     using Products::symmetric_;
     using Products::tables_;
-    using typename Products::Voigt, typename Products::Voigt66;
+    using typename Products::Moments, typename Products::Voigt, typename Products::Voigt66;
+    /// Powers of the height of a point.
+    using Powers = std::array<double, 5>;
 
-    /// Kaa (lower triangles), Kad and ra. eqs. (2.15), (2.16)
-    template <int FirstExtra>
-    void add_enhanced_blocks(int q, double t, const Voigt& S, const Voigt66& C, const Real* mean, const Real* extra,
-                             Workspace& w) const {
+    /// Kaa (lower triangles) and ra, and the moments of Kad over the column. eqs. (2.15), (2.16)
+    void add_enhanced_blocks(int q, const Powers& t, const Voigt& S, const Voigt66& C, Workspace& w) const {
         const int count = static_cast<int>(tables_.enhanced.size());
         const Voigt* direction = w.enhanced.data() + q * count;
         const auto& [first, modes, offset] = tables_.groups[tables_.group_of[q]];
@@ -43,12 +43,10 @@ class ShellEnhanced : public ShellProducts<Nodes, Real> {
             std::array<Real, 6> dCd;
             for (int other = 0; other < count; ++other) dCd[other] = dot(direction[other], Cd);
             const Real dS = dot(direction[c], S);
-            std::array<Real, size> dCB{};
-            Products::template add_force<FirstExtra>(Cd, t, mean, extra, dCB.data());
             for (const auto& [component, mode, value] : tables_.entries[q]) {
                 if (component != c) continue;
                 w.ra[mode] += value * dS;
-                for (int i = 0; i < size; ++i) w.Kad[mode * size + i] += value * dCB[i];
+                add_moments(value, t, Cd, w.mode_moments[mode]);
                 for (const auto& other : tables_.entries[q])
                     if (other.mode <= mode)
                         Kaa[(mode - first) * modes + other.mode - first] += value * other.value * dCd[other.component];
@@ -57,9 +55,7 @@ class ShellEnhanced : public ShellProducts<Nodes, Real> {
     }
 
     /// The same with Kda (as its transpose) and all of Kaa, for a law whose tangent is not symmetric.
-    template <int FirstExtra>
-    void add_enhanced_blocks_full(int q, double t, const Voigt& S, const Voigt66& C, const Real* mean,
-                                  const Real* extra, Workspace& w) const {
+    void add_enhanced_blocks_full(int q, const Powers& t, const Voigt& S, const Voigt66& C, Workspace& w) const {
         const int count = static_cast<int>(tables_.enhanced.size());
         const Voigt* direction = w.enhanced.data() + q * count;
         const auto& [first, modes, offset] = tables_.groups[tables_.group_of[q]];
@@ -71,19 +67,33 @@ class ShellEnhanced : public ShellProducts<Nodes, Real> {
                 for (int r = 0; r < 6; ++r) dC[p] += direction[c][r] * C[r][p];
             }
             const Real dS = dot(direction[c], S);
-            std::array<Real, size> dCB{}, CdB{};
-            Products::template add_force<FirstExtra>(dC, t, mean, extra, dCB.data());
-            Products::template add_force<FirstExtra>(Cd, t, mean, extra, CdB.data());
             for (const auto& [component, mode, value] : tables_.entries[q]) {
                 if (component != c) continue;
                 w.ra[mode] += value * dS;
-                for (int i = 0; i < size; ++i) w.Kad[mode * size + i] += value * dCB[i];
-                for (int i = 0; i < size; ++i) w.Kda[mode * size + i] += value * CdB[i];
+                add_moments(value, t, dC, w.mode_moments[mode]);
+                add_moments(value, t, Cd, w.dual_moments[mode]);
                 for (const auto& other : tables_.entries[q])
                     Kaa[(mode - first) * modes + other.mode - first] +=
                         value * other.value * dot(dC, direction[other.component]);
             }
         }
+    }
+
+    /// Kad, and Kda of a law whose tangent is not symmetric, of the modes of a column from their moments.
+    template <int First>
+    void add_coupling(int point, Workspace& w) const {
+        for (const int mode : tables_.modes_of[point]) {
+            Products::template add_force<First>(w.mode_moments[mode], w, w.Kad.data() + mode * size);
+            w.mode_moments[mode] = {};
+            if (symmetric_) continue;
+            Products::template add_force<First>(w.dual_moments[mode], w, w.Kda.data() + mode * size);
+            w.dual_moments[mode] = {};
+        }
+    }
+
+    static void add_moments(double value, const Powers& t, const Voigt& of, Moments& sum) {
+        for (int k = 0; k < 3; ++k)
+            for (int p = 0; p < 6; ++p) sum[k][p] += value * t[k] * of[p];
     }
 
   private:

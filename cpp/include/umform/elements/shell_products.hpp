@@ -1,4 +1,4 @@
-// Products of the rows of a layer with stress and tangent: forces, stiffness, geometric stiffness.
+// Products of the rows of a column with stress and tangent: forces, stiffness, geometric stiffness.
 #pragma once
 
 #include "umform/algebra/condensation.hpp"
@@ -15,7 +15,7 @@ class ShellProducts : public ShellRows<Nodes, Real> {
     using typename Rows::Workspace;
 
     /// `symmetric`: whether the tangent CC of the law is.
-    ShellProducts(const Technology& technology, const SurfacePoints& surface_points, const Rule& thickness,
+    ShellProducts(const Technology& technology, const SurfacePoints& surface_points, const ThicknessRule& thickness,
                   bool symmetric)
         : Rows(technology, surface_points, thickness), symmetric_(symmetric) {}
 
@@ -23,109 +23,101 @@ class ShellProducts : public ShellRows<Nodes, Real> {
     Workspace workspace() const { return Workspace(tables_, symmetric_); }
 
   protected:
-    using Rows::first_extra_;
+    using Rows::first_row_;
     using Rows::tables_;
     using Voigt = Vec<Real, 6>;
     using Voigt66 = std::array<Voigt, 6>;
 
-    /// Sum over the rows Begin .. End - 1 of B, which are those that are not zero.
+    /// Moments in t of a stress, or of a row of the tangent, over a column: [power].
+    using Moments = std::array<Voigt, 3>;
+
+    /// Sum over the rows Begin .. End - 1 of B.
     template <int Begin, int End>
-    static Real combination(const Voigt& factor, const Real* B, int i) {
+    static Real combination(const Real* factor, const Real* B, int i) {
         Real sum = factor[Begin] * B[Begin * half + i];
-#pragma GCC unroll 6
+#pragma GCC unroll 14
         for (int p = Begin + 1; p < End; ++p) sum += factor[p] * B[p * half + i];
         return sum;
     }
 
-    /// A few rows of C B together, with their factors in registers.
-    template <int Begin, int End, int Rows>
-    static void multiply(const Voigt* C, const Real* B, Real* CB) {
-        std::array<Voigt, Rows> factors;
-        std::copy_n(C, Rows, factors.begin());
-        for (int i = 0; i < half; ++i)
-#pragma GCC unroll 3
-            for (int row = 0; row < Rows; ++row) CB[row * half + i] = combination<Begin, End>(factors[row], B, i);
+    template <std::size_t Count>
+    static std::array<Real, Count> factors(const std::array<PowerRow, Count>& rows, const Moments& of) {
+        std::array<Real, Count> out;
+        for (std::size_t i = 0; i < Count; ++i) out[i] = of[rows[i].power][rows[i].strain];
+        return out;
     }
 
-    /// f += sum_p S_p B_p with B = [M, t M + X].
-    template <int FirstExtra>
-    static void add_force(const Voigt S, double t, const Real* mean, const Real* extra, Real* f) {
+    /// f += int B^T S dV over a column, from the moments of S.
+    template <int First>
+    static void add_force(const Moments& S, const Workspace& w, Real* f) {
+        const auto of_mean = factors(rows_of_mean, S);
+        const auto of_director = factors(rows_of_director, S);
+        const Real *mean = w.mean_rows.data(), *director = w.director_rows.data();
         for (int i = 0; i < half; ++i) {
-            const Real of_mean = combination<0, mean_rows>(S, mean, i);
-            f[i] += of_mean;
-            f[half + i] += t * of_mean + combination<FirstExtra, 6>(S, extra, i);
+            f[i] += combination<0, of_mean.size()>(of_mean.data(), mean, i);
+            f[half + i] += combination<First, of_director.size()>(of_director.data(), director, i);
         }
     }
 
-    /// int B^T C B of a layer: with B = [M, t M + X] and the products P = M^T C M, Q = X^T C M, R = X^T C X it is
-    /// [P, .; t P + Q, t^2 P + t (Q + Q^T) + R]. eq. (2.36)
-    void add_layer(double t, Workspace& w) const {
-        Real *Kmm = w.Kmm.data(), *Kdm = w.Kdm.data(), *Kdd = w.Kdd.data();
-        const Real *mean = w.B_mean.data(), *extra = w.B_extra.data() + first_extra_ * half;
-        const int shift = first_extra_ * half;
-        const RowSet of_mean{tables_.surface, mean_rows, 6 * half, half},
-            of_extra{tables_.surface, 6 - first_extra_, 6 * half, half};
-        transposed_product<half>(of_mean, mean, w.CB_mean.data(), true, [&](int i, int j, const Tile<Real>& P) {
-            add_tile<half>(Kmm, i, j, 1.0, P);
-            add_tile<half>(Kdm, i, j, t, P);
-            if (i != j) add_transposed_tile<half>(Kdm, i, j, t, P);
-            add_tile<half>(Kdd, i, j, t * t, P);
-        });
-        transposed_product<half>(of_extra, extra, w.CB_mean.data() + shift, false,
-                                 [&](int i, int j, const Tile<Real>& Q) {
-                                     add_tile<half>(Kdm, i, j, 1.0, Q);
-                                     if (i <= j) add_tile<half>(Kdd, i, j, t, Q);
-                                     if (i >= j) add_transposed_tile<half>(Kdd, i, j, t, Q);
-                                 });
-        transposed_product<half>(of_extra, extra, w.CB_extra.data() + shift, true,
-                                 [&](int i, int j, const Tile<Real>& R) { add_tile<half>(Kdd, i, j, 1.0, R); });
+    /// Rows C B of the rows `left`, with the moments of C over the column: two together, with their factors in registers.
+    template <int Begin, std::size_t Left, std::size_t Count>
+    static void multiply(int first, const std::array<PowerRow, Left>& left, const std::array<PowerRow, Count>& rows,
+                         const std::array<Voigt66, 5>& C, const Real* B, Real* CB) {
+        for (int k = first; k < static_cast<int>(Left); k += 2) {
+            const int two = std::min<int>(k + 1, Left - 1);
+            std::array<Real, Count> a, b;
+            for (int j = Begin; j < static_cast<int>(Count); ++j) {
+                a[j] = C[left[k].power + rows[j].power][left[k].strain][rows[j].strain];
+                b[j] = C[left[two].power + rows[j].power][left[two].strain][rows[j].strain];
+            }
+            for (int i = 0; i < half; ++i) {
+                CB[k * half + i] = combination<Begin, Count>(a.data(), B, i);
+                CB[two * half + i] = combination<Begin, Count>(b.data(), B, i);
+            }
+        }
     }
 
-    /// The same for a law whose tangent is not symmetric: all tiles, and the block mean-director with M^T C X. eq. (2.40)
-    void add_layer_full(double t, Workspace& w) const {
-        Real *Kmm = w.Kmm.data(), *Kdm = w.Kdm.data(), *Kmd = w.Kmd.data(), *Kdd = w.Kdd.data();
-        const int shift = first_extra_ * half;
-        const Real *mean = w.B_mean.data(), *extra = w.B_extra.data() + shift;
-        const RowSet of_mean{tables_.surface, mean_rows, 6 * half, half},
-            of_extra{tables_.surface, 6 - first_extra_, 6 * half, half};
-        transposed_product<half>(of_mean, mean, w.CB_mean.data(), false, [&](int i, int j, const Tile<Real>& P) {
-            add_tile<half>(Kmm, i, j, 1.0, P);
-            add_tile<half>(Kdm, i, j, t, P);
-            add_tile<half>(Kmd, i, j, t, P);
-            add_tile<half>(Kdd, i, j, t * t, P);
-        });
-        transposed_product<half>(of_extra, extra, w.CB_mean.data() + shift, false,
-                                 [&](int i, int j, const Tile<Real>& Q) {
-                                     add_tile<half>(Kdm, i, j, 1.0, Q);
-                                     add_tile<half>(Kdd, i, j, t, Q);
-                                 });
-        transposed_product<half>(of_mean, mean, w.CB_extra.data(), false, [&](int i, int j, const Tile<Real>& Q) {
-            add_tile<half>(Kmd, i, j, 1.0, Q);
-            add_tile<half>(Kdd, i, j, t, Q);
-        });
-        transposed_product<half>(of_extra, extra, w.CB_extra.data() + shift, false,
-                                 [&](int i, int j, const Tile<Real>& R) { add_tile<half>(Kdd, i, j, 1.0, R); });
-    }
-
-    /// Stress moments int t^k S^c dV of every place: compatible components at the Gauss point itself, tied ones at their tying
-    /// points, whose t is zero at the mid-surface. eqs. (2.4), (2.37)
-    void gather_stress(int point, double t, const Voigt& S, Workspace& w) const {
-        const auto gather = [&](int place, int component, double t_place, Real sigma) {
-            std::array<Real, 3>& moments = w.moments[place][component];
-            moments[0] += sigma;
-            moments[1] += t_place * sigma;
-            moments[2] += t_place * t_place * sigma;
+    /// int B^T C B over a column, once for all of its points. eq. (2.36)
+    template <int First>
+    void add_stiffness(Workspace& w) const {
+        constexpr int of_mean = rows_of_mean.size(), of_director = rows_of_director.size();
+        const Real *mean = w.mean_rows.data(), *director = w.director_rows.data();
+        const RowSet left{1, of_mean, 0, half}, right{1, of_director - First, 0, half};
+        Real *Kmm = w.Kmm.data(), *Kdm = w.Kdm.data(), *Kdd = w.Kdd.data(), *product = w.product.data();
+        const auto add_to = [](Real* K) {
+            return [K](int i, int j, const Tile<Real>& sum) { add_tile<half>(K, i, j, 1.0, sum); };
         };
+        multiply<0>(0, rows_of_mean, rows_of_mean, w.C, mean, product);
+        transposed_product<half>(left, mean, product, symmetric_, add_to(Kmm));
+        if (!symmetric_) {
+            multiply<0>(First, rows_of_director, rows_of_mean, w.C, mean, product);
+            transposed_product<half>(right, director + First * half, product + First * half, false, add_to(Kdm));
+        }
+        multiply<First>(0, rows_of_mean, rows_of_director, w.C, director, product);
+        transposed_product<half>(left, mean, product, false, [&](int i, int j, const Tile<Real>& sum) {
+            if (symmetric_)
+                add_transposed_tile<half>(Kdm, i, j, 1.0, sum);
+            else
+                add_tile<half>(w.Kmd.data(), i, j, 1.0, sum);
+        });
+        multiply<First>(First, rows_of_director, rows_of_director, w.C, director, product);
+        transposed_product<half>(right, director + First * half, product + First * half, symmetric_, add_to(Kdd));
+    }
+
+    /// Stress moments int t^k S^c dV of every place from those of a column: compatible components at the Gauss point itself, tied
+    /// ones at their tying points, whose t is zero at the mid-surface. eqs. (2.4), (2.37)
+    void gather_stress(int point, const Moments& S, Workspace& w) const {
         for (int p = 0; p < 6; ++p) {
             const int component = row_order[p];
             if (tables_.row_of[component] < 0) {
-                gather(point, component, t, S[p]);
+                for (int k = 0; k < 3; ++k) w.moments[point][component][k] += S[k][p];
                 continue;
             }
             const auto& row = tables_.rows[tables_.row_of[component]];
             const auto& samples = row.at_layer ? tables_.layer_samples : tables_.mid_samples;
             for (const auto& [sample, weight] : row.shares[point])
-                gather(samples[sample].place, component, row.at_layer ? t : 0.0, weight * S[p]);
+                for (int k = 0; k < (row.at_layer ? 3 : 1); ++k)
+                    w.moments[samples[sample].place][component][k] += weight * S[k][p];
         }
     }
 

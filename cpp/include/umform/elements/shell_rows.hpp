@@ -1,4 +1,7 @@
-// Rows B of the assumed strains at the Gauss points of a layer, from rows at the tying points.
+// Rows B of the assumed strains over a column of Gauss points, from rows at the tying points.
+//
+// All rows are polynomials in t, of degree one over the mean of the faces and two over the director: their coefficients are the
+// same for all points of a column, and so are the products of rows with each other. eq. (2.35)
 #pragma once
 
 #include <algorithm>
@@ -6,6 +9,17 @@
 #include "umform/elements/shell_strains.hpp"
 
 namespace umform {
+
+/// A row of a column: the strain (its place in `row_order`) and the power of t that it is the coefficient of.
+struct PowerRow {
+    int strain, power;
+};
+
+/// Over the mean: shear strains do not vary, E_33 has none.
+inline constexpr std::array<PowerRow, 8> rows_of_mean{{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {0, 1}, {1, 1}, {2, 1}}};
+/// Over the director. The first three are zero unless a strain in the plane is tied at the mid-surface.
+inline constexpr std::array<PowerRow, 14> rows_of_director{
+    {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}, {0, 1}, {1, 1}, {2, 1}, {3, 1}, {4, 1}, {0, 2}, {1, 2}, {2, 2}}};
 
 template <int Nodes, class Real>
 class ShellRows : public ShellStrains<Nodes, Real> {
@@ -16,11 +30,11 @@ class ShellRows : public ShellStrains<Nodes, Real> {
     using typename Strains::Vectors;
     using typename Strains::Workspace;
 
-    ShellRows(const Technology& technology, const SurfacePoints& surface_points, const Rule& thickness)
+    ShellRows(const Technology& technology, const SurfacePoints& surface_points, const ThicknessRule& thickness)
         : Strains(technology, surface_points, thickness) {
-        first_extra_ = first_shear_row;
+        first_row_ = first_shear_row;
         for (int p = 0; p < first_shear_row; ++p)
-            if (tied_at_middle(row_order[p])) first_extra_ = 0;
+            if (tied_at_middle(row_order[p])) first_row_ = 0;
     }
 
   protected:
@@ -31,58 +45,73 @@ class ShellRows : public ShellStrains<Nodes, Real> {
         return tables_.row_of[component] >= 0 && !tables_.rows[tables_.row_of[component]].at_layer;
     }
 
-    void sample_rows(const std::vector<typename ShellTables<Nodes>::Sample>& samples, double t, const Workspace& w,
-                     std::vector<Real>& rows) const {
-        Real* row = rows.data();
-        for (const auto& [component, place] : samples) {
-            strain_row<face>(component, tables_.places[place].shape, current(place, t, w), row, row + half);
+    /// Rows at all tying points: those of the mid-surface, and of the others the two coefficients.
+    void sample_rows(Workspace& w) const {
+        Real* row = w.mid_rows.data();
+        for (const auto& [component, place] : tables_.mid_samples) {
+            strain_row<face>(component, tables_.places[place].shape, current(place, 0.0, w), row, row + half);
             row += size;
+        }
+        row = w.layer_rows.data();
+        for (const auto& [component, place] : tables_.layer_samples) {
+            linear_row(component, place, w, row);
+            row += 2 * size;
         }
     }
 
-    /// Rows tied at the mid-surface are the same for all layers: they are formed once. eq. (2.3)
-    void mid_surface_rows(Workspace& w) const {
-        sample_rows(tables_.mid_samples, 0.0, w, w.mid_rows);
-        for (int p = 0; p < 6; ++p)
-            if (tied_at_middle(row_order[p]))
-                for (int point = 0; point < tables_.surface; ++point)
-                    for (const int offset : {0, half})
-                        interpolate(row_order[p], point, w.mid_rows, offset,
-                                    w.tied_rows.data() + (point * 6 + p) * size + offset);
+    /// Rows of the column over a point of the surface, in the order of `rows_of_mean` and `rows_of_director`. eq. (2.3)
+    void column_rows(int point, Workspace& w) const {
+        Real *mean = w.mean_rows.data(), *director = w.director_rows.data();
+        for (int p = 0; p < 6; ++p) {
+            const int component = row_order[p];
+            std::array<Real, 2 * size> row;  // constant: mean, director; linear: mean, director beyond t times the mean
+            const bool middle = tied_at_middle(component);
+            if (tables_.row_of[component] < 0)
+                linear_row(component, point, w, row.data());
+            else if (middle)
+                interpolate<size>(component, point, w.mid_rows, row.data());
+            else
+                interpolate<2 * size>(component, point, w.layer_rows, row.data());
+            if (middle) std::fill(row.begin() + size, row.end(), Real(0.0));
+            const Real *m0 = row.data(), *x0 = m0 + half, *m1 = x0 + half, *x1 = m1 + half;
+            const double turns = middle ? 0.0 : 1.0;  // the director of a row of the mid-surface does not vary with t
+            if (p < mean_rows) std::copy_n(m0, half, mean + p * half);
+            if (p < first_shear_row) std::copy_n(m1, half, mean + (mean_rows + p) * half);
+            std::copy_n(x0, half, director + p * half);
+            if (p < mean_rows)
+                for (int i = 0; i < half; ++i) director[(6 + p) * half + i] = turns * m0[i] + x1[i];
+            if (p < first_shear_row) std::copy_n(m1, half, director + (6 + mean_rows + p) * half);
+        }
     }
 
-    /// `row` of `half` entries, which begin at `offset` in the rows of the samples.
-    void interpolate(int component, int point, const std::vector<Real>& samples, int offset, Real* row) const {
+    int first_row_;  // first of `rows_of_director` that is not zero
+
+  private:
+    /// The coefficients of a compatible row, [power][mean, director beyond t times the mean].
+    static void linear_row(int component, const FaceShape<face>& shape, const Vectors& g, const Vectors& slope,
+                           Real* row) {
+        strain_row<face>(component, shape, g, row, row + half);
+        strain_row<face>(component, shape, slope, row + size, row + size + half);
+    }
+    void linear_row(int component, int place, const Workspace& w, Real* row) const {
+        Vectors slope{};
+        for (int i = 0; i < 2; ++i)
+            for (int k = 0; k < 3; ++k) slope[i][k] = w.G[place].slope[i][k] + w.h[place].slope[i][k];
+        linear_row(component, tables_.places[place].shape, current(place, 0.0, w), slope, row);
+    }
+
+    template <int Length>
+    void interpolate(int component, int point, const std::vector<Real>& samples, Real* row) const {
         bool first = true;
         for (const auto& [sample, weight] : tables_.rows[tables_.row_of[component]].shares[point]) {
-            const Real* of_sample = samples.data() + sample * size + offset;
+            const Real* of_sample = samples.data() + sample * Length;
             if (first)
-                for (int i = 0; i < half; ++i) row[i] = weight * of_sample[i];
+                for (int i = 0; i < Length; ++i) row[i] = weight * of_sample[i];
             else
-                for (int i = 0; i < half; ++i) row[i] += weight * of_sample[i];
+                for (int i = 0; i < Length; ++i) row[i] += weight * of_sample[i];
             first = false;
         }
     }
-
-    /// The six rows at a point of a layer, in `row_order`: over the mean, and what the director takes beyond t times that.
-    void point_rows(int point, double t, Workspace& w) const {
-        const Vectors g = current(point, t, w);
-        for (int p = 0; p < 6; ++p) {
-            const int component = row_order[p];
-            Real *mean = w.B_mean.data() + (point * 6 + p) * half, *extra = w.B_extra.data() + (point * 6 + p) * half;
-            if (tables_.row_of[component] < 0) {
-                strain_row<face>(component, tables_.places[point].shape, g, mean, extra);
-            } else if (tied_at_middle(component)) {  // the director of a row of the mid-surface does not go with t
-                const Real* tied = w.tied_rows.data() + (point * 6 + p) * size;
-                for (int i = 0; i < half; ++i) mean[i] = tied[i], extra[i] = tied[half + i] - t * tied[i];
-            } else {
-                interpolate(component, point, w.layer_rows, 0, mean);
-                if (p >= first_extra_) interpolate(component, point, w.layer_rows, half, extra);
-            }
-        }
-    }
-
-    int first_extra_;  // first row with an additional term of the director
 };
 
 }  // namespace umform

@@ -13,7 +13,7 @@ class ShellStrains {
     using Nodal = typename Workspace::Nodal;
     using Vectors = std::array<Vec<Real, 3>, 3>;
 
-    ShellStrains(const Technology& technology, const SurfacePoints& surface_points, const Rule& thickness)
+    ShellStrains(const Technology& technology, const SurfacePoints& surface_points, const ThicknessRule& thickness)
         : tables_(technology, gauss(surface_points), thickness) {}
 
     int points() const { return tables_.points(); }
@@ -28,28 +28,26 @@ class ShellStrains {
             w.G[k] = base_of(tables_.places[k].shape, X.data());
             w.h[k] = base_of(tables_.places[k].shape, u.data());
         }
-        sample_strains(tables_.mid_samples, 0.0, total(w), w.mid_E.data());
+        sample_strains(total(w), w);
         const Vectors G0 = w.G[tables_.centre].at(0.0);
         const Mat<Real, 3, 3> centre_inverse = inverse(columns(G0));
         const Real centre_det = det(columns(G0));
         w.rolled = rolling != nullptr;
         Mask<Real> valid = true;
-        for (int layer = 0, q = 0; layer < tables_.layers; ++layer) {
-            const double t = tables_.t[layer];
-            sample_strains(tables_.layer_samples, t, total(w), w.layer_E.data());
-            for (int p = 0; p < tables_.surface; ++p, ++q) {
-                const Vectors G = w.G[p].at(t);
-                const Real detJ = det(columns(G));
-                valid = valid & (detJ > 0.0) & (det(columns(current(p, t, w))) > 0.0);
-                w.dV[q] = detJ * tables_.weight[q];
-                w.A[q] = rolling == nullptr ? local_inverse(G) : local_inverse(G, local_frame(G, *rolling));
-                Voigt E = assumed_strain(p, t, total(w), w);
-                if (tables_.modes > 0) {
-                    enhanced_directions(q, product(centre_inverse, columns(G)), centre_det / detJ, w);
-                    add_enhanced_strain(q, alpha, w, E);
-                }
-                w.E[q] = w.rolled ? to_local_full(w.A[q], E) : to_local(w.A[q], E);
+        for (int q = 0; q < points(); ++q) {
+            const int p = q % tables_.surface;
+            const double t = tables_.t[q];
+            const Vectors G = w.G[p].at(t);
+            const Real detJ = det(columns(G));
+            valid = valid & (detJ > 0.0) & (det(columns(current(p, t, w))) > 0.0);
+            w.dV[q] = detJ * tables_.weight[q];
+            w.A[q] = rolling == nullptr ? local_inverse(G) : local_inverse(G, local_frame(G, *rolling));
+            Voigt E = assumed_strain(p, t, total(w), w);
+            if (tables_.modes > 0) {
+                enhanced_directions(q, product(centre_inverse, columns(G)), centre_det / detJ, w);
+                add_enhanced_strain(q, alpha, w, E);
             }
+            w.E[q] = w.rolled ? to_local_full(w.A[q], E) : to_local(w.A[q], E);
         }
         return valid;
     }
@@ -64,19 +62,15 @@ class ShellStrains {
                 return quadratic_strain(i, j, d);
             };
         };
-        sample_strains(tables_.mid_samples, 0.0, quadratic, w.mid_E.data());
-        for (int layer = 0, q = 0; layer < tables_.layers; ++layer) {
-            const double t = tables_.t[layer];
-            sample_strains(tables_.layer_samples, t, quadratic, w.layer_E.data());
-            for (int p = 0; p < tables_.surface; ++p, ++q) w.bent[q] = assumed_strain(p, t, quadratic, w);
-        }
+        sample_strains(quadratic, w);
+        for (int q = 0; q < points(); ++q) w.bent[q] = assumed_strain(q % tables_.surface, tables_.t[q], quadratic, w);
     }
 
     /// Axes of the local frame at all Gauss points, after `strains`.
     void axes(const Vec<Real, 3>* rolling, const Workspace& w, std::vector<Axes<Real>>& out) const {
         out.resize(points());
         for (int q = 0; q < points(); ++q) {
-            const Vectors G = w.G[q % tables_.surface].at(tables_.t[q / tables_.surface]);
+            const Vectors G = w.G[q % tables_.surface].at(tables_.t[q]);
             out[q] = rolling == nullptr ? local_frame(G) : local_frame(G, *rolling);
         }
     }
@@ -95,7 +89,7 @@ class ShellStrains {
     /// Base vectors of one lane at a Gauss point, after `strains`.
     void base_vectors(int q, int lane, const Workspace& w, std::array<Vec3, 3>& G, std::array<Vec3, 3>& g) const {
         const int place = q % tables_.surface;
-        const double t = tables_.t[q / tables_.surface];
+        const double t = tables_.t[q];
         const Vectors reference = w.G[place].at(t), now = current(place, t, w);
         for (int i = 0; i < 3; ++i)
             for (int k = 0; k < 3; ++k) G[i][k] = reference[i][k][lane], g[i][k] = now[i][k][lane];
@@ -125,10 +119,17 @@ class ShellStrains {
         };
     }
 
+    /// Strains at all tying points: at the mid-surface, and of the others the coefficients of their polynomial in t.
     template <class Strain>
-    static void sample_strains(const std::vector<typename ShellTables<Nodes>::Sample>& samples, double t,
-                               const Strain& strain, Real* E) {
-        for (const auto& [component, place] : samples) *E++ = strain(place, t)(component);
+    void sample_strains(const Strain& strain, Workspace& w) const {
+        for (std::size_t k = 0; k < tables_.mid_samples.size(); ++k)
+            w.mid_E[k] = strain(tables_.mid_samples[k].place, 0.0)(tables_.mid_samples[k].component);
+        for (std::size_t k = 0; k < tables_.layer_samples.size(); ++k) {
+            const auto& [component, place] = tables_.layer_samples[k];
+            const Real middle = strain(place, 0.0)(component);
+            const Real upper = strain(place, 1.0)(component), lower = strain(place, -1.0)(component);
+            w.layer_E[k] = {middle, 0.5 * (upper - lower), 0.5 * (upper + lower) - middle};
+        }
     }
 
     /// Compatible components, and tied ones from their samples. eq. (2.2)
@@ -142,8 +143,13 @@ class ShellStrains {
                 continue;
             }
             const auto& row = tables_.rows[tables_.row_of[p]];
-            const Real* samples = row.at_layer ? w.layer_E.data() : w.mid_E.data();
-            for (const auto& [sample, weight] : row.shares[surface_point]) E[p] += weight * samples[sample];
+            for (const auto& [sample, weight] : row.shares[surface_point])
+                if (row.at_layer) {
+                    const auto& [constant, linear, square] = w.layer_E[sample];
+                    E[p] += weight * (constant + t * (linear + t * square));
+                } else {
+                    E[p] += weight * w.mid_E[sample];
+                }
         }
         return E;
     }

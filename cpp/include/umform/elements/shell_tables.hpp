@@ -11,8 +11,9 @@
 
 namespace umform {
 
-/// Gauss points are numbered q = layer * surface + point of the surface. All that depends on (r, s) is tabulated at places:
-/// the Gauss points of the surface come first, then the tying points, each once.
+/// Gauss points are numbered q = layer * surface + point of the surface; the points over one point of the surface are a column,
+/// which may have heights of its own. All that depends on (r, s) is tabulated at places: the Gauss points of the surface come
+/// first, then the tying points, each once.
 template <int Nodes>
 struct ShellTables {
     static constexpr int face = Nodes / 2;
@@ -43,18 +44,19 @@ struct ShellTables {
         int first, size, offset;
     };
 
-    ShellTables(const Technology& technology, const SurfaceRule& surface_rule, const Rule& thickness)
-        : surface(surface_rule.size()), layers(thickness.size()), t(thickness.x) {
+    ShellTables(const Technology& technology, const SurfaceRule& surface_rule, const ThicknessRule& thickness)
+        : surface(surface_rule.size()), layers(thickness.size()), modes_of(surface) {
+        thickness.require(surface);
         tabulate_gauss_points(technology, surface_rule, thickness);
         for (const Tying& tying : technology.tying) tabulate_tying(tying, surface_rule);
         centre = place(0.0, 0.0);
-        tabulate_modes(technology, surface_rule, thickness);
+        tabulate_modes(technology, thickness);
     }
 
     int points() const { return surface * layers; }
 
     int surface, layers, modes = 0, centre = 0;
-    std::vector<double> t;       // [layer]
+    std::vector<double> t;       // [q]
     std::vector<double> weight;  // [q]
     std::vector<Place> places;
     std::array<int, 6> row_of;  // component -> row of the tying rule, or -1
@@ -63,7 +65,8 @@ struct ShellTables {
     std::vector<int> enhanced;                    // enhanced components
     std::vector<std::vector<ModeEntry>> entries;  // [q], by modes
     std::vector<ModeGroup> groups;
-    std::vector<int> group_of;  // [q]
+    std::vector<int> group_of;               // [q]
+    std::vector<std::vector<int>> modes_of;  // [surface point] modes that are not zero at all points of the column
 
     /// Entries of all diagonal blocks of Kaa.
     int group_entries() const {
@@ -78,15 +81,22 @@ struct ShellTables {
         return static_cast<int>(places.size()) - 1;
     }
 
-    void tabulate_gauss_points(const Technology& technology, const SurfaceRule& surface_rule, const Rule& thickness) {
+    void tabulate_gauss_points(const Technology& technology, const SurfaceRule& surface_rule,
+                               const ThicknessRule& thickness) {
         row_of.fill(-1);
         for (std::size_t row = 0; row < technology.tying.size(); ++row)
             row_of[technology.tying[row].component] = static_cast<int>(row);
         for (const double s : surface_rule.s.x)
             for (const double r : surface_rule.r.x) place(r, s);
-        for (const double wt : thickness.w)
+        for (int layer = 0; layer < layers; ++layer) {
+            int column = 0;
             for (const double ws : surface_rule.s.w)
-                for (const double wr : surface_rule.r.w) weight.push_back(wr * ws * wt);
+                for (const double wr : surface_rule.r.w) {
+                    const Rule& rule = thickness[column++];
+                    t.push_back(rule.x[layer]);
+                    weight.push_back(wr * ws * rule.w[layer]);
+                }
+        }
     }
 
     void tabulate_tying(const Tying& tying, const SurfaceRule& surface_rule) {
@@ -109,7 +119,7 @@ struct ShellTables {
         rows.push_back(std::move(row));
     }
 
-    void tabulate_modes(const Technology& technology, const SurfaceRule& surface_rule, const Rule& thickness) {
+    void tabulate_modes(const Technology& technology, const ThicknessRule& thickness) {
         modes = static_cast<int>(technology.modes.size());
         std::array<int, 6> position;
         position.fill(-1);
@@ -119,18 +129,19 @@ struct ShellTables {
                     position[term.component] = static_cast<int>(enhanced.size());
                     enhanced.push_back(term.component);
                 }
-        const std::vector<double> means = legendre_means(technology, thickness);
-        for (const double t : thickness.x)
-            for (const double s : surface_rule.s.x)
-                for (const double r : surface_rule.r.x) {
-                    std::vector<ModeEntry>& of_point = entries.emplace_back();
-                    for (int m = 0; m < modes; ++m)
-                        add_entries(technology.modes[m], m, {r, s, t}, means, position, of_point);
-                }
+        std::vector<std::vector<double>> means;
+        means.reserve(surface);
+        for (int p = 0; p < surface; ++p) means.push_back(legendre_means(technology, thickness[p]));
+        for (int q = 0; q < points(); ++q) {
+            const int p = q % surface;
+            std::vector<ModeEntry>& of_point = entries.emplace_back();
+            for (int m = 0; m < modes; ++m)
+                add_entries(technology.modes[m], m, {places[p].r, places[p].s, t[q]}, means[p], position, of_point);
+        }
         group_modes();
     }
 
-    /// Mean of each Legendre polynomial of the modes under the rule; zero, but for round-off, where the rule is exact. A mean
+    /// Mean of each Legendre polynomial of the modes under the rule of a column; zero, but for round-off, where the rule is exact. A mean
     /// that is left would let a constant stress work on the modes. eq. (2.48)
     static std::vector<double> legendre_means(const Technology& technology, const Rule& thickness) {
         int most = 0;
@@ -175,6 +186,13 @@ struct ShellTables {
             while (!of_point.empty() && groups[group].first + groups[group].size <= of_point.front().mode) ++group;
             group_of.push_back(group);
         }
+        for (int p = 0; p < surface; ++p)
+            for (int m = 0; m < modes; ++m) {
+                bool seen = false;
+                for (int q = p; q < points(); q += surface)
+                    for (const ModeEntry& entry : entries[q]) seen = seen || entry.mode == m;
+                if (seen) modes_of[p].push_back(m);
+            }
     }
 };
 

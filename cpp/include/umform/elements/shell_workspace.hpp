@@ -20,8 +20,8 @@ struct ShellWorkspace {
           S(tables.points()), CC(tables.points()), A(tables.points()), dV(tables.points()), bent(tables.points()),
           enhanced(tables.points() * tables.enhanced.size()), mid_E(tables.mid_samples.size()),
           layer_E(tables.layer_samples.size()), mid_rows(tables.mid_samples.size() * size),
-          layer_rows(tables.layer_samples.size() * size), tied_rows(tables.surface * 6 * size),
-          B_mean(tables.surface * 6 * half), B_extra(B_mean), CB_mean(B_mean), CB_extra(B_mean),
+          layer_rows(tables.layer_samples.size() * 2 * size), mean_rows(8 * half), director_rows(14 * half),
+          product(director_rows), mode_moments(tables.modes), dual_moments(symmetric ? 0 : tables.modes),
           moments(tables.places.size()), Kmm(half * half), Kdm(Kmm), Kdd(Kmm), Kmd(symmetric ? 0 : half * half),
           Kaa(tables.group_entries()), Kad(tables.modes * size), Kda(Kad), ra(tables.modes) {}
 
@@ -37,6 +37,12 @@ struct ShellWorkspace {
             for (auto& of_component : of_place) of_component.fill(0.0);
     }
 
+    /// The same for the moments of a column.
+    void clear_column(bool tangent) {
+        stress = {};
+        if (tangent) foreseen = {}, C = {};
+    }
+
     // Strain and material.
     std::vector<Base<Real>> G, h, d;     // [place] reference base vectors, gradients of displacement and correction
     std::vector<Vec<Real, 6>> E, S;      // [q] in the local frame
@@ -45,11 +51,16 @@ struct ShellWorkspace {
     std::vector<Real> dV;                // [q]
     std::vector<Vec<Real, 6>> bent;      // [q] covariant strain that is quadratic in the correction
     std::vector<Vec<Real, 6>> enhanced;  // [q][component] covariant direction of an enhanced component
-    std::vector<Real> mid_E, layer_E;    // [sample]
-    // Rows; those of a layer are [surface point][row_order][half].
-    std::vector<Real> mid_rows, layer_rows;  // [sample][size]
-    std::vector<Real> tied_rows;             // [surface point][row_order][size], of the mid-surface
-    std::vector<Real> B_mean, B_extra, CB_mean, CB_extra;
+    std::vector<Real> mid_E;             // [sample]
+    std::vector<std::array<Real, 3>> layer_E;  // [sample][power of t]
+    // Rows and their products.
+    std::vector<Real> mid_rows, layer_rows;               // [sample][size], [sample][power of t][size]
+    std::vector<Real> mean_rows, director_rows, product;  // of a column: [rows_of_mean or rows_of_director][half]
+    // Of a column: moments in t of the stress, of that of the geometric stiffness, of the tangent, of what the modes take from
+    // the rows of the tangent, and from its columns.
+    std::array<Vec<Real, 6>, 3> stress, foreseen;
+    std::array<std::array<Vec<Real, 6>, 6>, 5> C;
+    std::vector<std::array<Vec<Real, 6>, 3>> mode_moments, dual_moments;  // [mode]
     std::vector<std::array<std::array<Real, 3>, 6>> moments;  // [place][component][power of t] of the stress
     bool rolled = false;                                      // the frame follows a rolling direction, and A is full
     // Results: the blocks mean-mean, director-mean, director-director of K; of the first and last what is on and above the

@@ -32,38 +32,20 @@ class SolidShell : public ShellEnhanced<Nodes, Real> {
     /// The residual has the same bits with and without a tangent.
     void integrate(Wanted wanted, Workspace& w) const {
         w.clear(wanted.tangent);
-        mid_surface_rows(w);
-        for (int layer = 0; layer < tables_.layers; ++layer) {
-            const double t = tables_.t[layer];
-            sample_rows(tables_.layer_samples, t, w, w.layer_rows);
-            for (int p = 0; p < tables_.surface; ++p) {
-                point_rows(p, t, w);
-                const int q = layer * tables_.surface + p;
-                if (first_extra_ == first_shear_row)
-                    integrate_point<first_shear_row>(q, p, t, wanted, w);
-                else
-                    integrate_point<0>(q, p, t, wanted, w);
-            }
-            if (!wanted.tangent) continue;
-            if (symmetric_)
-                add_layer(t, w);
+        Enhanced::sample_rows(w);
+        for (int p = 0; p < tables_.surface; ++p)
+            if (first_row_ == 0)
+                integrate_column<0>(p, wanted, w);
             else
-                add_layer_full(t, w);
-        }
-        if (wanted.tangent) add_geometry(w);
+                integrate_column<first_shear_row>(p, wanted, w);
+        if (wanted.tangent) Enhanced::add_geometry(w);
     }
 
   private:
-    using Enhanced::add_geometry;
-    using Enhanced::add_layer;
-    using Enhanced::add_layer_full;
-    using Enhanced::first_extra_;
-    using Enhanced::gather_stress;
-    using Enhanced::mid_surface_rows;
-    using Enhanced::point_rows;
-    using Enhanced::sample_rows;
+    using Enhanced::first_row_;
     using Enhanced::symmetric_;
     using Enhanced::tables_;
+    using typename Enhanced::Powers;
 
     /// Convected stress and tangent of a Gauss point, times dV, in `row_order`. eq. (1.17)
     static void convected(int q, const Workspace& w, Voigt& S, Voigt66& C) {
@@ -99,29 +81,37 @@ class SolidShell : public ShellEnhanced<Nodes, Real> {
         return linear;
     }
 
-    template <int FirstExtra>
-    void integrate_point(int q, int point, double t, Wanted wanted, Workspace& w) const {
+    template <int First>
+    void integrate_column(int point, Wanted wanted, Workspace& w) const {
+        Enhanced::column_rows(point, w);
+        w.clear_column(wanted.tangent);
+        for (int q = point; q < tables_.points(); q += tables_.surface) integrate_point(q, wanted, w);
+        Enhanced::template add_force<First>(w.stress, w, w.f.data());
+        if (tables_.modes > 0) Enhanced::template add_coupling<First>(point, w);
+        if (!wanted.tangent) return;
+        Enhanced::gather_stress(point, wanted.corrected ? w.foreseen : w.stress, w);
+        Enhanced::template add_stiffness<First>(w);
+    }
+
+    /// Moments in t of stress and tangent, and the blocks of the enhanced parameters.
+    void integrate_point(int q, Wanted wanted, Workspace& w) const {
         Voigt S;
         Voigt66 C;
         convected(q, w, S, C);
-        if (wanted.tangent) gather_stress(point, t, wanted.corrected ? foreseen(S, C, w.bent[q]) : S, w);
-
-        const int first = point * 6 * half;
-        const Real *mean = w.B_mean.data() + first, *extra = w.B_extra.data() + first;
-        Real *CB_mean = w.CB_mean.data() + first, *CB_extra = w.CB_extra.data() + first;
-        Enhanced::template add_force<FirstExtra>(S, t, mean, extra, w.f.data());
+        Powers t{1.0};
+        for (int k = 1; k < 5; ++k) t[k] = t[k - 1] * tables_.t[q];
+        Enhanced::add_moments(1.0, t, S, w.stress);
         if (wanted.tangent) {
-            for (int p = 0; p < 6; p += 2)
-                Enhanced::template multiply<0, mean_rows, 2>(C.data() + p, mean, CB_mean + p * half);
-            for (int p = FirstExtra; p < 6; p += 3)
-                Enhanced::template multiply<FirstExtra, 6, 3>(C.data() + p, extra, CB_extra + p * half);
-            if (!symmetric_ && FirstExtra > 0) Enhanced::template multiply<FirstExtra, 6, 3>(C.data(), extra, CB_extra);
+            if (wanted.corrected) Enhanced::add_moments(1.0, t, foreseen(S, C, w.bent[q]), w.foreseen);
+            for (int k = 0; k < 5; ++k)
+                for (int p = 0; p < 6; ++p)
+                    for (int c = 0; c < 6; ++c) w.C[k][p][c] += t[k] * C[p][c];
         }
         if (tables_.modes == 0) return;
         if (symmetric_)
-            Enhanced::template add_enhanced_blocks<FirstExtra>(q, t, S, C, mean, extra, w);
+            Enhanced::add_enhanced_blocks(q, t, S, C, w);
         else
-            Enhanced::template add_enhanced_blocks_full<FirstExtra>(q, t, S, C, mean, extra, w);
+            Enhanced::add_enhanced_blocks_full(q, t, S, C, w);
     }
 };
 

@@ -2,9 +2,10 @@
 // The bends of a part in the order of the work: position, angle, direction; rows are added, moved and taken away.
 
 import { element, make } from "./dom.js";
+import { howRead, numberField } from "./number_field.js";
 import { t } from "./texts.js";
 
-/** @typedef {{position: number | null, angle: number | null, over: boolean}} Bend */
+/** @typedef {{position: number | string | null, angle: number | string | null, over: boolean}} Bend */
 
 export class Bends {
   /** @param {() => void} changed */
@@ -27,12 +28,11 @@ export class Bends {
   row(row, i) {
     const number = i + 1;
     const input = (/** @type {"position" | "angle"} */ name) => {
-      const field = make("input", { type: "number", step: "any", inputmode: "decimal", id: `b-${i}-${name}`, value: row[name] ?? "", "aria-label": t(`bends.${name}`, { number }) });
-      field.addEventListener("input", () => {
-        row[name] = field.value === "" ? null : Number(field.value);
+      const taken = (/** @type {number | string | null} */ value) => {
+        row[name] = value;
         this.changed();
-      });
-      return field;
+      };
+      return numberField({ id: `b-${i}-${name}`, "aria-label": t(`bends.${name}`, { number }) }, row[name], taken);
     };
     const way = make("select", { id: `b-${i}-over`, "aria-label": t("bends.over", { number }) }, make("option", { value: "" }, t("bends.up")), make("option", { value: "1" }, t("bends.down")));
     way.value = row.over ? "1" : "";
@@ -45,9 +45,15 @@ export class Bends {
     return make("li", {}, make("span", {}, `${number}.`), input("position"), input("angle"), way, earlier, remove);
   }
 
+  /** How numbers were read, where it is worth a word. */
+  howRead() {
+    return this.rows.flatMap((_, i) => ["position", "angle"].map((name) => howRead(element(`b-${i}-${name}`).value))
+      .filter(Boolean).map((text) => `${t("bend.number", { number: i + 1 })}: ${text}`));
+  }
+
   add() {
     const last = this.rows[this.rows.length - 1];
-    this.again([...this.rows, { ...last, position: (last.position ?? 0) + 30 }], `b-${this.rows.length}-position`);
+    this.again([...this.rows, { ...last, position: (Number(last.position) || 0) + 30 }], `b-${this.rows.length}-position`);
   }
 
   /** @param {number} i */

@@ -1,9 +1,12 @@
 // @ts-check
 // The form: what is to be bent, with which tools; each change is looked at by the server at once.
 
-import { post } from "./api.js";
+import { post, Refused } from "./api.js";
 import { Bends } from "./bends.js";
 import { element, make } from "./dom.js";
+import { keep, kept } from "./kept.js";
+import { put } from "./notes.js";
+import { howRead, numberField, show, unclear } from "./number_field.js";
 import { number, problemText, t } from "./texts.js";
 import { MEASURED, Tools } from "./tools.js";
 
@@ -49,22 +52,26 @@ const GROUPS = {
   ],
 };
 const FIELDS = Object.values(GROUPS).flat();
+/** Milliseconds after which a question without an answer is asked again. */
+const AGAIN = 2000;
 
 export class Form {
   /** @param {any} library @param {(found: any, values: any) => void} looked */
   constructor(library, looked) {
-    Object.assign(this, { library, looked });
     this.library = library;
     this.looked = looked;
-    this.values = structuredClone({ ...library.defaults, ...kept() });
+    this.values = structuredClone({ ...library.defaults, ...kept(FIELDS.map(({ name }) => name)) });
     this.bends = new Bends(() => this.look());
     this.tools = new Tools((kind, name) => this.takeTool(kind, name));
     this.round = 0;
     /** @type {AbortController | null} */
     this.asking = null;
+    /** Tools that would do, and the button that takes them. @type {Record<string, number | null>} */
+    this.offered = {};
+    this.remedy = make("button", { type: "button", onclick: () => this.takeRemedy() });
     this.build();
     this.look();
-    this.tools.refresh().then(() => this.build());
+    this.tools.refresh().then(() => this.fillTools());
   }
 
   build() {
@@ -85,16 +92,16 @@ export class Form {
   row({ name, unit, step, kind = "number", list }) {
     const value = this.values[name];
     if (kind === "bends") return this.bends.build(value);
-    const common = { id: `f-${name}`, "aria-describedby": `n-${name}`, onchange: () => this.take(name), oninput: () => this.take(name) };
+    const common = { id: `f-${name}`, "aria-describedby": `n-${name}` };
+    /** @type {any} */
     let input;
     if (kind === "select") {
-      input = make("select", { ...common, oninput: null, onchange: () => this.take(name) }, ...this.options(name));
+      input = make("select", { ...common, onchange: () => this.take(name, input.value || null) }, ...this.options(name));
       input.value = value ?? "";
     } else if (kind === "check") {
-      input = make("input", { ...common, type: "checkbox", checked: Boolean(value) });
+      input = make("input", { ...common, type: "checkbox", checked: Boolean(value), onchange: () => this.take(name, input.checked) });
     } else {
-      input = make("input", { ...common, type: "number", step: step && "any", inputmode: "decimal", list, value: value ?? "", placeholder: this.placeholder(name) });
-      input.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => this.nudge(event, name, step ?? 1));
+      input = numberField({ ...common, list, placeholder: this.placeholder(name) }, value, (taken) => this.take(name, taken), step);
     }
     const unitText = unit ? make("span", { class: "unit", "aria-hidden": "true" }, unit) : null;
     const text = make("label", { for: `f-${name}` }, t(`field.${name}`));
@@ -102,14 +109,12 @@ export class Form {
     return make("div", { class: `row ${kind}`, "data-field": name }, text, box, make("p", { class: "note", id: `n-${name}`, role: "status" }));
   }
 
-  /** Arrow keys change a number by its usual step. @param {KeyboardEvent} event @param {string} name @param {number} step */
-  nudge(event, name, step) {
-    const way = { ArrowUp: 1, ArrowDown: -1 }[event.key];
-    const value = Number(element(`f-${name}`).value);
-    if (!way || element(`f-${name}`).value === "") return;
-    event.preventDefault();
-    element(`f-${name}`).value = Number((value + way * step).toFixed(6));
-    this.take(name);
+  /** The drawn tools in their lists; the rest of the form stays as somebody may be typing there. */
+  fillTools() {
+    for (const name of ["punch", "die"]) {
+      element(`f-${name}`)?.replaceChildren(...this.options(name));
+      if (element(`f-${name}`)) element(`f-${name}`).value = this.values[name] ?? "";
+    }
   }
 
   /** @param {string} name */
@@ -151,12 +156,9 @@ export class Form {
     return [list("openings", of(dies, "opening")), list("die-angles", angles), list("punch-angles", of(punches, "angle")), list("punch-radii", of(punches, "radius"))];
   }
 
-  /** A field has changed. @param {string} name */
-  take(name) {
-    const input = element(`f-${name}`);
-    this.values[name] = input.type === "checkbox" ? input.checked
-      : input.tagName === "SELECT" ? input.value || null
-      : input.value === "" ? (input.validity.badInput ? "?" : null) : Number(input.value);
+  /** A field has changed. @param {string} name @param {any} value */
+  take(name, value) {
+    this.values[name] = value;
     if (name === "work") this.suitWork();
     for (const [one, other] of [["press_force", "travel"], ["travel", "press_force"]]) {
       if (name === one && this.values[one] !== null) this.change({ [other]: null });
@@ -177,7 +179,8 @@ export class Form {
 
   /** Tools and goal that suit another kind of work. */
   suitWork() {
-    const { work, thickness: t, press_force: force, travel, die_angle: angle } = this.values;
+    const { work, thickness, press_force: force, travel, die_angle: angle } = this.values;
+    const t = Number.isFinite(thickness) ? thickness : this.library.defaults.thickness;
     if (work === "bottom" && force === null && travel === null) this.change({ travel: 0, die_angle: 88, punch_angle: 88, punch: null, die: null });
     if (work === "bend" && this.values.angle === null && this.values.stroke === null) this.change({ angle: 90 });
     if (work === "hem") {
@@ -208,7 +211,8 @@ export class Form {
       const input = element(`f-${name}`);
       if (!input) continue;
       if (input.type === "checkbox") input.checked = Boolean(value);
-      else input.value = value ?? "";
+      else if (input.tagName === "SELECT") input.value = value ?? "";
+      else show(input, value);
     }
   }
 
@@ -226,62 +230,69 @@ export class Form {
       this.say(found);
       this.looked(found, this.values);
     } catch (problem) {
-      if (/** @type {any} */ (problem).name !== "AbortError") element("form-note").textContent = String(/** @type {any} */ (problem).message);
+      if (/** @type {any} */ (problem).name === "AbortError" || round !== this.round) return;
+      this.refuse(String(/** @type {any} */ (problem).message));
+      if (!(problem instanceof Refused)) setTimeout(() => round === this.round && this.look(), AGAIN); // no answer
     }
   }
 
   /** Put what was found beside the fields. @param {any} found */
   say(found) {
-    for (const { name } of FIELDS) {
-      if (!element(`f-${name}`)) continue;
-      element(`n-${name}`).replaceChildren();
-      element(`n-${name}`).className = "note";
-      element(`f-${name}`).removeAttribute("aria-invalid");
-    }
-    element("form-note").textContent = "";
     this.change(found.measured ?? {});
     for (const [kind, names] of Object.entries(MEASURED)) names.forEach((name) => (element(`f-${name}`).disabled = Boolean(this.values[kind])));
-    for (const row of found.warnings) this.note(row, "warn", problemText(row));
-    for (const row of found.problems) this.note(row, "bad", problemText(row));
-    if (found.change) this.offer(found.change);
+    this.remedy.textContent = found.change ? t("offer", found.change) : "";
+    this.offered = found.change ?? {};
+    const notes = this.notes(found);
+    for (const { name } of FIELDS) {
+      if (!element(`f-${name}`)) continue;
+      const { kind, texts } = notes.get(name) ?? { kind: "", texts: [] };
+      notes.delete(name);
+      put(element(`n-${name}`), kind, texts, name === "angle" && found.change ? this.remedy : null);
+      if (kind) element(`n-${name}`).closest("details")?.setAttribute("open", "");
+      element(`f-${name}`).toggleAttribute("aria-invalid", false);
+      if (kind === "bad") element(`f-${name}`).setAttribute("aria-invalid", "true");
+    }
+    const others = [...notes.values()];
+    put(element("form-note"), others.some(({ kind }) => kind === "bad") ? "bad" : "warn", others.flatMap(({ texts }) => texts));
     element("run").disabled = found.problems.length > 0;
   }
 
-  /** @param {any} row @param {string} kind @param {string} text */
-  note(row, kind, text) {
-    const bend = row.row ?? /^bend (\d+)/.exec(row.where)?.[1];
-    const place = element(bend ? "n-bends" : `n-${row.where}`) ?? element("form-note");
-    place.append(make("span", {}, bend ? `${t("bend.number", { number: Number(bend) })}: ${text}` : text));
-    place.className = `note ${kind}`;
-    if (kind === "bad") element(`f-${row.where}`)?.setAttribute("aria-invalid", "true");
-    place.closest("details")?.setAttribute("open", "");
-  }
-
-  /** The tools that would do. @param {Record<string, number>} change */
-  offer(change) {
-    const text = t("offer", change);
-    const take = () => {
-      this.change(change);
-      this.look();
-      element("f-angle").focus();
+  /**
+   * What is to be said, by field: how numbers were read, what is unusual, what is wrong.
+   * @param {any} found @returns {Map<string, {kind: string, texts: string[]}>}
+   */
+  notes(found) {
+    /** @type {Map<string, {kind: string, texts: string[]}>} */
+    const notes = new Map();
+    const add = (/** @type {string} */ where, /** @type {string} */ kind, /** @type {string} */ text) => {
+      const there = notes.get(where) ?? { kind: "", texts: [] };
+      notes.set(where, { kind: kind || there.kind, texts: [...there.texts, text] });
     };
-    element("n-angle").append(make("button", { type: "button", onclick: take }, text));
+    for (const { name, kind = "number" } of FIELDS) {
+      const text = kind === "number" && element(`f-${name}`) ? howRead(element(`f-${name}`).value) : "";
+      if (text) add(name, "", text);
+    }
+    if (element("f-bends")) this.bends.howRead().forEach((text) => add("bends", "", text));
+    for (const [kind, rows] of [["warn", found.warnings], ["bad", found.problems]]) {
+      for (const row of rows) {
+        const bend = row.row ?? /^bend (\d+)/.exec(row.where)?.[1];
+        const value = bend ? this.values.bends[bend - 1]?.[row.part] : this.values[row.where];
+        const text = row.kind === "float_type" && typeof value === "string" ? unclear(value) : problemText(row);
+        add(bend ? "bends" : row.where, row.level ?? kind, bend ? `${t("bend.number", { number: Number(bend) })}: ${text}` : text);
+      }
+    }
+    return notes;
   }
-}
 
-/** What was typed last, if it may be kept. @returns {Record<string, any>} */
-function kept() {
-  try {
-    const values = JSON.parse(localStorage.getItem("form") ?? "{}");
-    return Object.fromEntries(FIELDS.map(({ name }) => [name, values[name]]).filter(([, value]) => value !== undefined));
-  } catch {
-    return {};
+  /** Say below the form why nothing can be done. @param {string} text */
+  refuse(text) {
+    put(element("form-note"), "bad", [text]);
   }
-}
 
-/** @param {Record<string, any>} values */
-function keep(values) {
-  try {
-    localStorage.setItem("form", JSON.stringify(values));
-  } catch { /* it is typed again next time */ }
+  /** Take the tools that would do, those of the last answer. */
+  takeRemedy() {
+    this.change(this.offered);
+    this.look();
+    element("f-angle").focus();
+  }
 }

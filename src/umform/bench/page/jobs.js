@@ -69,10 +69,11 @@ export class Jobs {
   /** @param {any} row */
   item({ id, state, title, summary, number: count }) {
     const comparable = state === "done" && summary.measures?.angle !== undefined;
+    const mark = markOf(state, summary);
     const box = make("input", { type: "checkbox", id: `job-c-${id}`, "aria-label": t("compare.choose", { title }), checked: this.chosen.has(id), disabled: !comparable });
     box.addEventListener("change", () => this.toggle(id, box.checked));
     const button = make("button", { type: "button", id: `job-o-${id}`, "aria-current": id === this.shown ? "true" : null, onclick: () => this.open(id) },
-      make("i", { class: `dot ${state}`, title: t(`state.${state}`) }), make("span", {}, `${count} · ${title}`), make("b", { id: `job-e-${id}` }));
+      make("i", { class: `dot ${mark}`, title: t(`state.${mark}`) }), make("span", {}, `${count} · ${title}`), make("b", { id: `job-e-${id}` }));
     return make("li", {}, box, button);
   }
 
@@ -93,8 +94,11 @@ export class Jobs {
   }
 }
 
+/** A part that has collided with the tools is none that is done. @param {string} state @param {any} summary */
+const markOf = (state, summary) => (state === "done" && summary.collides ? "collides" : state);
+
 /** How far a job is, or what came of it. @param {any} row @returns {string} */
 function end({ state, fraction, summary }) {
   const angle = summary.measures?.angle;
-  return state === "running" ? `${Math.round(100 * fraction)} %` : state === "done" && angle ? `${number(angle, 1)}°` : t(`state.${state}`);
+  return state === "running" ? `${Math.round(100 * fraction)} %` : state === "done" && angle ? `${number(angle, 1)}°` : t(`state.${markOf(state, summary)}`);
 }

@@ -48,7 +48,7 @@ async function start() {
       go(`bend/${answer.jobs[0]}`);
     } catch (problem) {
       const { answer } = /** @type {any} */ (problem);
-      element("form-note").textContent = (answer?.problems ?? [{ what: String(problem) }]).map(problemText).join("; ");
+      form.refuse((answer?.problems ?? [{ what: String(problem) }]).map(problemText).join("; "));
     }
   });
   element("fields").addEventListener("input", () => result.name && go("bend"));
@@ -112,18 +112,25 @@ function series(rows) {
   }
 }
 
-/** What the rules of the shop say before the run. @param {any} found @param {any} values */
-function expected(found, values) {
+/**
+ * What the rules of the shop say before the run, and the force that chooses the press: after the run that one is computed.
+ * @param {any} found @param {any} values @param {any} [needed]
+ */
+function expected(found, values, needed) {
   const facts = found.expected;
   element("drawing-text").textContent = facts ? t("drawing.text", { angle: values.angle ?? "?", opening: values.opening, thickness: values.thickness }) : t("drawing.old");
-  const bottom = values.work === "bottom"; // 3 to 5 times the force in the air is usual
-  const forces = bottom ? [["bottom", `${number(3 * facts?.force[0], 0)}–${number(5 * facts?.force[1], 0)} kN/m`]] : [["press", `${number(facts?.press, 1)} kN`]];
+  const press = needed ?? facts?.press;
+  const range = (/** @type {any} */ { force: [low, high], beyond }) =>
+    `${low === high ? number(low, 0) : `${number(low, 0)}–${number(high, 0)}`}${beyond ? ` ${t("rule.beyond")}` : ""} kN/m`;
   const rows = !facts ? [] : [
-    ["ratio", `${number(facts.ratio, 1)}`], ["rm", `${number(facts.tensile_strength, 0)} MPa`],
-    ["force", `${number(facts.force[0], 0)}–${number(facts.force[1], 0)} kN/m`], ...forces,
-    ["radius", `${number(facts.radius, 1)} mm`],
+    ["press", t(`rule.press.${press.operation}`), `${press.beyond ? "> " : ""}${number(press.force, 1)} kN`, t(`rule.press.${press.basis}`)],
+    ["ratio", t("rule.ratio"), number(facts.ratio, 1)], ["rm", t("rule.rm"), `${number(facts.tensile_strength, 0)} MPa`],
+    ["force", t("rule.force"), range(facts)],
+    ...facts.forces.filter((/** @type {any} */ one) => one.operation !== "bend").map((/** @type {any} */ one) => [one.operation, t(`rule.${one.operation}`), range(one)]),
+    ["radius", t("rule.radius"), `${number(facts.radius, 1)} mm`],
   ];
-  element("expected").replaceChildren(...rows.map(([name, value]) => make("div", { title: t(`rule.${name}.title`) }, make("dt", {}, t(`rule.${name}`)), make("dd", {}, value))));
+  element("expected").replaceChildren(...rows.map(([name, label, value, title]) =>
+    make("div", { "data-rule": name, title: title ?? t(`rule.${name}.title`) }, make("dt", {}, label), make("dd", {}, value))));
 }
 
 start();

@@ -4,6 +4,7 @@
 import { get, post } from "./api.js";
 import { element, make } from "./dom.js";
 import { message } from "./messages.js";
+import { howRead, numberField, taking, unclear } from "./number_field.js";
 import { plot } from "./plot.js";
 import { stripNumbers } from "./strips.js";
 import { language, number, problemText, t } from "./texts.js";
@@ -23,6 +24,8 @@ export class Result {
     /** @type {any} */
     this.job = null;
     this.shapeOf = "";
+    /** What the server finds in the form of the job. @type {any} */
+    this.looked = {};
     // Buttons stay while the numbers change, lest a click be lost; the frame of the shape stays, lest it load again.
     this.bar = make("div", { class: "bar-part" });
     this.top = make("div", { class: "top-part" });
@@ -70,14 +73,12 @@ export class Result {
     const bar = JSON.stringify([job.id, job.state, language]);
     if (bar !== this.barOf) this.bar.replaceChildren(this.head(job));
     this.barOf = bar;
-    if (!this.job && job.kind === "bend") {
-      const found = await post("/api/look", job.parameters);
-      if (found.drawing && job.id === this.name) {
-        this.drawing.set(found.drawing, { ...job.parameters, ...found.shown });
-        this.actions.expected(found, job.parameters);
-      }
+    if (!this.job) {
+      this.looked = job.kind === "bend" ? await post("/api/look", job.parameters) : {};
       if (job.id !== this.name) return; // another job was opened meanwhile
+      if (this.looked.drawing) this.drawing.set(this.looked.drawing, { ...job.parameters, ...this.looked.shown });
     }
+    if (this.looked.drawing) this.actions.expected(this.looked, job.parameters, job.summary.press);
     if (job.summary.profile) this.drawing.setComputed({ profile: job.summary.profile });
     else if (job.live.section || job.live.outline) this.drawing.setComputed(job.live);
     if (job.state === "running" || job.state === "waiting") parts.push(this.progress(job));
@@ -132,17 +133,17 @@ export class Result {
 
   /** @param {any} job */
   numbers(job) {
-    const { measures, spread = {}, shop_forces: shop, warnings = [] } = job.summary;
+    const { measures, spread = {}, shop_forces: shop, warnings = [], coarse_mesh: coarse = [] } = job.summary;
     const heroes = HEROES.map((name) => this.hero(name, measures[name], spread[name], job.summary.length));
-    const press = (Math.max(shop[1], measures.largest_force) * job.summary.length) / 1e3;
-    const notes = [t("note.press", { press: number(press, 1), low: number(shop[0], 0), high: number(shop[1], 0) })];
+    const { press } = job.summary; // jobs of earlier versions have none
+    const notes = press ? [t("note.press", { press: number(press.force, 1), low: number(shop[0], 0), high: number(shop[1], 0) })] : [];
     const ratio = measures.largest_force / (0.5 * (shop[0] + shop[1]));
     if (ratio < 0.93) notes.push(t("note.below", { percent: Math.round(100 * (1 - ratio)) }));
     if (measures.k_factor !== null && measures.k_factor < 0.33) notes.push(t("note.k"));
-    if (!job.parameters.budget && job.parameters.work !== "bottom") notes.push(t("note.nobudget"));
+    if (!job.parameters.budget && !coarse.length && job.parameters.work !== "bottom") notes.push(t("note.nobudget"));
     const all = Object.entries(this.library.quantities).map(([name, one]) => this.row(name, one, measures[name], spread[name]));
     return [
-      ...warnings.map((/** @type {string} */ text) => make("p", { class: "note warn" }, message(text))),
+      ...[...warnings, ...coarse].map((/** @type {string} */ text) => make("p", { class: "note warn" }, message(text))),
       make("dl", { class: "heroes" }, ...heroes),
       ...notes.map((text) => make("p", { class: "note" }, text)),
       this.flat(measures),
@@ -174,11 +175,15 @@ export class Result {
   flat(measures) {
     if (measures.bend_deduction === null) return make("span");
     const output = make("output", { class: "value" });
-    const fields = ["a", "b"].map((name) => make("input", { type: "number", id: `flat-${name}`, value: 100, min: 0, step: "any", "aria-label": t(`flat.${name}`) }));
+    /** @type {any[]} */
+    const fields = ["a", "b"].map((name) => numberField({ id: `flat-${name}`, "aria-label": t(`flat.${name}`) }, 100, () => reckon()));
     const reckon = () => {
-      output.textContent = `${number(Number(fields[0].value) + Number(fields[1].value) - measures.bend_deduction, 2)} mm`;
+      const texts = fields.map((field) => field.value);
+      const legs = texts.map(taking);
+      const wrong = legs.findIndex((leg) => typeof leg === "string");
+      const sum = Number(legs[0]) + Number(legs[1]) - measures.bend_deduction;
+      output.textContent = wrong >= 0 ? unclear(texts[wrong]) : [`${number(sum, 2)} mm`, ...texts.map(howRead).filter(Boolean)].join(", ");
     };
-    fields.forEach((field) => field.addEventListener("input", reckon));
     reckon();
     return make("p", { class: "flat" }, `${t("flat")}: `, fields[0], " + ", fields[1], ` − ${number(measures.bend_deduction, 2)} = `, output);
   }
@@ -186,7 +191,8 @@ export class Result {
   /** The end of the run of a deck. @param {any} job */
   last(job) {
     const rows = Object.entries(job.summary.last).map(([name, value]) => make("tr", {}, make("th", { scope: "row" }, name), make("td", {}, number(/** @type {number} */ (value)))));
-    const notes = [...job.summary.warnings, ...job.summary.events].map((text) => make("p", { class: "note" }, text));
+    const notes = [...job.summary.warnings.map((/** @type {string} */ text) => make("p", { class: "note warn" }, text)),
+      ...job.summary.events.map((/** @type {string} */ text) => make("p", { class: "note" }, text))];
     return make("div", {}, ...notes, make("details", { open: true }, make("summary", {}, t("deck.end")), make("div", { class: "wide" }, make("table", {}, make("tbody", {}, ...rows)))));
   }
 

@@ -14,7 +14,8 @@ const OF_HEM = [["height", 3, "mm"], ["springback", 3, "mm"], ["largest_force", 
 
 /** @param {any} job @returns {Node[]} */
 export function stripNumbers({ summary }) {
-  const warnings = summary.warnings.map((/** @type {string} */ text) => make("p", { class: "note warn" }, message(text)));
+  const red = summary.collisions ?? [];
+  const warnings = [...summary.warnings, ...(summary.coarse_mesh ?? [])].map((/** @type {string} */ text) => make("p", { class: `note ${red.includes(text) ? "bad" : "warn"}` }, message(text)));
   return [...warnings, ...(summary.hem ? hem(summary) : part(summary))];
 }
 

@@ -3,10 +3,16 @@
 
 import { post } from "./api.js";
 import { element, make } from "./dom.js";
+import { taking, unclear } from "./number_field.js";
 import { number, problemText, t } from "./texts.js";
 
-/** @param {string} text @returns {number[]} */
-const listed = (text) => text.split(/[;\s]+/).map((part) => Number(part.replace(",", "."))).filter((value) => value > 0).slice(0, 12);
+/** Numbers of a list; what is no clear number is an error. @param {string} text @returns {number[]} */
+function listed(text) {
+  const numbers = text.split(/[;\s]+|,\s+/).filter(Boolean).slice(0, 12).map(taking);
+  const wrong = numbers.find((value) => typeof value === "string");
+  if (wrong !== undefined) throw new Error(unclear(String(wrong)));
+  return numbers.map(Number).filter((value) => value > 0);
+}
 
 /** @param {any} form @param {any} library @param {(names: string[]) => void} ordered */
 export function askTable(form, library, ordered) {
@@ -21,11 +27,11 @@ export function askTable(form, library, ordered) {
     make("div", { class: "bar" }, make("button", { class: "main", type: "submit", id: "table-go" }, t("table.run")), make("button", { type: "button", onclick: () => dialog.close() }, t("cancel"))));
   form2.addEventListener("submit", async (/** @type {Event} */ event) => {
     event.preventDefault();
-    const forms = listed(openings.value).flatMap((opening) => {
-      const die = library.tools.dies.find((/** @type {any} */ one) => one.opening === opening);
-      return listed(angles.value).map((angle) => ({ ...values, opening, angle, stroke: null, die: null, die_radius: die?.radius ?? values.die_radius }));
-    });
     try {
+      const forms = listed(openings.value).flatMap((opening) => {
+        const die = library.tools.dies.find((/** @type {any} */ one) => one.opening === opening);
+        return listed(angles.value).map((angle) => ({ ...values, opening, angle, stroke: null, die: null, die_radius: die?.radius ?? values.die_radius }));
+      });
       const answer = await post("/api/jobs", { forms, series: `${values.material} ${values.thickness} mm` });
       if (answer.refused.length) {
         said.textContent = t("table.refused", { count: answer.refused.length, titles: answer.refused.map((/** @type {any} */ one) => one.title).join(", ") });
@@ -36,7 +42,7 @@ export function askTable(form, library, ordered) {
       ordered(answer.jobs);
     } catch (problem) {
       const { answer } = /** @type {any} */ (problem);
-      said.textContent = (answer?.problems ?? [{ what: String(problem) }]).map(problemText).join("; ");
+      said.textContent = (answer?.problems ?? [{ what: /** @type {Error} */ (problem).message }]).map(problemText).join("; ");
       said.className = "note bad";
     }
   });

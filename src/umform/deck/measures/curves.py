@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
 from typing import Annotated, Any, Literal
 
@@ -18,7 +17,7 @@ from umform.errors import InvalidValue
 from umform.mesh import Ids, Mesh
 from umform.model import Model
 from umform.report.symmetry import mirrors
-from umform.results.forming import EarProfile, Section, UBendAngles, draw_in, ear_profile, section
+from umform.results.forming import NUMBER_OF_EARS, Section, UBendAngles, draw_in, ear_profile, section
 from umform.results.forming.sections import columns, horizontal
 from umform.results.forming.u_bend import HEIGHTS, crossing
 
@@ -26,8 +25,6 @@ Floats = NDArray[np.float64]
 
 #: Least part of the circle that the rim of a cup covers, in degrees.
 _AROUND = 40.0
-#: Waves around the whole cup whose amplitudes are printed.
-_WAVES = (2, 4, 6, 8)
 
 _Three = Annotated[tuple[Positive, Positive, Positive], Strict(False)]
 
@@ -184,21 +181,13 @@ class Ears(MeasurePart):
         mesh, unit = part.model.mesh, part.units.length
         ids = nodes_of(mesh, self.rim)
         profiles = {state: ear_profile(mesh, u, ids) for state, u in part.states.items()}
-        numbers: dict[str, Callable[[EarProfile], float]] = {
-            "height, mean": lambda one: one.mean,
-            "height, lowest": lambda one: float(one.height.min()),
-            "height, highest": lambda one: float(one.height.max()),
-        } | {f"amplitude of {n} waves": partial(_harmonic, number=n) for n in _WAVES}
-        rows = [Row(what, unit, **{s: number(one) for s, one in profiles.items()}) for what, number in numbers.items()]
+        numbers = {state: one.heights() | one.waves() for state, one in profiles.items()}
+        rows = [Row(what, unit, **{s: row[what] for s, row in numbers.items()}) for what in numbers[part.last]]
         if getattr(part.model.material, "directional", False):
-            rows.append(Row("ears", "", **{state: float(len(one.ears())) for state, one in profiles.items()}))
+            rows.append(Row(NUMBER_OF_EARS, "", **{s: float(len(one.ears())) for s, one in profiles.items()}))
         last = profiles[part.last]
         curve, draw = {"angle": last.angle, "height": last.height}, partial(ears_picture, last, unit)
         return Measured(rows, curve, draw, "Height of the cup over the angle to the x-axis.")
-
-
-def _harmonic(ears: EarProfile, number: int) -> float:
-    return ears.harmonic(number)
 
 
 def _at(place: Floats) -> str:

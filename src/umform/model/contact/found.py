@@ -222,9 +222,20 @@ class ContactFound(Found):
         """
         if not self.has_potential:
             return float(self.held.contact_work + self.held.stored)
+        return self.energy_of_penetration() + float(self.held.stored)
+
+    def energy_of_penetration(self) -> float:
+        """(p^2 - lambda^2) / (2 penalty) over the reference area; for cells of their mean pressures. eq. (4.32)"""
         # (p - lambda)(p + lambda): exactly zero for a point that is held by its multiplier alone.
         difference, total = self.pressure - self.multiplier, self.pressure + self.multiplier
-        return 0.5 / self.penalty * float((difference * self.area) @ total) + float(self.held.stored)
+        return 0.5 / self.penalty * float((difference * self.area) @ total)
+
+    def work_of_stiffening(self, before: ContactFound) -> float:
+        """Work of a penalty that has changed since the last converged state; cells count it themselves. eq. (4.201)"""
+        if not self.has_potential:
+            return 0.0
+        softer = 1.0 / self.penalty - 1.0 / before.penalty
+        return 0.5 * softer * float((before.pressure * self.area) @ self.pressure)
 
 
 def moment(arms: Floats, forces: Floats) -> Floats:

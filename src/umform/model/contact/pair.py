@@ -95,9 +95,12 @@ class Contact(PairPoints):
         self._last = found
 
     def commit(self, found: Found) -> None:
-        """Accept trial history, multipliers and results as converged."""
+        """Accept trial history, multipliers, penalty and results as converged."""
         self._commit()
         assert isinstance(found, ContactFound)
+        if self.penalty != self._standing_penalty and self._last is not None:
+            self.stiffening_work += found.work_of_stiffening(self._last)
+        self._standing_penalty = self.penalty
         self.stand(found)
 
     def _commit(self) -> None:
@@ -119,8 +122,12 @@ class Contact(PairPoints):
         self.block.revert()
 
     def state(self) -> Tree:
-        """History of the points, a row for each facet."""
-        return {"history": self._by_facet(self.block.state)}
+        """History of the points, and the penalty if it adapts; a row for each facet, which ranks share."""
+        tree: Tree = {"history": self._by_facet(self.block.state)}
+        if self.adapts:
+            tree["penalty"] = np.full(len(self.facets), self._standing_penalty)
+            tree["stiffening work"] = np.full(len(self.facets), self.stiffening_work / max(len(self.facets), 1))
+        return tree
 
     def _by_facet(self, history: Floats) -> Floats:
         """A history of points with a row for each facet."""
@@ -130,13 +137,19 @@ class Contact(PairPoints):
         """Restore a history."""
         history = np.ascontiguousarray(tree["history"], dtype=float)
         self.block.restore(history.reshape(-1, history.shape[-1]))
+        if self.adapts and len(tree.get("penalty", ())):
+            self._standing_penalty = float(tree["penalty"][0])
+            self.use_penalty(self._standing_penalty)
+            self.stiffening_work = float(tree["stiffening work"].sum())
         self._last = None
 
     def columns(self, found: Found, ranks: Ranks) -> dict[str, float]:
         """Largest penetration and number of held points; slipping points and their slip; work along the path."""
         assert isinstance(found, ContactFound)
         columns = {
-            f"{self.name}_penetration": ranks.max(self._depth(found)),
+            f"{self.name}_penetration": self.deepest(found, ranks),
+            f"{self.name}_penetration_energy": ranks.sum(found.energy_of_penetration()),
+            f"{self.name}_penalty": self.penalty,
             f"{self.name}_active": int(ranks.sum(float(found.active.sum()))),
         }
         if self.friction is not None:
@@ -156,13 +169,14 @@ class Contact(PairPoints):
         """Largest penetration, number of held points, and the columns of friction and cells."""
         of_friction = [] if self.friction is None else ["slipping", "elastic_slip", "friction_work"]
         of_multipliers = ["multipliers_stay"] if self.augmented else []
+        of_all = ["penetration", "penetration_energy", "penalty", "active"]
         of_cells = [] if self.cells is None else ["contact_work"]
-        return [f"{self.name}_{what}" for what in ["penetration", "active", *of_friction, *of_multipliers, *of_cells]]
+        return [f"{self.name}_{what}" for what in [*of_all, *of_friction, *of_multipliers, *of_cells]]
 
     def energies(self, found: Found, u: Floats) -> Energies:
-        """Energy of penalty and multipliers, and the work of friction. eqs. (4.32), (4.49)"""
+        """Energy of penalty and multipliers, and the work of friction. eqs. (4.32), (4.49), (4.201)"""
         assert isinstance(found, ContactFound)
-        return Energies(0.0, 0.0, found.energy(), found.friction_work)
+        return Energies(0.0, 0.0, found.energy() + self.stiffening_work, found.friction_work)
 
     # The converged state -------------------------------------------------------------------------------------
 
@@ -209,6 +223,10 @@ class Contact(PairPoints):
         slides = self.friction is not None and np.linalg.norm(self._in_basis(found.elastic_slip, found), axis=1)
         return bool(np.any(slides > self.slip))
 
+    def deepest(self, found: ContactFound, ranks: Ranks) -> float:
+        """Largest penetration on all ranks."""
+        return ranks.max(self._depth(found))
+
     def _depth(self, found: ContactFound) -> float:
         """Largest penetration; with multipliers the part of it that the face can remove."""
         if not self.augmented or not found.active.any():
@@ -245,7 +263,7 @@ class Contact(PairPoints):
             Receives the residual for the first increment with the previous tangent. eq. (4.39)
         """
         self._close(found, (1.0 - self.penalty / penalty) * found.held_gap, change)
-        self.penalty = penalty
+        self.use_penalty(penalty)
 
     def _close(self, found: ContactFound, way: Floats, change: Floats) -> None:
         """Add the forces that move the held points by a distance (points,) against their gaps."""

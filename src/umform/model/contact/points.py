@@ -36,6 +36,9 @@ class PairPoints(Term):
         self.name = name
         self.tool = tool
         self._settings, self._penalty = settings, settings.penalty
+        #: Work that growing penalties have put into the contact, negative; a sum over the facets here. eq. (4.201)
+        self.stiffening_work = 0.0
+        self._standing_penalty = settings.penalty
         self._meet(mesh, mesh.face_set(faces))
         self.elsewhere = False
         self.before = np.empty(0)
@@ -91,12 +94,33 @@ class PairPoints(Term):
         return self._settings.augmented
 
     @property
+    def adapts(self) -> bool:
+        """Whether the penalty grows in a run, so that no point exceeds the allowed penetration."""
+        return self._settings.largest > 0.0 and self.allowed is not None
+
+    @property
+    def largest_penalty(self) -> float:
+        """Penalty up to which it grows in a run; 0 if it does not."""
+        return self._settings.largest
+
+    @property
+    def initial_penalty(self) -> float:
+        """Penalty at the start, given or estimated."""
+        return self._settings.penalty
+
+    @property
     def penalty(self) -> float:
-        """Pressure per penetration."""
+        """Pressure per penetration; what is set here stays as it is in a run."""
         return self._penalty
 
     @penalty.setter
     def penalty(self, value: float) -> None:
+        self._settings = replace(self._settings, penalty=value, largest=0.0)
+        self.use_penalty(value)
+        self._standing_penalty = value
+
+    def use_penalty(self, value: float) -> None:
+        """Evaluate with this penalty from now on."""
         self._penalty = value
         if "block" in vars(self):
             self.block.penalty = value

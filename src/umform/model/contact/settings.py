@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -22,7 +22,7 @@ from umform.surfaces import Surface
 log = logging.getLogger("umform.contact")
 
 #: Default allowed penetration, in thicknesses.
-_PENETRATION = 1.0 / 200.0
+ALLOWED = 1.0 / 200.0
 #: Length over which a flat tool, a blank holder for instance, spreads the line force, in thicknesses.
 _FLAT = 20.0
 #: Default allowed elastic slip, in thicknesses.
@@ -63,6 +63,9 @@ class ContactSettings:
         Expected relative ripple of the force with cells; None for points, and if the law gives no estimate.
     width_points : int, optional
         Gauss points across facets of a body in plane strain, where nothing varies; None elsewhere.
+    largest : float
+        Penalty up to which it grows in a run where it leaves more than the allowed penetration. An estimate does; a
+        given penalty and multipliers do not, and have 0.
     """
 
     penalty: float
@@ -75,6 +78,7 @@ class ContactSettings:
     cells: int | None = None
     ripple: float | None = None
     width_points: int | None = None
+    largest: float = 0.0
 
 
 def contact_settings(
@@ -107,7 +111,7 @@ def contact_settings(
     estimated, given = penalty is None or points == "auto", penalty is not None
     allowed = penetration
     if allowed is None and (penalty is None or augmented):
-        allowed = _PENETRATION * sheet_thickness(mesh)
+        allowed = ALLOWED * sheet_thickness(mesh)
     met = None
     if estimated:
         met = Encounter.of(mesh, mesh.facets(faces), tool.kernel(), material, where)
@@ -130,15 +134,19 @@ def contact_settings(
     if number is not None:
         meet = partial(Encounter.of, mesh, mesh.facets(faces), tool.kernel(), material, where)
         expected = _ripple(met, meet, number, allowed)
+    largest = 0.0 if given or augmented or met is None else _largest(met)
+    plain = ContactSettings(
+        float(penalty), points, allowed, bool(augmented), cells=number, ripple=expected, largest=largest
+    )
     if law is None:
-        return ContactSettings(float(penalty), points, allowed, bool(augmented), cells=number, ripple=expected)
+        return plain
     slip = _SLIP * sheet_thickness(mesh) if slip is None else float(slip)
     if given or allowed is None:
         pressure = _pressure(mesh, faces, tool, material, penalty, points)
     else:
         pressure = penalty * allowed
     ratio = _tangential_stiffness(law, pressure, slip) / penalty
-    return ContactSettings(float(penalty), points, allowed, bool(augmented), friction, slip, ratio, number, expected)
+    return replace(plain, friction=friction, slip=slip, ratio=ratio)
 
 
 def _friction_law(friction: AnyFriction | None, slip: float | None, where: str) -> _core.FrictionLaw | None:
@@ -167,7 +175,7 @@ def _pressure(
     try:
         met = Encounter.of(mesh, mesh.facets(faces), tool.kernel(), material, "")
     except InvalidPenalty:  # no estimate: assume the penalty of the default penetration
-        return penalty * _PENETRATION * sheet_thickness(mesh)
+        return penalty * ALLOWED * sheet_thickness(mesh)
     spacing = met.length if isinstance(points, str) else met.length / points
     length = max(contact_length(met.radius, met.line_force, penalty), spacing)
     return met.line_force / length
@@ -194,7 +202,12 @@ def _penalty(met: Encounter, allowed: float, points: int | str) -> float:
     spacing = met.length if isinstance(points, str) else met.length / points
     touching = _FLAT * met.thickness if met.flat else 2.0 / 3.0 * _length_at(met, allowed)
     length = max(touching, spacing)
-    return min(met.line_force / (allowed * length), _STIFFEST * met.stiffness / met.thickness)
+    return min(met.line_force / (allowed * length), _largest(met))
+
+
+def _largest(met: Encounter) -> float:
+    """Largest penalty that an estimate gives, or that grows in a run."""
+    return _STIFFEST * met.stiffness / met.thickness
 
 
 def _points(met: Encounter, penalty: float | None, allowed: float | None, least: int) -> int:
@@ -229,7 +242,7 @@ def _cells(met: Encounter, penalty: float | None, allowed: float | None, ripple:
 
 def _default(met: Encounter) -> float:
     """Default allowed penetration."""
-    return _PENETRATION * met.thickness
+    return ALLOWED * met.thickness
 
 
 def _places(points: int | str | None, cells: int | str | None, where: str) -> int | str:

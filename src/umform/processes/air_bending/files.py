@@ -18,8 +18,10 @@ from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.formulas import shop_forces, strength
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.remarks import coarse_mesh
 from umform.processes.air_bending.words import columns
 from umform.report.versions import versions
+from umform.results.penetration import contact_record
 
 if TYPE_CHECKING:
     from umform.processes.air_bending.budget import Budget
@@ -97,9 +99,11 @@ def record(bend: AirBend, table: Sequence[Measures] = (), budget: Budget | None 
         "tensile_strength": strength(bend.case),
         **_told({"force_balance": bend.force_balance}),
         "penetration": bend.penetration,
+        "contacts": contact_record(bend.result),
         "increments": len(bend.result) - 1,
         "iterations": bend.iterations,
         "seconds": bend.result.seconds,
+        "coarse_mesh": coarse_mesh(bend.case),
         "warnings": bend.warnings,
         "versions": versions(),
         "table": [_told(asdict(row)) for row in table],

@@ -12,8 +12,11 @@ from umform.sheet_metals import tension_test
 
 #: Factors in use for F = factor Rm t² / V.
 FORCE_FACTORS = (1.33, 1.42)
+#: Inside radius over the opening that the shop reckons with, for steel.
+INNER_RADIUS = 0.16
 
 
+@lru_cache(maxsize=256)
 def tensile_strength(material: J2 | Metal, angle: float = 0.0) -> float:
     """Tensile strength Rm: for J2 the maximum of y(e) exp(-e), y the true yield stress (Considère); else from a bar.
 
@@ -47,7 +50,6 @@ def _most(material: J2) -> tuple[float, float]:
     return float(strains[at]), float(nominal[at])
 
 
-@lru_cache(maxsize=8)
 def strength(case: AirBending) -> float:
     """Tensile strength of a bar across the bend line."""
     return tensile_strength(case.material, 0.0 if case.rolling is None else 90.0 - case.rolling)

@@ -29,7 +29,10 @@ def coarse_mesh(case: AirBending) -> list[str]:
     if not below:
         return []
     given = ", ".join(f"{name.replace('_', ' ')} {getattr(case, name):g} (default {n:g})" for name, n in below.items())
-    return [f"coarse mesh: {given}; for a trial only, the angle may be off by some degrees"]
+    return [
+        f"coarse mesh: {given}; for a trial only, the angle may be off by some degrees; force, springback and thinning "
+        "are those of this mesh"
+    ]
 
 
 def extrapolated(case: AirBending, outer_strain: float) -> list[str]:

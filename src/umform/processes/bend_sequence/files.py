@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
 from umform.processes.air_bending.files import parameters
+from umform.processes.air_bending.remarks import coarse_mesh
 from umform.processes.bend_sequence.part import BendDone, Part
 from umform.report.versions import versions
 
@@ -87,6 +88,8 @@ def record(part: Part) -> dict[str, Any]:
         "increments": sum(len(done.result) - 1 for done in part.bends),
         "iterations": int(sum(done.result["iterations"].sum() for done in part.bends)),
         "seconds": sum(done.result.seconds for done in part.bends),
+        "collisions": part.collisions,
+        "coarse_mesh": coarse_mesh(sequence.sheet),
         "warnings": part.warnings,
         "versions": versions(),
     }

@@ -16,6 +16,17 @@ from umform.run import Result
 Floats = NDArray[np.float64]
 
 
+#: What helps against a collision.
+REMEDY = "Choose another order of the bends, or other tools"
+
+
+def when_and_where(bend: Bend, hit: Collision) -> str:
+    """Stroke of a collision, and its place on the flat strip."""
+    when = "before it is bent" if hit.stroke <= 0.0 else f"from a stroke of {hit.stroke:.4g} mm on"
+    place = bend.position + (-hit.distance if bend.over else hit.distance)
+    return f"{when}, at {abs(place):.3g} mm from the left end of the flat strip"
+
+
 @dataclass(frozen=True)
 class BendDone:
     """One bend of a part.
@@ -109,17 +120,18 @@ class Part:
         return self.strip.outline
 
     @property
+    def collisions(self) -> list[str]:
+        """Collisions in words. A part that has any cannot be made in this way."""
+        return [
+            f"bend {number}: the part collides with the body of the {hit.tool} {when_and_where(done.bend, hit)}. The "
+            "run went on as if that body were not there: the results of this bend and of those after it are invalid. "
+            f"{REMEDY}"
+            for number, done in enumerate(self.bends, start=1)
+            for hit in done.collisions
+        ]
+
+    @property
     def warnings(self) -> list[str]:
-        """Warnings, with the number of the bend."""
-        found = []
-        for number, done in enumerate(self.bends, start=1):
-            for hit in done.collisions:
-                when = "before it is bent" if hit.stroke == 0.0 else f"from a stroke of {hit.stroke:.4g} mm on"
-                place = done.bend.position + (-hit.distance if done.bend.over else hit.distance)
-                found.append(
-                    f"bend {number}: the part collides with the body of the {hit.tool} {when}, at {place:.3g} mm from "
-                    "the left end of the flat strip. The run went on as if that body were not there: the results of "
-                    "this bend and of those after it are invalid. Choose another order of the bends, or other tools"
-                )
-            found += [f"bend {number}: {text}" for text in done.warnings]
-        return found
+        """Collisions, and warnings of the bends with their numbers."""
+        others = [f"bend {number}: {text}" for number, done in enumerate(self.bends, start=1) for text in done.warnings]
+        return [*self.collisions, *others]

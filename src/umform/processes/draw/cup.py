@@ -77,8 +77,8 @@ class Cup:
         Points through the thickness of each layer; default: that of the law.
     contact_points : int
         Contact points per direction and facet.
-    penalty : float
-        Pressure per penetration.
+    penalty : float, optional
+        Pressure per penetration; default: by the allowed penetration, eqs. (4.29) and (4.200).
     """
 
     kind: ClassVar[str] = "cup"
@@ -99,7 +99,7 @@ class Cup:
     layers: int | None = 1
     thickness_points: int | None = None
     contact_points: int = 2
-    penalty: float = 3e4
+    penalty: float | None = None
 
     def __post_init__(self) -> None:
         values = self.record()

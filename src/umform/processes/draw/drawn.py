@@ -13,13 +13,16 @@ from numpy.typing import NDArray
 from umform.errors import InvalidValue
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.endings import Ending, tears_from
+from umform.processes.draw.rules import coarse
 from umform.processes.draw.u_bend import UBend
 from umform.processes.limit import Limit
 from umform.report.symmetry import Mirror, with_images
 from umform.results.forming import (
+    NUMBER_OF_EARS,
     EarProfile,
     FormingLimit,
     Laid,
+    LargestForce,
     Outline,
     Section,
     UBendAngles,
@@ -27,7 +30,9 @@ from umform.results.forming import (
     draw_in,
     ear_profile,
     forming_fields,
+    largest_force,
     lay_by_best_fit,
+    longest_element,
     section,
     u_bend_angles,
 )
@@ -37,6 +42,10 @@ Floats = NDArray[np.float64]
 
 #: Part of the height of a released wall up to which it is measured: beyond, the edge of the die has bent it.
 _HIGHEST = 0.85
+#: Names of the measures of the punch force: while the holder holds the sheet, and afterwards.
+FORCE, FORCE_OFF = "largest punch force", "off the holder: punch force"
+#: Force of a holder relative to its largest one below which it has let go of the sheet.
+_HELD = 0.05
 
 
 @dataclass(frozen=True)
@@ -87,6 +96,32 @@ class Drawn:
         """Force along the stroke on punch, holder and die of the whole part, in each increment."""
         parts = self.case.parts
         return {name: parts * np.abs(self.result[f"{name}_fz"]) for name in ("punch", "holder", "die")}
+
+    @cached_property
+    def punch_force(self) -> LargestForce:
+        """Largest force of the punch on the whole part while the holder holds the sheet.
+
+        That of a cup is a mean over the passage of one element; that of a U-bend has its error from three meshes.
+        """
+        if isinstance(self.case, UBend):
+            punch = self.forces["punch"]
+            return LargestForce(float(punch.max()), 0.0, float(self.stroke[punch.argmax()]))
+        return self._largest(-math.inf, self._let_go)
+
+    @cached_property
+    def punch_force_after(self) -> LargestForce | None:
+        """The same after the sheet has left the holder, where its rim may be ironed; None if it has not left."""
+        left = isinstance(self.case, Cup) and self._let_go < self.stroke[-1]
+        return self._largest(self._let_go, math.inf) if left else None
+
+    @property
+    def _let_go(self) -> float:
+        return let_go(self.stroke, self.forces["holder"])
+
+    def _largest(self, first: float, last: float) -> LargestForce:
+        assert isinstance(self.case, Cup)
+        way = passage(self.case, self.sections["drawn"])
+        return largest_force(self.stroke, self.forces["punch"], way, between=(first, last))
 
     @cached_property
     def fields(self) -> dict[str, Floats]:
@@ -192,10 +227,27 @@ class Drawn:
     def warnings(self) -> list[str]:
         """Warnings."""
         own = [] if self.ending is None else [self.ending.text]
+        own += self._about_the_force()
         if isinstance(self.case, UBend) and self.released is not None:
             own += self._about_the_wall()
+        if not self.estimates:
+            own += coarse(self.case)
         more = [] if self.released is None else self.released.warnings
         return list(dict.fromkeys([*own, *self.case.warnings, *self.result.warnings, *more]))
+
+    def _about_the_force(self) -> list[str]:
+        """Notes on the largest force, where the mesh is coarse for it."""
+        finer = f"smaller elements: --turn {0.7 * self.case.turn:.2g}"
+        force, after = self.punch_force, self.punch_force_after
+        found = []
+        if force.is_rough:
+            found.append(f"the punch force, {_band(force)}, ripples as elements pass the edge of the die; {finer}")
+        if after is not None and after.is_rough and after.value + after.ripple > force.value:
+            found.append(
+                f"the punch force off the holder, {_band(after)}, is that of the mesh: the rim is ironed row by row; "
+                f"{finer}, or a wider opening of the die"
+            )
+        return found
 
     def _about_the_wall(self) -> list[str]:
         """Notes on the angles of a U-bend that are left out or measured elsewhere."""
@@ -208,10 +260,14 @@ class Drawn:
 
     def measures(self) -> dict[str, tuple[float, str]]:
         """Measures of the part by name, with units."""
-        found, punch = self.fields, self.forces["punch"]
+        found, punch, after = self.fields, self.punch_force, self.punch_force_after
         rows: dict[str, tuple[float, str]] = {
-            "largest punch force": (float(punch.max()) / 1000.0, "kN"),
-            "at a stroke of": (float(self.stroke[punch.argmax()]), "mm"),
+            FORCE: (punch.value / 1000.0, "kN"),
+            "at a stroke of": (punch.stroke, "mm"),
+        }
+        if after is not None:
+            rows |= {FORCE_OFF: (after.value / 1000.0, "kN"), "off the holder: at a stroke of": (after.stroke, "mm")}
+        rows |= {
             "largest holder force": (float(self.forces["holder"].max()) / 1000.0, "kN"),
             "draw-in, mean": (float(self.outline.draw_in.mean()), "mm"),
             "largest thinning": (float(found["thinning"].max()), "%"),
@@ -226,13 +282,10 @@ class Drawn:
             rows["largest springback"] = (self.springback.largest, "mm")
         if isinstance(self.case, Cup):
             ears = self.ears
-            rows |= {
-                "height, mean": (ears.mean, "mm"),
-                "height, lowest": (float(ears.height.min()), "mm"),
-                "height, highest": (float(ears.height.max()), "mm"),
-            }
+            rows |= {name: (height, "mm") for name, height in ears.heights().items()}
             if self.has_ears:
-                rows["number of ears"] = (float(len(ears.ears())), "")
+                rows |= {name: (amplitude, "mm") for name, amplitude in ears.waves().items()}
+                rows[NUMBER_OF_EARS] = (float(len(ears.ears())), "")
         elif self.angles is not None:
             rows |= {
                 "theta1": (self.angles.theta1, "degrees"),
@@ -240,3 +293,24 @@ class Drawn:
                 "radius of the wall": (self.angles.radius, "mm"),
             }
         return rows
+
+    def errors(self) -> dict[str, float]:
+        """Errors of measures, in their units: those of three meshes, or the ripple of a force by one mesh."""
+        ripples = {FORCE: self.punch_force, FORCE_OFF: self.punch_force_after} if isinstance(self.case, Cup) else {}
+        known = {name: force.ripple / 1000.0 for name, force in ripples.items() if force is not None}
+        return known | {name: limit.error for name, limit in self.estimates.items() if limit.error is not None}
+
+
+def passage(case: Cup, cut: Section) -> float:
+    """Travel of the punch in which the longest element of a drawn part passes the edge of the die."""
+    return longest_element(cut, case.sizes.ends, case.sizes.bent[-1].start)
+
+
+def let_go(stroke: Floats, holder: Floats) -> float:
+    """Stroke at which the sheet leaves the holder; infinite if it is never held."""
+    held = np.flatnonzero(holder > _HELD * holder.max())
+    return float(stroke[held[-1]]) if len(held) else math.inf
+
+
+def _band(force: LargestForce) -> str:
+    return f"{force.value / 1000.0:.3g} ± {force.ripple / 1000.0:.2g} kN"

@@ -11,9 +11,10 @@ from umform.io.tables import write_csv, write_json
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.u_bend import UBend
-from umform.processes.draw.words import parameters
+from umform.processes.draw.words import about_errors, parameters
 from umform.report.versions import versions
 from umform.results.forming.sections import columns as section_columns
+from umform.results.penetration import contact_record
 
 _PICTURES = (
     "blank", "curve", "thinning", "major_middle", "limit_margin", "wrinkling", "punch_distance", "gauge", "limits",
@@ -98,12 +99,15 @@ def record(drawn: Drawn) -> dict[str, Any]:
     return {
         "parameters": parameters(drawn.case),
         "measures": {name: value for name, (value, _) in drawn.measures().items()},
+        "errors": dict.fromkeys(drawn.measures()) | drawn.errors(),
+        "about_errors": about_errors(drawn),
         "estimates": {name: asdict(limit) for name, limit in drawn.estimates.items()},
         "ending": None if drawn.ending is None else drawn.ending.text,
         "elements": len(drawn.result.model.mesh.connectivity),
         "increments": len(drawn.result) - 1,
         "iterations": drawn.iterations,
         "seconds": drawn.seconds,
+        "contacts": contact_record(drawn.result),
         "warnings": drawn.warnings,
         "versions": versions(),
     }

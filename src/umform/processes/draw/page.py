@@ -8,7 +8,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from umform.processes.draw.drawn import Drawn
-from umform.processes.draw.words import before_the_run, meshes, parameters, summary, title
+from umform.processes.draw.words import about_errors, before_the_run, meshes, parameters, summary, title
 from umform.report import parts
 from umform.report.materials import material_text
 from umform.report.page import closing, parameter_parts, settings
@@ -60,6 +60,7 @@ def _parts(drawn: Drawn, figures: Mapping[str, Figure], note: str) -> Iterator[s
     yield parts.heading("Measures")
     columns, *rows = summary(drawn)
     yield parts.table(columns, rows)
+    yield from map(parts.note, filter(None, [about_errors(drawn)]))
     if drawn.estimates:
         yield parts.paragraph(_ESTIMATES)
         columns, *rows = meshes(drawn)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import cast
+from dataclasses import fields
+from typing import Any, cast
 
 from umform.elements import element
 from umform.elements.locking import layers_for
@@ -45,7 +46,7 @@ COMMON: dict[str, Rule] = {
         "radians, or a number of elements",
         "15 is usual, 30 for a coarse mesh",
     ),
-    "penalty": length("the penalty of the contacts", "in MPa per mm of penetration, such as 3e4"),
+    "penalty": length("the penalty of the contacts", "in MPa per mm of penetration, such as 3e4").optional(),
     "contact_points": contact_points("2 for cells of 8 nodes, 3 for those of 18"),
     "thickness_points": Rule(
         lambda value: whole(value, 2, 20),
@@ -66,7 +67,7 @@ def layers_by_rule(name: str, material: Plastic, points: int | None, thickness: 
     """Layers of an element, with so many thickness points, that follow the sharpest radius of the tools, eq. (2.29)."""
     yield_stress, _ = material.hardening.curve()(0.0)
     made, law = element(name), cast(Material, material)
-    order = completed(made, law, points_through(made, law, points, None)[0]).thickness_order
+    order = completed(made, law, *points_through(made, law, points, None)).thickness_order
     return layers_for(order, thickness, radius, material.kappa / float(yield_stress))
 
 
@@ -137,3 +138,14 @@ def tight(air: float, thickness: float, *, what: str, wanted: float) -> list[str
         return []
     text = f"the gap of {air:.4g} between punch and die is smaller than the thickness {thickness:g}: they iron the wall"
     return [f"{text}, and the forces rise; {what} of {wanted:.4g} lets the sheet pass"]
+
+
+def coarse(case: Any) -> list[str]:
+    """Warn of a mesh that is coarser than the usual one: its numbers are not those of the part."""
+    usual = next(field.default for field in fields(case) if field.name == "turn")
+    if case.turn <= usual:
+        return []
+    return [
+        f"coarse mesh: an element turns {case.turn:g} degrees over a radius, {usual:g} is usual. Forces, thinning, "
+        "strains and springback are those of this mesh; they may be off by tens of per cent"
+    ]

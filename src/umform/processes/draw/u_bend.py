@@ -38,7 +38,6 @@ _RULES = COMMON | {
     "length": length("the length of the blank", "in mm, such as 350"),
     "punch_width": length("the width of the punch", "in mm, such as 50"),
     "opening": length("the opening of the die", "in mm, such as 52"),
-    "penalty": COMMON["penalty"].optional(),
     "width": length("the width of the blank", "in mm, such as 35; forces are those on it"),
 }
 
@@ -201,7 +200,7 @@ class UBend:
         holder = model.tool("holder", Plane((0.0, 0.0, t), (0.0, 0.0, -1.0)))
         hold = held_by(model, holder, 0.5 * self.holder_force / self.width, blocks=False)
         under = model.contact("upper", holder, name="under_holder", **flat)
-        under.allowed = None  # the holder tilts the flange: its edge is pressed deeper than the flat of eq. (4.29)
+        under.allowed = None  # it tilts the flange; with a penalty that grows there, Newton's method fails
         punch = Box((0.0, 0.0, t + deep), (self.punch_width, 10.0 * t + 100.0, 2.0 * deep), self.punch_edge)
         ram = model.tool("punch", punch)
         model.contact("upper", ram, name="under_punch", **edges)

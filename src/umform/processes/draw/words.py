@@ -9,7 +9,6 @@ from umform.elements import element
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.u_bend import UBend
-from umform.processes.limit import Limit
 
 
 def parameters(case: Cup | UBend) -> dict[str, Any]:
@@ -18,6 +17,10 @@ def parameters(case: Cup | UBend) -> dict[str, Any]:
     if isinstance(case, Cup):
         found["holder_gap"] = case.gap
     return case.record() | found | {"element": element(case.element).name, "material": repr(case.material)}
+
+
+#: The error of a value of one mesh.
+UNKNOWN = "unknown"
 
 
 def title(drawn: Drawn) -> str:
@@ -31,27 +34,24 @@ def title(drawn: Drawn) -> str:
 def summary(drawn: Drawn) -> list[list[str]]:
     """Rows of all measures, the names of the columns first: name, value, unit.
 
-    With estimates there are more columns: the value at zero element size and its error, then that on the finest mesh.
+    Each value has its error, or the mark that it is unknown. With estimates from three meshes there is one more column:
+    the value is that at zero element size, then follows that on the finest mesh.
     """
-    measures = drawn.measures().items()
-    if not drawn.estimates:
-        return [["quantity", "value", "unit"], *([name, f"{value:.4g}", unit] for name, (value, unit) in measures)]
-    rows = [["quantity", "value", "error", "finest mesh", "unit"]]
-    for name, (value, unit) in measures:
+    extrapolated, errors = bool(drawn.estimates), drawn.errors()
+    rows = [["quantity", "value", "error", *["finest mesh"] * extrapolated, "unit"]]
+    for name, (value, unit) in drawn.measures().items():
         limit = drawn.estimates.get(name)
-        if limit is None:
-            rows.append([name, f"{value:.4g}", "", "", unit])
-        else:
-            rows.append([name, *_with_error(limit), f"{value:.4g}", unit])
+        shown = _with_error(value if limit is None else limit.value, errors.get(name))
+        rows.append([name, *shown, *[f"{value:.4g}" if limit else ""] * extrapolated, unit])
     return rows
 
 
-def _with_error(limit: Limit) -> tuple[str, str]:
-    """A limit and its error, both to the second digit of the error."""
-    if not limit.error:
-        return f"{limit.value:.4g}", ""
-    digits = max(1 - math.floor(math.log10(limit.error)), 0)
-    return f"{limit.value:.{digits}f}", f"± {limit.error:.{digits}f}"
+def _with_error(value: float, error: float | None) -> tuple[str, str]:
+    """A value and its error, both to the second digit of the error."""
+    if not error:
+        return f"{value:.4g}", UNKNOWN if error is None else ""
+    digits = max(1 - math.floor(math.log10(error)), 0)
+    return f"{value:.{digits}f}", f"± {error:.{digits}f}"
 
 
 def angles_text(drawn: Drawn) -> str:
@@ -74,6 +74,16 @@ def meshes(drawn: Drawn) -> list[list[str]]:
         measures, elements = mesh.measures(), len(mesh.result.model.mesh.connectivity)
         rows.append([f"{mesh.case.turn:.4g}", str(elements), *(f"{measures[name][0]:.4g}" for name in names)])
     return rows
+
+
+def about_errors(drawn: Drawn) -> str:
+    """Note on values without an error; empty if there are none."""
+    if drawn.estimates:
+        return ""
+    text = f"values of one mesh, whose elements turn up to {drawn.case.turn:g} degrees: most errors are unknown"
+    if isinstance(drawn.case, UBend):
+        return f"{text}; three meshes (without --coarse, or --extrapolate) give it"
+    return f"{text}; repeat with half of --turn, and twice --around, to see it"
 
 
 def before_the_run(case: Cup | UBend) -> str:

@@ -12,6 +12,7 @@ import numpy as np
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
 from umform.processes.air_bending.files import parameters
+from umform.processes.air_bending.remarks import coarse_mesh
 from umform.processes.hemming.measures import Hem
 from umform.report.versions import versions
 
@@ -68,6 +69,7 @@ def record(hem: Hem) -> dict[str, Any]:
         "increments": len(hem.result) - 1 + len(first.result) - 1,
         "iterations": int(hem.result["iterations"].sum() + first.result["iterations"].sum()),
         "seconds": hem.result.seconds + first.result.seconds,
+        "coarse_mesh": coarse_mesh(case.sheet),
         "warnings": list(hem.warnings),
         "versions": versions(),
     }

@@ -1,4 +1,4 @@
-"""Ears of a cup: height of its rim over the angle to the rolling direction."""
+"""Ears of a cup: height of its rim over the angle to the rolling direction, as waves around it. eq. (5.70)"""
 
 from __future__ import annotations
 
@@ -13,10 +13,16 @@ from umform.mesh import Mesh, Selector
 
 Floats = NDArray[np.float64]
 
-#: An ear stands out of its valleys by this part of the largest difference of heights, at least.
-_PROMINENCE = 0.1
-#: Elements of the rim in the shortest ear; shorter waves come from the mesh.
+#: Smallest ear: its amplitude relative to the mean height. Peak over valley is twice that, one per cent.
+SMALLEST_EAR = 0.005
+#: Elements of the rim in the shortest wave that a mesh resolves.
 _ELEMENTS = 6
+#: Waves around the cup whose amplitudes are measures of it.
+_WAVES = (2, 4, 6, 8)
+#: Angles around the cup at which its ears are looked for.
+_STEPS = 720
+#: Name of the measure.
+NUMBER_OF_EARS = "number of ears"
 
 
 @dataclass(frozen=True)
@@ -66,6 +72,47 @@ class EarProfile:
         whole = self.whole()
         return np.asarray(np.interp(angle, whole.angle, whole.height, period=360.0), dtype=float)
 
+    @cached_property
+    def resolved(self) -> int:
+        """Largest number of waves around the whole cup that its nodes resolve."""
+        return len(self.whole().angle) // _ELEMENTS
+
+    def wave(self, number: int) -> tuple[float, float]:
+        """Amplitude of the wave that goes around the whole cup so many times, and the angle of its crest.
+
+        Parameters
+        ----------
+        number : int
+            From 0, the mean, to ``resolved``.
+
+        Returns
+        -------
+        amplitude, angle : float
+            The angle is that of the crest nearest to the x-axis, in degrees; 0 for ears in the rolling direction.
+
+        Raises
+        ------
+        InvalidValue
+            If the nodes of the rim do not resolve so many waves.
+        """
+        if not 0 <= number <= self.resolved:
+            raise InvalidValue(
+                f"a rim of {len(self.whole().angle)} elements resolves {self.resolved} waves",
+                where="EarProfile.wave",
+                value=number,
+                remedy=f"{_ELEMENTS * number} elements around the whole cup",
+            )
+        wave = self._waves[number]
+        return float(abs(wave)), float(np.degrees(np.angle(wave)) / max(number, 1))
+
+    @cached_property
+    def smallest_ear(self) -> float:
+        """Amplitude from which on a wave counts as ears: ``SMALLEST_EAR`` of the mean height.
+
+        It is more where the nodes stand further off the waves that they resolve: the amplitude of such a wave.
+        """
+        return max(SMALLEST_EAR * abs(self.mean), float(np.sqrt(2.0) * self._rest.std()))
+
     def ears(self) -> Floats:
         """Angles of the ears around the whole cup, in degrees."""
         return self._extremes(1.0)
@@ -74,31 +121,54 @@ class EarProfile:
         """Angles of the valleys around the whole cup, in degrees."""
         return self._extremes(-1.0)
 
-    def harmonic(self, number: int) -> float:
-        """Amplitude of the wave of the height that goes around the whole cup so many times."""
-        height = self._equal_steps()
-        return float(2.0 * np.abs(np.fft.rfft(height)[number]) / len(height))
+    def heights(self) -> dict[str, float]:
+        """Mean, lowest and highest height by the names of their measures."""
+        low, high = float(self.height.min()), float(self.height.max())
+        return {"height, mean": self.mean, "height, lowest": low, "height, highest": high}
+
+    def waves(self) -> dict[str, float]:
+        """Amplitudes of the waves that the rim resolves, and ``smallest_ear``, by the names of their measures."""
+        found = {f"amplitude of {n} waves": self.wave(n)[0] for n in _WAVES if n <= self.resolved}
+        return found | {"ears count from an amplitude of": self.smallest_ear}
+
+    def words(self, unit: str) -> str:
+        """How many ears there are and the amplitude of their largest wave, or that there are none."""
+        count = len(self.ears())
+        if not count:
+            return f"no ears above {self.smallest_ear:.3g} {unit}"
+        return f"{count} ears, amplitude {max(self.wave(n)[0] for n in self._counted):.3g} {unit}"
 
     def _extremes(self, sign: float) -> Floats:
+        """Peaks, or valleys, of the waves that count; each stands out as one wave of the smallest ear does."""
         from scipy.signal import find_peaks  # slow to import
 
-        height = self._smooth()
-        count = len(height)
-        least = max(_PROMINENCE * self.amplitude, 1e-9 * abs(self.mean))
-        peaks, _ = find_peaks(sign * np.tile(height, 3), prominence=least)
-        return np.asarray(360.0 / count * (peaks[(peaks >= count) & (peaks < 2 * count)] - count))
+        angle = 2.0 * np.pi / _STEPS * np.arange(_STEPS)
+        height = sum((self._waves[n] * np.exp(-1j * n * angle) for n in self._counted), np.zeros(_STEPS)).real
+        peaks, _ = find_peaks(np.tile(sign * height, 3), prominence=2.0 * (1.0 - 1e-3) * self.smallest_ear)
+        return np.asarray(360.0 / _STEPS * (peaks[(peaks >= _STEPS) & (peaks < 2 * _STEPS)] - _STEPS))
 
-    def _smooth(self) -> Floats:
-        """Heights at equal steps of the angle from 0, without waves shorter than so many elements of the rim."""
-        height = self._equal_steps()
-        waves = np.fft.rfft(height)
-        waves[len(self.whole().angle) // _ELEMENTS + 1 :] = 0.0
-        return np.asarray(np.fft.irfft(waves, len(height)), dtype=float)
+    @cached_property
+    def _counted(self) -> list[int]:
+        """Waves of the smallest ear or larger; one wave around a cup is no ear: its blank lay beside the axis."""
+        return [n for n in range(2, self.resolved + 1) if abs(self._waves[n]) >= self.smallest_ear > 0.0]
 
-    def _equal_steps(self) -> Floats:
-        """Heights at equal steps of the angle from 0, straight between the nodes."""
-        count = 360 * max(1, round(len(self.whole().angle) / 36))
-        return self.at(np.linspace(0.0, 360.0, count, endpoint=False))
+    @cached_property
+    def _basis(self) -> NDArray[np.complex128]:
+        """Waves 0 to the last resolved one at the nodes around the whole cup, shape (nodes, waves)."""
+        return np.exp(-1j * np.radians(self.whole().angle)[:, None] * np.arange(self.resolved + 1))
+
+    @cached_property
+    def _waves(self) -> NDArray[np.complex128]:
+        """The height is the real part of _basis @ _waves, in the least squares of the nodes."""
+        real = np.hstack([self._basis.real, -self._basis.imag[:, 1:]])
+        found = np.linalg.lstsq(real, self.whole().height, rcond=None)[0]
+        count = self.resolved + 1
+        return np.asarray(found[:count] + 1j * np.concatenate([[0.0], found[count:]]))
+
+    @cached_property
+    def _rest(self) -> Floats:
+        """Heights of the nodes above the waves that they resolve."""
+        return np.asarray(self.whole().height - (self._basis @ self._waves).real)
 
     def _closed(self) -> tuple[Floats, Floats]:
         return np.append(self.angle, self.angle[0] + 360.0), np.append(self.height, self.height[0])

@@ -14,11 +14,13 @@ import umform as uf
 from umform.cli import app
 from umform.errors import InvalidValue
 from umform.processes.draw import Cup, Drawn, UBend, draw, write_files
+from umform.processes.draw.drawn import FORCE, FORCE_OFF
 from umform.processes.draw.endings import ending_of
 from umform.processes.draw.files import draw_blank
 from umform.processes.draw.pictures import pictures, sections
-from umform.processes.draw.words import before_the_run
-from umform.results.forming import ear_profile
+from umform.processes.draw.rules import coarse
+from umform.processes.draw.words import before_the_run, summary
+from umform.results.forming import ear_profile, passage
 
 STEEL = uf.J2(E=206e3, nu=0.3, hardening=uf.Swift(565.3, 0.0071, 0.259))
 CUP = Cup(
@@ -53,6 +55,10 @@ U = UBend(
 )
 
 
+class History(dict):
+    """Columns of a run that was not made."""
+
+
 @cache
 def cup():
     return draw(CUP, frames=3, progress=False)
@@ -65,7 +71,7 @@ def test_a_cup_is_symmetric_and_in_balance():
     x = model.mesh.points + drawn.u.reshape(-1, 3)
     order = {tuple(np.round(p, 6)): k for k, p in enumerate(model.mesh.points)}
     mirrored = [order[tuple(np.round(p, 6))] for p in model.mesh.points[:, [1, 0, 2]]]
-    np.testing.assert_allclose(x[mirrored][:, [1, 0, 2]], x, atol=1e-6)
+    np.testing.assert_allclose(x[mirrored][:, [1, 0, 2]], x, atol=2e-3)  # staggered heights are not mirrored
     forces = result["punch_fz"] + result["die_fz"] + result["holder_fz"]
     assert abs(forces).max() < 1e-5 * abs(result["die_fz"]).max()
     assert abs(result.balance().drift[-1]) < 0.02
@@ -96,6 +102,34 @@ def test_measures_of_a_cup():
     assert "major_middle" in drawn.result.frames[-1].cells
 
 
+def test_the_ripple_of_a_mesh_is_the_band_of_its_force(monkeypatch):
+    drawn = replace(cup())
+    own = float(drawn.forces["punch"].max()) / 1000.0
+    force, ripple = drawn.measures()[FORCE][0], drawn.errors()[FORCE]
+    assert 0.0 < ripple < 0.2 * force and own == pytest.approx(force, abs=1.001 * ripple)
+    assert drawn.punch_force_after is None and FORCE_OFF not in drawn.measures() | drawn.errors()
+    monkeypatch.setattr(passage, "RIPPLE", 0.2)
+    assert not any("ripples" in text for text in drawn.warnings)
+    monkeypatch.setattr(passage, "RIPPLE", 0.01)
+    assert f"the punch force, {force:.3g} ± {ripple:.2g} kN, ripples" in drawn.warnings[0]
+    assert "--turn 31" in drawn.warnings[0]
+
+
+def test_a_peak_off_the_holder_is_not_the_force_of_drawing():
+    drawn = replace(cup())
+    stroke = np.linspace(0.0, 40.0, 401)
+    punch = 30e3 * np.sin(np.pi * stroke / 30.0).clip(0.0) + 50e3 * np.exp(-(((stroke - 33.0) / 1.5) ** 2))
+    vars(drawn).update(
+        stroke=stroke, forces={"punch": punch, "holder": np.where(stroke < 25.0, 20e3, 10.0), "die": punch}
+    )
+    rows = drawn.measures()
+    assert rows["largest punch force"][0] == pytest.approx(30.0, rel=0.05)
+    assert rows["at a stroke of"][0] == pytest.approx(15.0, abs=0.5)
+    off, ripple = rows[FORCE_OFF][0], drawn.errors()[FORCE_OFF]
+    assert off + ripple >= 49.9 and rows["off the holder: at a stroke of"][0] == pytest.approx(33.0, abs=0.5)
+    assert any("the rim is ironed row by row" in text for text in drawn.warnings)
+
+
 def test_files_of_a_cup(tmp_path):
     files = {file.name for file in write_files(tmp_path, cup())}
     assert {"report.html", "ears.csv", "ears.png", "limits.png", "curve.csv", "draw.vtkhdf", "release.vtkhdf"} <= files
@@ -106,6 +140,20 @@ def test_files_of_a_cup(tmp_path):
     assert json.loads((tmp_path / "part.json").read_text())["ending"] is None
     page = (tmp_path / "report.html").read_text()
     assert "Forming limit diagram" in page and "Height of the cup" in page
+
+
+def test_values_of_one_coarse_mesh_are_marked_everywhere(tmp_path):
+    """Terminal, report and JSON take warnings, errors and rows from the same place."""
+    drawn = cup()
+    (said,) = [text for text in drawn.warnings if text.startswith("coarse mesh")]
+    assert "turns 45 degrees over a radius, 15 is usual" in said
+    assert not coarse(replace(CUP, turn=15.0)) and not coarse(replace(U, turn=12.0))
+    header, *rows = summary(drawn)
+    assert header[2] == "error" and {row[2] for row in rows[1:]} == {"unknown"} and rows[0][2].startswith("± ")
+    write_files(tmp_path, drawn)
+    kept, page = json.loads((tmp_path / "part.json").read_text()), (tmp_path / "report.html").read_text()
+    assert said in kept["warnings"] and [name for name, error in kept["errors"].items() if error is not None] == [FORCE]
+    assert "most errors are unknown" in kept["about_errors"] and "most errors are unknown" in page and said in page
 
 
 def test_a_short_u_bend():
@@ -130,10 +178,14 @@ def test_a_wall_that_springs_back_far_is_measured_lower():
     u = np.zeros_like(mesh.points)
     u[:, 0], u[:, 2] = middle[:, 0] - mesh.points[:, 0], middle[:, 1] - flange
     model = SimpleNamespace(mesh=mesh, u=u.ravel())
-    run = SimpleNamespace(model=model, warnings=[])
+    run = History(
+        stroke=np.linspace(0.0, 70.0, 71), **{f"{tool}_fz": np.full(71, -50.0) for tool in ("punch", "holder", "die")}
+    )
+    run.model, run.warnings = model, []
     drawn = Drawn(case, lambda minor: minor, run, u.ravel(), run, None)
     assert drawn.wall_heights == pytest.approx([17.0 * part / 55.0 for part in (15.0, 35.0, 55.0)], rel=0.02)
     assert drawn.angles is not None and drawn.angles.radius == pytest.approx(20.0, rel=0.05)
+    assert drawn.punch_force.value == pytest.approx(case.parts * 50.0) and drawn.punch_force.ripple == 0.0
     assert any("sprung back below" in text for text in drawn.warnings)
     assert replace(drawn, released=None).angles is None
 

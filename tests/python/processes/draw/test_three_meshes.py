@@ -92,10 +92,12 @@ def test_three_meshes_are_run_and_the_finest_is_kept(runs):
     columns, *rows = summary(found)
     assert columns == ["quantity", "value", "error", "finest mesh", "unit"]
     assert ["theta1", "100", "± 22", "122.5", ""] in rows
-    assert next(row for row in rows if row[0] == "largest thinning")[2:4] == ["", ""]
+    assert next(row for row in rows if row[0] == "largest thinning")[2:4] == ["unknown", ""]
     assert len(meshes(found)) == 4
     assert "theta1 100 ± 22°" in sections(found).axes[0].get_title(loc="left")
     assert record(found)["estimates"]["theta1"]["error"] == pytest.approx(22.5)
+    assert record(found)["errors"]["theta1"] == pytest.approx(22.5)
+    assert record(found)["errors"]["largest thinning"] is None and record(found)["about_errors"] == ""
 
 
 def test_without_angles_on_a_coarse_mesh_there_is_no_estimate(drawn, monkeypatch):
@@ -108,7 +110,7 @@ def test_without_angles_on_a_coarse_mesh_there_is_no_estimate(drawn, monkeypatch
     monkeypatch.setattr("umform.processes.draw.three_meshes.draw", instead)
     found = extrapolated(U)
     assert turns == pytest.approx([30.0, 15.0]) and not found.estimates and not found.coarser
-    assert summary(found)[0] == ["quantity", "value", "unit"]
+    assert summary(found)[0] == ["quantity", "value", "error", "unit"]
 
 
 def test_meshes_that_would_be_too_coarse_are_refused():
@@ -150,4 +152,4 @@ def test_the_command_runs_three_meshes_unless_told_otherwise(drawn, monkeypatch,
     assert out.exit_code == 0, out.output
     assert called == (["extrapolated"] if runs_three else ["draw"])
     assert ("± 0.25" in out.output) is runs_three
-    assert ("its error is unknown" in out.output) is not runs_three
+    assert ("errors are unknown" in out.output) is not runs_three

@@ -64,14 +64,67 @@ def test_ears_of_a_cup_that_opens_downwards():
 def test_equally_high_nodes_of_one_ear_are_one_ear():
     """Mirror images beside 0 and 90 degrees that are higher than the node between them by a trace."""
     angle = np.linspace(0.0, 90.0, 9)
-    height = 35.0 + 0.09 * np.cos(np.radians(4 * angle))
+    height = 35.0 + 0.9 * np.cos(np.radians(4 * angle))
     height[[1, -2]] = height[0] + 4e-4
     ears = EarProfile(angle, height)
     np.testing.assert_allclose(ears.ears(), [0, 90, 180, 270], atol=1e-6)
     np.testing.assert_allclose(ears.valleys(), [45, 135, 225, 315], atol=1e-6)
-    eight = EarProfile(np.linspace(0.0, 90.0, 19), 35.0 - np.cos(np.radians(8 * np.linspace(0.0, 90.0, 19))))
-    np.testing.assert_allclose(eight.ears(), np.arange(25.0, 360.0, 45.0) - 2.5, atol=2.6)
-    assert len(EarProfile(angle, np.full(9, 35.0)).ears()) == 0
+
+
+def _wavy(waves, nodes=49, until=90.0):
+    """A rim at 35 mm with waves: by their number the amplitude, or the amplitude and the angle of its crest."""
+    angle = np.linspace(0.0, until, nodes)
+    height = np.full(nodes, 35.0)
+    for number, wave in waves.items():
+        amplitude, crest = wave if isinstance(wave, tuple) else (wave, 0.0)
+        height += amplitude * np.cos(np.radians(number * (angle - crest)))
+    return EarProfile(angle, height)
+
+
+RIPPLES = {8: -0.05, 12: 0.06, 16: 0.04, 20: 0.05}
+
+
+@pytest.mark.parametrize(
+    ("waves", "ears"),
+    [
+        ({4: 0.6} | RIPPLES, [0, 90, 180, 270]),
+        ({4: -0.6} | RIPPLES, [45, 135, 225, 315]),
+        ({4: 0.1} | RIPPLES, []),
+        ({}, []),
+        ({4: 0.17}, []),
+        ({4: 0.18}, [0, 90, 180, 270]),
+        ({8: 0.3, 4: 0.05}, [0, 45, 90, 135, 180, 225, 270, 315]),
+        ({6: 0.5, 4: 0.1}, [0, 60, 120, 180, 240, 300]),
+        ({2: 0.5} | RIPPLES, [0, 180]),
+        ({4: 0.6, 2: 0.3}, [0, 90, 180, 270]),
+        ({4: 0.6, 8: -0.6}, [18.9, 71.1, 108.9, 161.1, 198.9, 251.1, 288.9, 341.1]),
+    ],
+)
+def test_ears_are_waves_above_a_threshold(waves, ears):
+    profile = _wavy(waves)
+    np.testing.assert_allclose(profile.ears(), ears, atol=0.6)
+    assert profile.smallest_ear == pytest.approx(0.005 * 35.0, rel=2e-3)
+    numbers = profile.waves()
+    for number in (2, 4, 6, 8):
+        assert numbers[f"amplitude of {number} waves"] == pytest.approx(abs(waves.get(number, 0.0)), abs=1e-9)
+
+
+def test_ears_between_the_axes_of_a_whole_cup():
+    whole = _wavy({4: (0.5, 17.0), 1: 1.0, 3: 0.1}, nodes=97, until=360.0)
+    np.testing.assert_allclose(whole.ears(), [17, 107, 197, 287], atol=0.6)
+    assert whole.wave(4) == pytest.approx((0.5, 17.0), abs=0.02)
+    assert "4 ears, amplitude 0.5" in whole.words("mm")
+    assert _wavy({4: 0.1}).words("mm") == "no ears above 0.175 mm"
+
+
+def test_a_rim_of_few_elements_resolves_few_waves():
+    """What its nodes stand off the waves that they resolve raises the smallest ear."""
+    angle = np.linspace(0.0, 90.0, 9)
+    rough = EarProfile(angle, 35.0 + 0.4 * np.cos(np.radians(4 * angle)) + 0.5 * (-1.0) ** np.arange(9))
+    assert rough.resolved == 5 and "amplitude of 6 waves" not in rough.waves()
+    assert rough.smallest_ear == pytest.approx(0.5 * np.sqrt(2.0), rel=1e-6) and len(rough.ears()) == 0
+    with pytest.raises(InvalidValue, match="resolves 5 waves"):
+        rough.wave(6)
 
 
 def test_draw_in():

@@ -1,4 +1,4 @@
-"""The metals of this chapter; constants with their sources."""
+"""Metals of several chapters; constants with their sources."""
 
 from __future__ import annotations
 

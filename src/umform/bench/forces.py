@@ -1,0 +1,75 @@
+"""Forces of all operations of a job, and the one that chooses the press: by rules before the run, computed after it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from umform.bench.wanted import Wanted
+from umform.processes.air_bending.formulas import shop_forces
+from umform.processes.air_bending.parameters import AirBending
+from umform.processes.hemming.formulas import flattening_forces
+
+#: Force of bottoming over that in the air: what is usual.
+_BOTTOMING = (3.0, 5.0)
+
+
+@dataclass(frozen=True)
+class Force:
+    """The force of an operation in N/mm.
+
+    Attributes
+    ----------
+    operation : str
+        "bend", "bottom" or "flatten".
+    low, high : float
+        Range of a rule; equal if the force is given or computed.
+    basis : str
+        "rule", "given" or "computed".
+    beyond : bool
+        Whether the force may exceed the range: a sheet that is squeezed to a way resists as much as it must.
+    """
+
+    operation: str
+    low: float
+    high: float
+    basis: str = "rule"
+    beyond: bool = False
+
+    def over(self, length: float) -> dict[str, Any]:
+        """For the page, in kN over a length in mm."""
+        return {
+            "operation": self.operation,
+            "force": self.high * length / 1e3,
+            "basis": self.basis,
+            "beyond": self.beyond,
+        }
+
+
+def before(wanted: Wanted, case: AirBending) -> list[Force]:
+    """The operations of a job in their order, by the rules of the shop."""
+    low, high = shop_forces(case)
+    bend = Force("bend", low, high)
+    if wanted.work == "hem":
+        return [bend, Force("flatten", *flattening_forces(case, wanted.gap, insert=wanted.insert))]
+    if wanted.work != "bottom":
+        return [bend]
+    if wanted.press_force is not None:
+        return [Force("bottom", wanted.press_force, wanted.press_force, "given")]
+    return [Force("bottom", _BOTTOMING[0] * low, _BOTTOMING[1] * high, beyond=True)]
+
+
+def after(wanted: Wanted, case: AirBending, computed: Mapping[str, float]) -> list[Force]:
+    """The same with computed forces by operation; the press of a bend in the air is chosen by the rule, if larger."""
+    found = []
+    for rule in before(wanted, case):
+        force = computed[rule.operation]
+        larger = rule.operation == "bend" and force < rule.high
+        found.append(rule if larger else Force(rule.operation, force, force, "computed"))
+    return found
+
+
+def press(forces: list[Force]) -> Force:
+    """The operation that needs the largest force."""
+    return max(forces, key=lambda one: one.high)

@@ -1,0 +1,76 @@
+"""Penalties that grow in a run, so that every result keeps the allowed penetration. docs/theory, 4.11"""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import replace
+
+import numpy as np
+
+from umform.model import Model
+from umform.model.changed_forces import changed_residual
+from umform.model.contact import Contact
+from umform.solution.newton import Newton
+from umform.solution.records import Converged
+
+log = logging.getLogger("umform.contact")
+
+#: Largest number of passes; the history has the remaining penetration.
+_PASSES = 10
+#: Part of the allowed penetration that a larger penalty aims at; its largest growth in a pass, tried in this order.
+_AIM, GROWTHS = 0.85, (30.0, 2.0)
+
+
+def kept(model: Model, newton: Newton, converged: Converged, growth: float) -> Converged:
+    """Increase the penalties of contacts beyond their allowed penetration, and iterate, until none is. eq. (4.200)
+
+    Parameters
+    ----------
+    model : Model
+        At ``converged``, not yet committed.
+    newton : Newton
+        The method, converged.
+    converged : Converged
+        Equilibrium with the present penalties.
+    growth : float
+        Largest growth of a penalty in a pass.
+
+    Raises
+    ------
+    Failed
+        If a pass does not converge; the model is reverted, but not its penalties.
+    """
+    for number in range(1, _PASSES + 1):
+        found = converged.evaluation.found
+        excess = excesses(model, converged)
+        if not excess:
+            break
+        parts = {contact: np.zeros(model.u.size) for contact in excess}
+        for contact, part in parts.items():
+            grown = min(excess[contact] / _AIM, growth) * contact.penalty
+            contact.stiffen(found[contact], min(grown, contact.largest_penalty), part)
+        change = changed_residual(model, converged.evaluation, parts)
+        again = newton.go_on(converged, change)
+        converged = replace(converged, evaluation=again.evaluation, passes=converged.passes + again.iterations)
+        log.debug("    pass %d of the penalties, %d iterations", number, len(again.iterations))
+    return converged
+
+
+def excesses(model: Model, converged: Converged) -> dict[Contact, float]:
+    """Contacts beyond their allowed penetration that may become stiffer, and their penetration relative to it."""
+    excess = {}
+    for contact in model.contacts:
+        if contact.adapts and contact.penalty < contact.largest_penalty:
+            assert contact.allowed is not None
+            share = contact.deepest(converged.evaluation.found[contact], model.ranks) / contact.allowed
+            if share > 1.0:
+                excess[contact] = share
+    return excess
+
+
+def relaxed(model: Model) -> bool:
+    """Reset grown penalties to their initial values; whether there were any."""
+    grown = [contact for contact in model.contacts if contact.penalty > contact.initial_penalty and contact.adapts]
+    for contact in grown:
+        contact.use_penalty(contact.initial_penalty)
+    return bool(grown)
