@@ -155,7 +155,8 @@ def test_a_moment_turns_a_tool_until_the_sheet_answers():
     result = solve(model, Move(moment, 2000.0, steps=4), options=TIGHT)
     np.testing.assert_allclose(result["moment_way_force"][1:], result["moment"][1:], rtol=1e-9)
     about = result["punch_my"] - 10.0 * result["punch_fx"]  # at (0, 0, 10)
-    np.testing.assert_allclose(about[1:], -2000.0 * np.array([0.25, 0.5, 0.75, 1.0]), rtol=1e-9)
+    np.testing.assert_allclose(about[1:], -result["moment"][1:], rtol=1e-9)  # increments may be cut
+    assert result["moment"][-1] == 2000.0
     assert 1e-4 < result["moment_way"][-1] < 0.2
 
 
