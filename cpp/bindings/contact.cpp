@@ -312,6 +312,14 @@ void bind_contact(nb::module_& m) {
     contact.def_rw("name", &ContactBlock::name, "For messages.")
         .def_rw("open", &ContactBlock::open,
                 "Whether the tool has been taken away: it holds no point, wherever it stands.")
+        .def(
+            "keep",
+            [](ContactBlock& b, nb::ndarray<const std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu> points) {
+                require(points.size() == static_cast<std::size_t>(b.points()), "there is one mark for each contact point");
+                b.kept.assign(points.data(), points.data() + points.size());
+            },
+            nb::arg("points"), nb::sig("def keep(self, points: NDArray[uint8]) -> None"),
+            "Points that the next evaluation holds, without friction, wherever they are: not 0.")
         .def_prop_ro("law", &ContactBlock::law)
         .def_prop_ro("symmetric", &ContactBlock::symmetric, "Whether its tangent is symmetric.")
         .def_prop_rw(

@@ -37,6 +37,7 @@ app.add_typer(group, name="draw")
 Out = Annotated[str | None, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")]
 LimitCurve = Annotated[Path | None, option("Forming limit: a CSV file of minor and major logarithmic strain.", SHEET)]
 Coarse = Annotated[bool, typer.Option("--coarse", help="Coarse mesh, for a first result in seconds.")]
+Fine = Annotated[bool, typer.Option("--fine", help="Fine mesh: smaller errors for some three times the time.")]
 Turn = Annotated[float | None, option("Largest angle in degrees that an element turns over a tool radius.", SOLUTION)]
 Layers = Annotated[int, option("Elements through the thickness; 0: by the rule for sharp bends.", SOLUTION)]
 ThicknessPoints = Annotated[int | None, option("Thickness points per layer.", SOLUTION)]
@@ -57,6 +58,7 @@ def _halves() -> Iterator[None]:
 def cup(
     out: Out = None,
     coarse: Coarse = False,
+    fine: Fine = False,
     punch: Annotated[float, option("Diameter of the punch.", _TOOLS)] = 60.0,
     punch_edge: Annotated[float, option("Edge radius of the punch.", _TOOLS)] = 5.0,
     opening: Annotated[
@@ -100,6 +102,7 @@ def cup(
     from umform.processes.draw.case import draw
     from umform.processes.draw.cup import CLEARANCE, Cup
 
+    _one_mesh(coarse, fine)
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
     case = Cup(
         thickness=thickness,
@@ -114,8 +117,8 @@ def cup(
         friction=friction,
         stroke=stroke,
         element=element,
-        turn=_chosen(turn, coarse, 30.0, 15.0),
-        around=_chosen(around, coarse, 8, 12),
+        turn=_chosen(turn, coarse, 30.0, 9.0 if fine else 15.0),
+        around=_chosen(around, coarse, 8, 24 if fine else 12),
         layers=layers or None,
         thickness_points=thickness_points,
         contact_points=contact_points,
@@ -128,6 +131,7 @@ def cup(
 def u(
     out: Out = None,
     coarse: Coarse = False,
+    fine: Fine = False,
     punch: Annotated[float, option("Width of the punch.", _TOOLS)] = 50.0,
     punch_edge: Annotated[float, option("Edge radius of the punch.", _TOOLS)] = 5.0,
     opening: Annotated[float | None, option("Opening of the die; default: punch + 2.56 t.", _TOOLS)] = None,
@@ -179,6 +183,7 @@ def u(
     from umform.processes.draw.three_meshes import extrapolated
     from umform.processes.draw.u_bend import CLEARANCE, UBend
 
+    _one_mesh(coarse, fine)
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
     case = UBend(
         thickness=thickness,
@@ -193,7 +198,7 @@ def u(
         friction=friction,
         stroke=stroke,
         element=_chosen(element, coarse, "BEND8", "BEND18"),
-        turn=_chosen(turn, coarse, 20.0, 12.0),
+        turn=_chosen(turn, coarse, 20.0, 12.0 if fine else 17.0),
         layers=layers or None,
         thickness_points=thickness_points,
         contact_points=_chosen(contact_points, coarse, 3, 4),
@@ -201,6 +206,11 @@ def u(
     )
     how = extrapolated if _chosen(extrapolate, coarse, False, True) else draw
     _run(case, how, out, "u-bend", note, limit_curve, overwrite=overwrite, timing=timing)
+
+
+def _one_mesh(coarse: bool, fine: bool) -> None:
+    if coarse and fine:
+        raise InvalidValue("two meshes are asked for", where="--coarse and --fine", remedy="one of them, or neither")
 
 
 def _chosen(given: Any, coarse: bool, first: Any, usual: Any) -> Any:

@@ -39,6 +39,7 @@ class Evaluated(Assembled):
         until: float | None = None,
         *,
         tangent: bool = True,
+        keep: bool = False,
     ) -> Evaluation:
         """Residual and tangent at ``x``, for the present values of controls and time; changes no converged history.
 
@@ -57,13 +58,15 @@ class Evaluated(Assembled):
         tangent : bool
             Whether to evaluate the tangent; else forces only. The previous tangent then remains valid for the recovery
             of enhanced parameters.
+        keep : bool
+            Whether tools hold all points that they hold in the converged state, whatever the gap. eq. (4.230)
         """
         assembly, unknowns, dofs = self._assembly(), self.unknowns, self.u.size
         u, rates = x[:dofs], rates or {}
         if rates or until is not None:
             du = self.displacement_of_supports(rates)
         scalars, step = dict(zip(unknowns, x[dofs:].tolist(), strict=True)), self.time - self._converged_time
-        at = At(u, self.time, self._values(scalars), step, None if du is None else du[:dofs], rates, until, scalars)
+        at = At(u, self.time, self._values(scalars), step, None if du is None else du[:dofs], rates, until, scalars, keep)
         values = np.zeros(assembly.entries) if tangent else None
         border = Border.of(unknowns, dofs)
         into = Into(np.zeros(dofs), values, np.zeros(dofs), assembly.scatters, self._positions, self.ranks, border)

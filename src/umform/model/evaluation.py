@@ -90,6 +90,11 @@ class Evaluation:
         joined: NDArray[np.uint8] = _joined([found.flowing for found in self.found.values()], np.dtype(np.uint8))
         return joined
 
+    @cached_property
+    def kept(self) -> bool:
+        """Whether tools hold open points, so that this is no state of equilibrium. eq. (4.230)"""
+        return any(found.kept for found in self.found.values())
+
     def without_tangent(self) -> Self:
         """The same without the entries of the tangent, whose memory the next evaluation may reuse."""
         bare = copy(self)

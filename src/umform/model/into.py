@@ -70,6 +70,8 @@ class At:
         End time of tools whose motion is a function of time, for the predictor. eq. (4.37)
     scalars : mapping of Global to float
         Values of the scalar unknowns.
+    keep : bool
+        Whether tools hold all points that they hold in the converged state, whatever the gap. eq. (4.230)
     """
 
     u: Floats
@@ -80,6 +82,7 @@ class At:
     rates: Mapping[Control, float] = field(default_factory=dict)
     until: float | None = None
     scalars: Mapping[Global, float] = field(default_factory=dict)
+    keep: bool = False
 
 
 @dataclass(frozen=True)

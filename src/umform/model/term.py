@@ -43,12 +43,15 @@ class Found:
         First cell whose evaluation failed, or -1.
     failure : str
         Cause of that failure.
+    kept : bool
+        Whether tools hold open points, so that this is no state of equilibrium. eq. (4.230)
     """
 
     force_scale_squared: float = 0.0
     round_off_squared: float = 0.0
     failed: int = -1
     failure: str = ""
+    kept: bool = False
 
     @property
     def status(self) -> NDArray[np.uint8]:

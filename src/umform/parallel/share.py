@@ -186,11 +186,12 @@ class Share(Model):
         until: float | None = None,
         *,
         tangent: bool = True,
+        keep: bool = False,
     ) -> Evaluation:
         """Local parts of residual and tangent; scale, round-off, failed cell and errors are global."""
         problem, found = None, None
         try:
-            found = super().evaluate(x, du, rates, until, tangent=tangent)
+            found = super().evaluate(x, du, rates, until, tangent=tangent, keep=keep)
         except UmformError as error:
             problem = error
         self.ranks.agree(problem)

@@ -57,16 +57,27 @@ class Newton:
         self._solver: Bordered | None = None
         self._pattern: Pattern | None = None
         self.callbacks: list[Callable[[Iteration], None]] = []
+        #: Whether the sheet springs back, nearly elastic, even if its laws have a history. docs/theory, 5.13
+        self.springs_back = False
 
     @property
     def solver(self) -> str:
         """Name of the sparse solver for the system."""
         return self.ready_solver().solver.name
 
-    @cached_property
+    @property
     def mixed(self) -> bool:
         """Whether tangents have the geometric stiffness of the stress predicted by the last increment. eq. (5.39)"""
-        return self.system.elastic if self.options.mixed is None else self.options.mixed
+        return self._elastic if self.options.mixed is None else self.options.mixed
+
+    @cached_property
+    def _has_history(self) -> bool:
+        return not self.system.elastic
+
+    @property
+    def _elastic(self) -> bool:
+        """Whether the sheet is elastic, or nearly so."""
+        return self.springs_back or not self._has_history
 
     def manner(self, *, consistent: bool = False, wary: Wary = Wary.NOT, rubs: bool = False) -> Manner:
         """Mode of the iterations, with the options of the user.
@@ -82,11 +93,15 @@ class Newton:
         """
         search = self.options.line_search
         if search is None:  # in elastic sheets, whose energy is a narrow curved valley, it is too slow
-            search = rubs or not self.system.elastic
+            search = rubs or not self._elastic
         return Manner(search, True, self.mixed and not consistent, wary)
 
     def solve(
-        self, extrapolation: Floats | None = None, manner: Manner | None = None, beyond: Floats | None = None
+        self,
+        extrapolation: Floats | None = None,
+        manner: Manner | None = None,
+        beyond: Floats | None = None,
+        keep: bool = False,
     ) -> Converged:
         """Find the equilibrium at the present loads, supports and tools, starting from the converged state.
 
@@ -99,13 +114,15 @@ class Newton:
             Mode of the iterations; default: from the options.
         beyond : ndarray, shape (3 n + k,), optional
             A rigid rotation in addition to the extrapolation, which strains no element. eq. (4.178)
+        keep : bool
+            Whether the first evaluation keeps the contact points of the converged state. eq. (4.230)
 
         Raises
         ------
         Failed
             If it does not converge; the system is reverted.
         """
-        return self.guarded(lambda: self._solve(extrapolation, manner or self.manner(), beyond))
+        return self.guarded(lambda: self._solve(extrapolation, manner or self.manner(), beyond, keep))
 
     def go_on(self, converged: Converged, change: Floats, manner: Manner | None = None) -> Converged:
         """Find the equilibrium again after a change of forces in the system at fixed loads, supports and tools.
@@ -154,7 +171,9 @@ class Newton:
                 error.motion = self._solver.weak
             raise
 
-    def _solve(self, extrapolation: Floats | None, manner: Manner, beyond: Floats | None) -> Converged:
+    def _solve(
+        self, extrapolation: Floats | None, manner: Manner, beyond: Floats | None, keep: bool
+    ) -> Converged:
         """First increment from the extrapolation, or from the tangent by eq. (5.6); then corrections."""
         system = self.system
         solver = self.ready_solver()
@@ -171,7 +190,7 @@ class Newton:
                 of_tangent = First(factors, system.largest_entry(first.values))
             du += system.extend(solver.solve(-system.restrict(first.residual + first.predictor)))
             del first  # with its tangent
-        return self.correct(u, du, manner, start, of_tangent, beyond)
+        return self.correct(u, du, manner, start, of_tangent, beyond, keep)
 
     def prescribed_increment(self, u: Floats) -> Floats:
         """Increment of the supports from ``u`` to their prescribed values; zero at the unknowns."""
@@ -188,6 +207,7 @@ class Newton:
         start: float | None = None,
         first: First | None = None,
         beyond: Floats | None = None,
+        keep: bool = False,
     ) -> Converged:
         """Apply a first increment ``du`` from ``u``, and iterate until residual and increments are small. eq. (5.9)"""
         system, options = self.system, self.options
@@ -203,7 +223,7 @@ class Newton:
         pivots = reuse.remember(first.factors) if first is not None else None
         criteria.entry = first.entry if first is not None else None
         lean = first is not None and self._lean(reuse, manner)
-        evaluation = system.evaluate(u, tangent=not lean)
+        evaluation = system.evaluate(u, keep=True) if keep else system.evaluate(u, tangent=not lean)
         increment, step_length, shifted = self._relative(du, evaluation), 1.0, False
         status = previous = evaluation.status
 
@@ -217,7 +237,7 @@ class Newton:
             entered, left = self._count((status > 0) & (previous == 0)), self._count((status == 0) & (previous > 0))
             moved = bool(entered or left) or system.ranks.any(not np.array_equal(status, previous))
             solved = bool(iterations) or first is not None
-            if criteria.met(norm, increment, u, evaluation, moved=moved, solved=solved):
+            if not evaluation.kept and criteria.met(norm, increment, u, evaluation, moved=moved, solved=solved):
                 recorder.add(evaluation.flowing, norm / scale, increment, 0.0, entered, left, step_length, pivots)
                 self._check_flight(evaluation, iterations)
                 if lean:

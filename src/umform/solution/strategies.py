@@ -41,6 +41,8 @@ class Increment:
         The last increment, extrapolated.
     last : Evaluation
         Evaluation at the converged state.
+    keeps : bool
+        Whether an extrapolation keeps the contact points of the converged state. eq. (4.230)
     """
 
     model: Model
@@ -50,6 +52,7 @@ class Increment:
     time: float
     guess: Floats | None
     last: Evaluation
+    keeps: bool = True
 
     def accept(self, converged: Converged) -> Converged:
         """The equilibrium, unless the sheet passed through a tool, or rotated on one too far for its friction."""
@@ -74,13 +77,13 @@ class Increment:
 
     @property
     def touches(self) -> bool:
-        """Whether there is contact."""
-        return bool(self.model.contacts)
+        """Whether there is contact with tools that are not open."""
+        return any(not pair.tool.open for pair in self.model.contacts)
 
     @property
     def rubs(self) -> bool:
-        """Whether there is friction."""
-        return any(pair.rubs for pair in self.model.pairs_of_tools())
+        """Whether there is friction with tools that are not open."""
+        return any(pair.rubs and not pair.tool.open for pair in self.model.pairs_of_tools())
 
     @property
     def touched(self) -> bool:
@@ -160,7 +163,7 @@ STRATEGIES = (
     Strategy(
         "extrapolation",
         lambda at: at.extrapolates and not at.came_round,
-        lambda at: at.newton.solve(at.guess, at.newton.manner(wary=at.wary)),
+        lambda at: at.newton.solve(at.guess, at.newton.manner(wary=at.wary), keep=at.keeps),
     ),
     Strategy(
         "tangent",

@@ -77,6 +77,10 @@ class Evaluation(Protocol):
     def status(self) -> NDArray[np.uint8]:
         """0 for each open contact point, 1 if a tool holds it, 2 if it also slips."""
 
+    @property
+    def kept(self) -> bool:
+        """Whether tools hold open points, so that this is no state of equilibrium. eq. (4.230)"""
+
     def without_tangent(self) -> Self:
         """The same without the entries of the tangent, whose memory the next evaluation may reuse."""
 
@@ -137,8 +141,13 @@ class System(Protocol):
     def largest_entry(self, values: Floats) -> float:
         """Size of the largest entry of the tangent."""
 
-    def evaluate(self, x: Floats, du: Floats | None = None, *, tangent: bool = True) -> Evaluation:
-        """Residual and tangent, or the residual alone, which leaves the blocks of enhanced parameters unchanged."""
+    def evaluate(
+        self, x: Floats, du: Floats | None = None, *, tangent: bool = True, keep: bool = False
+    ) -> Evaluation:
+        """Residual and tangent, or the residual alone, which leaves the blocks of enhanced parameters unchanged.
+
+        With ``keep`` tools hold all points that they hold in the converged state, whatever the gap. eq. (4.230)
+        """
 
     def recover(self, du: Floats, mixed: bool = False) -> None:
         """Update condensed parameters; the next tangent may be mixed, with the stress that the increment predicts."""

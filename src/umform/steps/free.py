@@ -119,15 +119,15 @@ class Freeing(Marching):
 
     def advance(self, run: Run, step: Free) -> None:  # type: ignore[override]
         """Try one increment; until one has converged, supports and tools are active between attempts."""
-        if self.fraction > 0.0:
-            super().advance(run, step.move())
-            return
-        before = _Before(run, step)
+        before = _Before(run, step) if self.fraction == 0.0 else None
+        run.newton.springs_back = True
         try:
-            _let_go(run, step)
+            if before is not None:
+                _let_go(run, step)
             super().advance(run, step.move())
         finally:
-            if self.fraction == 0.0:
+            run.newton.springs_back = False
+            if before is not None and self.fraction == 0.0:
                 before.restore(run)
 
 

@@ -32,9 +32,18 @@ log = logging.getLogger("umform.steps")
 
 
 def take_increment(
-    run: Run, values: Sequence[float], controls: Sequence[Control], time: float, extrapolation: float | None
+    run: Run,
+    values: Sequence[float],
+    controls: Sequence[Control],
+    time: float,
+    extrapolation: float | None,
+    *,
+    keep: bool = True,
 ) -> Converged:
-    """One increment to new values of the controls; after a failure the previous state is restored."""
+    """One increment to new values of the controls; after a failure the previous state is restored.
+
+    With ``keep`` an extrapolation keeps the contact points: not where tools are to lose the sheet. eq. (4.230)
+    """
     model = run.model
     before, time_before = [control.value for control in controls], model.time
     for control, value in zip(controls, values, strict=True):
@@ -45,7 +54,7 @@ def take_increment(
     try:
         starts = dict(zip(controls, before, strict=True))
         guess = None if extrapolation is None or run.trail is None else run.trail.guess(extrapolation)
-        increment = Increment(model, run.newton, run.habits, starts, time_before, guess, run.evaluation)
+        increment = Increment(model, run.newton, run.habits, starts, time_before, guess, run.evaluation, keep)
         converged, x_soft = _within_allowed(run, increment)
         try:
             with _counted(run):

@@ -148,7 +148,7 @@ class Releasing:
         extrapolation = None if self.taken is None else (target - value) / self.taken
         try:
             with tightened(run, _PART * step.tolerance * self.scale):
-                converged = take_increment(run, [target], [control], time, extrapolation)
+                converged = take_increment(run, [target], [control], time, extrapolation, keep=False)
         except Failed as failure:
             self.size, self.taken, self.failures = 0.25 * self.size, None, self.failures + 1
             if self.failures > 20:

@@ -25,7 +25,7 @@ void check_exceptions() {
     const auto failing = [](int element, int) {
         if (element == 500) throw std::runtime_error("500");
     };
-    CHECK(throws<std::runtime_error>([&] { for_each_by_colour({all}, 1000, 3, failing); }));
+    CHECK(throws<std::runtime_error>([&] { for_each_by_colour({all}, 3, failing); }));
     CHECK(
         throws<std::runtime_error>([&] { for_each_range(1000, 3, [&](int first, int) { failing(first + 52, 0); }); }));
 }
@@ -37,7 +37,7 @@ void check_team() {
     const int before = thread_count();
     std::atomic<int> largest{0};
     thread_count() = 1;
-    for_each_by_colour({all, all, all}, 1000, 2, [&](int, int thread) {
+    for_each_by_colour({all, all, all}, 2, [&](int, int thread) {
         thread_count() = 7;
         for (int seen = largest; thread > seen && !largest.compare_exchange_weak(seen, thread);) {
         }

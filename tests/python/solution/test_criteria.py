@@ -44,13 +44,13 @@ class Given:
     def prescribed_displacement(self):
         return np.zeros(1)
 
-    def evaluate(self, u, du=None, *, tangent=True):
+    def evaluate(self, u, du=None, *, tangent=True, keep=False):
         self.count += 1
         residual = np.array([self.residuals[min(self.count, len(self.residuals)) - 1]])
         return Evaluated(
             x=u, residual=residual, values=np.ones(1), predictor=np.zeros(1), border=SimpleNamespace(unknowns=()),
             force_scale=1.0, failed=-1, round_off=0.0, flowing=np.zeros(0, dtype=np.uint8),
-            status=np.array(self.active[min(self.count, len(self.active)) - 1], dtype=np.uint8),
+            status=np.array(self.active[min(self.count, len(self.active)) - 1], dtype=np.uint8), kept=False,
         )  # fmt: skip
 
     def recover(self, du, s, mixed=False):

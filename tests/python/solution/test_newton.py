@@ -260,14 +260,14 @@ class Scalar:
     def displacement_of_supports(self, values):
         return np.zeros(1)
 
-    def evaluate(self, x, du=None, *, tangent=True):
+    def evaluate(self, x, du=None, *, tangent=True, keep=False):
         at = float(x[0])
         self.calls.append("evaluate" if tangent else "forces")
         return Evaluated(
             x=x, residual=np.array([self.residual(at)]), values=np.array([self.slope(at)]), predictor=np.zeros(1),
             force_scale=self.scale, failed=4 if abs(at) > 1e6 else -1, failure="is out of its domain", round_off=0.0,
             status=np.array(self.active(at), dtype=np.uint8), flowing=np.zeros(0, dtype=np.uint8),
-            border=Border.of((), 1),
+            border=Border.of((), 1), kept=False,
             at_points=lambda chosen: f": {int(chosen.sum())} points",
         )  # fmt: skip
 

@@ -54,22 +54,24 @@ class FirstException {
     std::atomic<bool> stopped_{false};
 };
 
-/// Starting a team for fewer elements costs more than it brings.
-inline constexpr int worth_a_team = 256;
+/// Starting a team for fewer of them costs more than it brings: the work of a facet is a tenth of that of an element.
+inline constexpr int elements_worth_a_team = 32, facets_worth_a_team = 512, nodes_worth_a_team = 8192;
 
-/// Calls work(element, thread) for every element, colour after colour, on so many `threads`; thread < threads. Sets of a small
-/// `size` run on one.
+/// Shares of a colour that each thread takes one after the other: they even out work that differs.
+inline constexpr int shares = 8;
+
+/// Calls work(element, thread) for every element, colour after colour, on so many `threads`; thread < threads.
 template <class Work>
-void for_each_by_colour(const std::vector<std::vector<std::int32_t>>& colours, int size, int threads,
-                        const Work& work) {
+void for_each_by_colour(const std::vector<std::vector<std::int32_t>>& colours, int threads, const Work& work) {
     FirstException exception;
-    [[maybe_unused]] const int team = size < worth_a_team ? 1 : threads;
+    [[maybe_unused]] const int team = threads;
 #pragma omp parallel num_threads(team) if (team > 1)
     {
         const int thread = thread_index();
         for (const auto& colour : colours) {
             const int count = static_cast<int>(colour.size());
-#pragma omp for schedule(dynamic, 32)
+            [[maybe_unused]] const int chunk = std::max(1, count / (shares * team));
+#pragma omp for schedule(dynamic, chunk)
             for (int k = 0; k < count; ++k) exception.guard([&] { work(colour[k], thread); });
         }
     }
@@ -81,7 +83,7 @@ template <class Work>
 void for_each_range(int count, int threads, const Work& work) {
     constexpr int length = 64;
     FirstException exception;
-    [[maybe_unused]] const int team = count < worth_a_team ? 1 : threads;
+    [[maybe_unused]] const int team = threads;
 #pragma omp parallel for num_threads(team) if (team > 1) schedule(dynamic)
     for (int first = 0; first < count; first += length)
         exception.guard([&] { work(first, std::min(first + length, count)); });

@@ -33,6 +33,8 @@ class ContactBlock {
     Pose pose;
     std::string name = "a contact";  // for messages
     bool open = false;               // whether the tool is open: it holds no point, wherever it is
+    /// For each point 1 if the next `evaluate` holds it, without friction, wherever it is; empty: none. eq. (4.230)
+    std::vector<std::uint8_t> kept;
 
     const std::shared_ptr<ContactLaw>& law() const { return law_; }
     virtual bool symmetric() const = 0;

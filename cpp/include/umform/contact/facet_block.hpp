@@ -4,6 +4,7 @@
 #include "umform/assembly/colours.hpp"
 #include "umform/contact/block.hpp"
 #include "umform/contact/locator.hpp"
+#include "umform/contact/penalty.hpp"
 #include "umform/contact/points.hpp"
 
 namespace umform {
@@ -50,10 +51,12 @@ class ContactBlockOf final : public ContactBlock {
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
         if (target.values != nullptr) scatter.require(symmetric(), name);
         const int threads = thread_count();  // once: another thread may change it while this one works
-        locator_.move(u, pose, threads, [this](int e) { return reach(e); });
+        locator_.move(u, pose, threads,
+                      [this](int e) { return keeps(e) ? std::numeric_limits<double>::infinity() : reach(e); });
         while (static_cast<int>(workspaces_.size()) < threads) workspaces_.emplace_back(per_facet());
-        for_each_by_colour(colours_, connectivity().size(), threads,
+        for_each_by_colour(colours_, connectivity().size() < facets_worth_a_team ? 1 : threads,
                            [&](int e, int thread) { add_facet(e, scatter, target, workspaces_[thread]); });
+        kept.clear();
         Outcome outcome;
         for (const double scale : scale_) outcome.force_scale_squared += scale;
         return outcome;
@@ -306,6 +309,7 @@ class ContactBlockOf final : public ContactBlock {
     bool form(int e, double* trial, Workspace& workspace, bool tangent, Element& element) const {
         const double* areas = area_.data() + static_cast<std::size_t>(e) * per_facet();
         respond(e, areas, trial, workspace);
+        if (keeps(e)) hold_kept(e, areas, trial, workspace);
         bool active = false;
         for (const Reaction& reaction : workspace.reactions) active = active || reaction.held;
         if (!active) return false;
@@ -315,6 +319,23 @@ class ContactBlockOf final : public ContactBlock {
             if (workspace.reactions[q].held)
                 rule_.add(*law_, locator_, e, q, workspace, tangent, element.K.data(), element.f.data());
         return true;
+    }
+
+    bool keeps(int e) const {
+        if (kept.empty()) return false;
+        const std::uint8_t* first = kept.data() + static_cast<std::size_t>(e) * per_facet();
+        return std::any_of(first, first + per_facet(), [](std::uint8_t one) { return one != 0; });
+    }
+
+    /// Holds the kept points that are open: frictionless, with tension. eq. (4.230)
+    void hold_kept(int e, const double* areas, const double* trial, Workspace& workspace) const {
+        const Penalty law{law_->penalty()};
+        for (int q = 0; q < per_facet(); ++q) {
+            Reaction& reaction = workspace.reactions[q];
+            if (reaction.held || kept[static_cast<std::size_t>(e) * per_facet() + q] == 0) continue;
+            law.hold(locator_.places(e)[q], areas[q], trial + history_.size() * q, reaction);
+            reaction.held = true;
+        }
     }
 
     void add_facet(int e, const Scatter& scatter, const Target& target, Workspace& workspace) {

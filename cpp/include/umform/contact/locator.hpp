@@ -48,13 +48,14 @@ class Locator {
     template <class Reach>
     void move(const double* u, const Pose& pose, int threads, const Reach& reach) {
         pose_ = pose;
-        for_each_range(static_cast<int>(nodes_.size()), threads, [&](int first, int last) {
+        const int nodes = static_cast<int>(nodes_.size());
+        for_each_range(nodes, nodes < nodes_worth_a_team ? 1 : threads, [&](int first, int last) {
             for (int i = first; i < last; ++i) {
                 for (int k = 0; k < 3; ++k) y_[i][k] = X_[3 * nodes_[i] + k] + u[3 * nodes_[i] + k];
                 if (culls_) z_[i] = pose_.to_tool(y_[i]);
             }
         });
-        for_each_range(part_.size(), threads, [&](int first, int last) {
+        for_each_range(part_.size(), part_.size() < facets_worth_a_team ? 1 : threads, [&](int first, int last) {
             for (int e = first; e < last; ++e) {
                 bound_[e] = culls_ ? lower_bound(e) : -std::numeric_limits<double>::infinity();
                 far_[e] = beyond(e, reach(e)) ? 1 : 0;
@@ -146,7 +147,8 @@ class Locator {
 
     void locate_wanted(int threads) {
         if (surface_->is_concurrent())
-            for_each_range(part_.size(), threads, [&](int first, int last) { locate_range(first, last); });
+            for_each_range(part_.size(), part_.size() < facets_worth_a_team ? 1 : threads,
+                           [&](int first, int last) { locate_range(first, last); });
         else
             locate_at_once();
     }

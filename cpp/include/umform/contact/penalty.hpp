@@ -18,16 +18,20 @@ struct Penalty {
     /// A place is held where its gap less multiplier over penalty, g~, is not positive (a tool that just touches can hold):
     /// traction -penalty g~ n, K = penalty (n n^T + g~ H). eqs. (4.6), (4.10), (4.33)
     bool respond(const Place& place, double weight, const double*, const double* trial, Reaction& reaction) const {
-        const double g = place.gap - trial[0] / penalty;
-        if (!(g <= 0.0)) return false;
-        const double stiffness = penalty * weight;
+        if (!(place.gap - trial[0] / penalty <= 0.0)) return false;
+        hold(place, weight, trial, reaction);
+        return true;
+    }
+
+    /// The same at any gap.
+    void hold(const Place& place, double weight, const double* trial, Reaction& reaction) const {
+        const double g = place.gap - trial[0] / penalty, stiffness = penalty * weight;
         reaction.slipping = false;
         reaction.pressure = -(stiffness * g);
         reaction.tangential = {0.0, 0.0, 0.0};
         for (int k = 0; k < 3; ++k)
-            for (int l = k; l < 3; ++l)
+            for (int l = 0; l < 3; ++l)
                 reaction.K[k][l] = stiffness * std::fma(place.n[k], place.n[l], g * place.H(k, l));
-        return true;
     }
 
     /// Traction p n, which turns with the place by -p H.

@@ -160,7 +160,7 @@ class ShellBlockOf final : public ShellBlock {
     void for_each_batch(const Work& work) {
         const int threads = thread_count();  // once: another thread may change it while this one works
         prepare_workspaces(threads);
-        for_each_by_colour(batches_.colours, part_.size(), threads,
+        for_each_by_colour(batches_.colours, part_.size() < elements_worth_a_team ? 1 : threads,
                            [&](int b, int thread) { work(b, workspaces_[thread]); });
     }
 

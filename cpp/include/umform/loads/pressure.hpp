@@ -43,7 +43,8 @@ class PressureBlockOf final : public PressureBlock {
 
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
         if (target.values != nullptr) scatter.require(false, name);
-        for_each_by_colour(colours_, part_.size(), thread_count(), [&](int e, int) { facet(e, u, scatter, target); });
+        for_each_by_colour(colours_, part_.size() < facets_worth_a_team ? 1 : thread_count().load(),
+                           [&](int e, int) { facet(e, u, scatter, target); });
         Outcome outcome;
         for (const double scale : scale_) outcome.force_scale_squared += scale;
         return outcome;

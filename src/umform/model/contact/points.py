@@ -99,6 +99,11 @@ class PairPoints(Term):
         return self._settings.largest > 0.0 and self.allowed is not None
 
     @property
+    def keeps_points(self) -> bool:
+        """Whether a first evaluation can hold open points: no cells, and the travel of the tool is given. eq. (4.230)"""
+        return self.cells is None and not self.tool.unknowns and not self.tool.open
+
+    @property
     def largest_penalty(self) -> float:
         """Penalty up to which it grows in a run; 0 if it does not."""
         return self._settings.largest

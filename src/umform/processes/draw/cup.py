@@ -22,6 +22,8 @@ from umform.processes.draw.rules import (
     unusual_pressure,
 )
 from umform.processes.rules import check_rules, length, whole
+from umform.solution.options import NewtonOptions
+from umform.steps import Pace
 from umform.surfaces import Plane, Profile, Revolved
 
 #: Usual clearance beside the punch in thicknesses, that of the ESAFORM benchmark 2021: the rim thickens.
@@ -79,6 +81,10 @@ class Cup:
         Contact points per direction and facet.
     penalty : float, optional
         Pressure per penetration; default: by the allowed penetration, eqs. (4.29) and (4.200).
+    newton : NewtonOptions
+        Tolerances and predictor. What one increment leaves over is a force of the next: tighter ones change no number.
+    pace : Pace
+        Increments of the stroke.
     """
 
     kind: ClassVar[str] = "cup"
@@ -100,6 +106,8 @@ class Cup:
     thickness_points: int | None = None
     contact_points: int = 2
     penalty: float | None = None
+    newton: NewtonOptions = NewtonOptions(residual=1e-3, increment=1e-2)
+    pace: Pace = Pace()
 
     def __post_init__(self) -> None:
         values = self.record()
@@ -255,7 +263,7 @@ class Cup:
         # On the axis: while the punch still holds the part, the gauge may carry a force, and must keep the symmetry.
         gauge = model.hold_rigid(lambda x, y, z: x**2 + y**2 < 1e-18, name="gauge")
         # On the punch, an ironed wall cannot buckle while the forces of the die decrease, see theory 4.18.
-        return model, Press(hold, stroke, self.way, gauge, (("die", "holder"), ("punch",)))
+        return model, Press(hold, stroke, self.way, gauge, (("die", "holder"), ("punch",)), self.pace)
 
     #: Ratio of the whole cup to the computed part.
     parts: ClassVar[float] = 4.0

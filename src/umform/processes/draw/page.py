@@ -7,7 +7,9 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
+from umform.processes.draw.u_bend import UBend
 from umform.processes.draw.words import about_errors, before_the_run, meshes, parameters, summary, title
 from umform.report import parts
 from umform.report.materials import material_text
@@ -54,6 +56,13 @@ def write_page(path: Path, drawn: Drawn, figures: Mapping[str, Figure], note: st
     return parts.write_html(path, title(drawn), lead, _parts(drawn, figures, note))
 
 
+def _texts(case: Cup | UBend) -> dict[str, str]:
+    """Parameters that are objects, as text."""
+    settings = {name: vars(getattr(case, name)).items() for name in ("newton", "pace")}
+    given = {name: [f"{key} {value:g}" for key, value in pairs if value is not None] for name, pairs in settings.items()}
+    return {name: ", ".join(texts) for name, texts in given.items()} | {"material": material_text(case.material)}
+
+
 def _parts(drawn: Drawn, figures: Mapping[str, Figure], note: str) -> Iterator[str]:
     for message in counted(drawn.warnings):
         yield parts.note(message, bad=True)
@@ -67,7 +76,7 @@ def _parts(drawn: Drawn, figures: Mapping[str, Figure], note: str) -> Iterator[s
         yield parts.table(columns, rows)
     for name, figure in figures.items():
         yield parts.figure(figure, _CAPTIONS[name])
-    yield from parameter_parts(parameters(drawn.case) | {"material": material_text(drawn.case.material)}, note)
+    yield from parameter_parts(parameters(drawn.case) | _texts(drawn.case), note)
     yield parts.paragraph(before_the_run(drawn.case))
     yield parts.heading("Model")
     yield parts.pairs(settings(drawn.result))

@@ -8,7 +8,7 @@ from umform.errors import InvalidValue
 from umform.model import Model, Tool
 from umform.model.support import Support
 from umform.model.tool_controls import ToolForce, ToolMotion
-from umform.steps import Close, Free, Move, Step
+from umform.steps import Close, Free, Move, Pace, Step
 
 #: Stiffness of the distance blocks relative to the force on them, per mm.
 _BLOCKS = 200.0
@@ -57,6 +57,8 @@ class Press:
         Support of the part after the tools have opened.
     order : tuple of tuples of str
         Names of the tools that open; those of one tuple open in one step.
+    pace : Pace
+        Increments of the stroke.
     """
 
     hold: Hold | None
@@ -64,10 +66,11 @@ class Press:
     way: float
     gauge: Support
     order: tuple[tuple[str, ...], ...] = (("die", "holder", "punch"),)
+    pace: Pace = Pace()
 
     def closing(self) -> list[Step]:
         """Steps from the open tools to the end of the stroke."""
-        return [*([] if self.hold is None else [self.hold.step()]), Move(self.stroke, to=self.way)]
+        return [*([] if self.hold is None else [self.hold.step()]), Move(self.stroke, to=self.way, steps=self.pace)]
 
     def opening(self, model: Model) -> list[Step]:
         """Steps that open the tools, so that the part springs back; the gauge holds it from the first of them."""

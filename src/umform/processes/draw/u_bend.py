@@ -26,6 +26,8 @@ from umform.processes.draw.rules import (
 from umform.processes.limit import allowed_penetration
 from umform.processes.rules import check_rules, length
 from umform.results.forming.u_bend import HEIGHTS
+from umform.solution.options import NewtonOptions
+from umform.steps import Pace
 from umform.surfaces import Box, Plane, UDie
 
 #: Usual clearance beside the punch in thicknesses, that of NUMISHEET 93: 1 mm for a sheet of 0.78 mm.
@@ -76,6 +78,8 @@ class UBend:
     penalty : float, optional
         Pressure per penetration on die and punch; on the holder 0.06 of it. Default: by the allowed penetration, eqs.
         (4.29) and (4.190).
+    newton, pace
+        As for :class:`Cup`. The parabola suits the steady flow over the edge of the die.
     """
 
     kind: ClassVar[str] = "u-bend"
@@ -91,11 +95,13 @@ class UBend:
     friction: float = 0.144
     stroke: float | None = None
     element: str = "BEND18"
-    turn: float = 12.0
+    turn: float = 17.0
     layers: int | None = 1
     thickness_points: int | None = None
     contact_points: int = 4
     penalty: float | None = None
+    newton: NewtonOptions = NewtonOptions(residual=1e-3, increment=1e-2, extrapolate=2)
+    pace: Pace = Pace()
 
     def __post_init__(self) -> None:
         values = self.record()
@@ -206,7 +212,7 @@ class UBend:
         model.contact("upper", ram, name="under_punch", **edges)
         stroke = model.drive(ram, "-z", name="stroke")
         gauge = model.hold_rigid(lambda x, y, z: x < 1e-9, name="gauge")
-        return model, Press(hold, stroke, self.way, gauge)
+        return model, Press(hold, stroke, self.way, gauge, pace=self.pace)
 
     def _contacts(self) -> tuple[dict[str, Any], dict[str, Any]]:
         """Settings of the contacts with the edges of punch and die, and with the holder."""

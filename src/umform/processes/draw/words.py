@@ -16,7 +16,8 @@ def parameters(case: Cup | UBend) -> dict[str, Any]:
     found: dict[str, Any] = {"stroke": case.way, "layers": case.stacked}
     if isinstance(case, Cup):
         found["holder_gap"] = case.gap
-    return case.record() | found | {"element": element(case.element).name, "material": repr(case.material)}
+    found |= {"element": element(case.element).name, "material": repr(case.material)}
+    return case.record() | found | {"newton": vars(case.newton), "pace": vars(case.pace)}
 
 
 #: The error of a value of one mesh.
