@@ -31,7 +31,7 @@ unexport PYTHONPATH PYTHONHOME
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
 .PHONY: help env dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification mutants lint lint-python lint-imports lint-types lint-page lint-stubs lint-format lint-cpp stubs \
-        format docs wheel bench dome robust balances ubend cup s-rail compare peers clean
+        format docs wheel bench dome robust balances ubend cup draws s-rail compare peers clean
 
 help:  ## show this help
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -94,6 +94,10 @@ ubend: env  ## a U-bend with friction, beside CalculiX if it is there (a quarter
 cup: env  ## the cup of the ESAFORM benchmark 2021 on four meshes (some ten minutes)
 	$(SAY) 'Drawing the cup'
 	@$(BIN)/python benchmarks/esaform_cup.py --json build/cup.json --page docs/performance-increments.md $(ARGS)
+
+draws: env  ## what drawn cups and U-bends cost, with and without what makes them quick (some six minutes)
+	$(SAY) 'Drawing cups and U-bends'
+	@$(BIN)/python benchmarks/draws.py --json build/draws.json --page docs/performance-draws.md $(ARGS)
 
 s-rail: env  ## the S-rail of the verification book with up to 6 000 elements, three penalties (an hour)
 	$(SAY) 'Drawing the S-rail'

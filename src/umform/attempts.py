@@ -24,6 +24,9 @@ class Attempts:
     ----------
     evaluations : int
         Evaluations of the residual, with or without a tangent.
+    accepted : int
+        Those that were iterations of accepted increments; the rest are line searches, passes of multipliers and
+        penalties, starts, and discarded attempts.
     thrown : int
         Evaluations in discarded attempts.
     tried, won : Counter of str
@@ -35,7 +38,7 @@ class Attempts:
     """
 
     def __init__(self) -> None:
-        self.evaluations = self.thrown = self.staged = 0
+        self.evaluations = self.accepted = self.thrown = self.staged = 0
         self.tried: Counter[str] = Counter()
         self.won: Counter[str] = Counter()
         self.causes: Counter[str] = Counter()
@@ -44,6 +47,17 @@ class Attempts:
     def share(self) -> float:
         """Fraction of discarded evaluations."""
         return self.thrown / self.evaluations if self.evaluations else 0.0
+
+    @property
+    def beside(self) -> float:
+        """Fraction of evaluations that are no iterations of accepted increments."""
+        return 1.0 - self.accepted / self.evaluations if self.evaluations else 0.0
+
+    @property
+    def summary(self) -> str:
+        """Both fractions as text."""
+        text = f"{self.evaluations} evaluations, {self.beside:.1%} beside the iterations of accepted increments"
+        return f"{text} (line searches, repeats), {self.share:.1%} thrown away".replace("%", " %")
 
     @contextmanager
     def trying(self, strategy: str) -> Iterator[None]:
@@ -73,6 +87,7 @@ class Attempts:
     def add(self, other: Attempts) -> None:
         """Add the counts of another run."""
         self.evaluations += other.evaluations
+        self.accepted += other.accepted
         self.thrown += other.thrown
         self.staged += other.staged
         self.tried.update(other.tried)
@@ -86,4 +101,5 @@ class Attempts:
     def record(self) -> dict[str, object]:
         """All counts, for JSON and checkpoints."""
         counts = {name: dict(getattr(self, name)) for name in ("tried", "won", "causes")}
-        return {"evaluations": self.evaluations, "thrown": self.thrown, "staged": self.staged, **counts}
+        numbers = {name: getattr(self, name) for name in ("evaluations", "accepted", "thrown", "staged")}
+        return {**numbers, **counts}

@@ -63,7 +63,8 @@ def test_a_run_counts_its_evaluations_and_strategies():
     assert attempts.evaluations == result.timing.elements.calls
     assert sum(attempts.won.values()) >= len(result) - 1  # and the increments of the release that were taken back
     assert set(attempts.won) <= {"extrapolation", "tangent", "softer penalties"}
-    assert attempts.evaluations - attempts.thrown >= result["iterations"].sum()
+    assert attempts.evaluations - attempts.thrown >= result["iterations"].sum() >= attempts.accepted > 0
+    assert attempts.beside == pytest.approx(1.0 - attempts.accepted / attempts.evaluations)
     assert sum(attempts.tried.values()) - sum(attempts.won.values()) <= sum(attempts.causes.values())
     whole = Timing.sum([*runs, *runs]).attempts
     assert whole.record()["evaluations"] == 2 * attempts.evaluations
@@ -110,7 +111,7 @@ def test_the_command_line_and_the_report_show_them(capsys, tmp_path):
     page = tmp_path / "report.html"
     result.report(page)
     text = page.read_text(encoding="utf-8")
-    assert f"{result.timing.attempts.evaluations} evaluations, 0.0 % of them thrown away" in text
+    assert result.timing.attempts.summary in text
     assert "<td>extrapolation</td>" in text or ">extrapolation<" in text
 
 

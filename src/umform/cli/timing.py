@@ -40,8 +40,7 @@ def _show_attempts(attempts: Attempts) -> None:
 
     from umform.attempts import HARMLESS
 
-    title = f"{attempts.evaluations} evaluations, {100 * attempts.share:.1f} % of them thrown away"
-    table = Table("strategy", title=title, caption=HARMLESS, box=box.SIMPLE_HEAD)
+    table = Table("strategy", title=attempts.summary, caption=HARMLESS, box=box.SIMPLE_HEAD)
     for name in ("tried", "won"):
         table.add_column(name, justify="right")
     for name, tried, won in attempts.rows():

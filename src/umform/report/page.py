@@ -132,8 +132,7 @@ def _attempts(attempts: Attempts) -> str:
     rows = [[name, str(tried), str(won)] for name, tried, won in attempts.rows()]
     rows += [[f"given up: {cause}", str(count), ""] for cause, count in attempts.causes.most_common()]
     rows += [["return maps in stages", str(attempts.staged), ""]] if attempts.staged else []
-    share = f"{attempts.evaluations} evaluations, {100 * attempts.share:.1f} % of them thrown away"
-    table = parts.table([share, "tried", "won"], rows)
+    table = parts.table([attempts.summary, "tried", "won"], rows)
     return parts.folded_part("Numerics", parts.paragraph(HARMLESS) + table)
 
 

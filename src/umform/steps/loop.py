@@ -85,6 +85,7 @@ class Run:
         self, converged: Converged, controls: Sequence[Control], *, name: str, fraction: float, frame: bool
     ) -> None:
         """Add a converged increment to the result and show the progress of the step ``name``."""
+        self.newton.timing.attempts.accepted += len(converged.iterations)
         self.result.add(converged.evaluation, converged.iterations + converged.passes, step=self.number, frame=frame)
         self._tell_of_stages()
         row = self.result.rows[-1]

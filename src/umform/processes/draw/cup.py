@@ -12,7 +12,7 @@ from umform.errors import InvalidValue
 from umform.materials.j2 import Plastic
 from umform.mesh import Bent, Mesh, Sizes, bending_sizes, disc
 from umform.model import Model
-from umform.processes.draw.press import Press, held_by
+from umform.processes.draw.press import OPTIONS, Press, held_by
 from umform.processes.draw.rules import (
     COMMON,
     check_clearance,
@@ -82,7 +82,7 @@ class Cup:
     penalty : float, optional
         Pressure per penetration; default: by the allowed penetration, eqs. (4.29) and (4.200).
     newton : NewtonOptions
-        Tolerances and predictor. What one increment leaves over is a force of the next: tighter ones change no number.
+        Tolerances and predictor.
     pace : Pace
         Increments of the stroke.
     """
@@ -106,7 +106,7 @@ class Cup:
     thickness_points: int | None = None
     contact_points: int = 2
     penalty: float | None = None
-    newton: NewtonOptions = NewtonOptions(residual=1e-3, increment=1e-2)
+    newton: NewtonOptions = OPTIONS
     pace: Pace = Pace()
 
     def __post_init__(self) -> None:

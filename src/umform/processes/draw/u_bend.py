@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -14,7 +14,7 @@ from umform.errors import InvalidValue
 from umform.materials.j2 import Plastic
 from umform.mesh import Bent, Mesh, Sizes, bending_sizes, grid
 from umform.model import Model
-from umform.processes.draw.press import Press, held_by
+from umform.processes.draw.press import OPTIONS, Press, held_by
 from umform.processes.draw.rules import (
     COMMON,
     check_clearance,
@@ -100,7 +100,7 @@ class UBend:
     thickness_points: int | None = None
     contact_points: int = 4
     penalty: float | None = None
-    newton: NewtonOptions = NewtonOptions(residual=1e-3, increment=1e-2, extrapolate=2)
+    newton: NewtonOptions = replace(OPTIONS, extrapolate=2)
     pace: Pace = Pace()
 
     def __post_init__(self) -> None:

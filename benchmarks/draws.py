@@ -1,0 +1,120 @@
+"""What a drawn part costs: the defaults, beside tight tolerances, and beside increments that keep no contact points.
+
+python benchmarks/draws.py --page docs/performance-draws.md
+python benchmarks/draws.py --part "cup" --variant "as it is"
+"""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+from unittest.mock import patch
+
+import record
+import umform as uf
+from umform.model.contact.points import PairPoints
+from umform.processes.draw import Cup, Drawn, UBend, draw, extrapolated
+from umform.solution.options import NewtonOptions
+from umform.timing import Timing, timings
+
+BEGIN, END = "<!-- draws -->\n", "<!-- /draws -->"
+#: Parts with the defaults of the commands: U-bends of NUMISHEET 93, cups of ESAFORM 2021, all of one steel.
+STEEL = uf.J2(E=210e3, nu=0.3, hardening=uf.Swift(strength=520.0, offset=0.004, exponent=0.22))
+_CUP: dict[str, Any] = {"thickness": 1.0, "blank_radius": 53.75, "punch_radius": 30.0, "punch_edge": 5.0}
+_CUP |= {"die_radius": 31.2, "die_edge": 10.0, "holder_force": 40e3, "material": STEEL}
+_U: dict[str, Any] = {"thickness": 0.78, "length": 350.0, "width": 35.0, "material": STEEL, "punch_width": 50.0}
+_U |= {"punch_edge": 5.0, "opening": 52.0, "die_edge": 5.0, "holder_force": 2450.0}
+PARTS: dict[str, Cup | UBend] = {
+    "cup": Cup(**_CUP),
+    "cup, fine": Cup(**_CUP, turn=9.0, around=24),
+    "U-bend, coarse": UBend(**_U, element="BEND8", turn=20.0, contact_points=3),
+    "U-bend, one mesh": UBend(**_U),
+}
+THREE = "U-bend, three meshes"
+
+
+@contextmanager
+def _no_kept_points() -> Iterator[None]:
+    with patch.object(PairPoints, "keeps_points", False):
+        yield
+
+
+def _tight(case: Cup | UBend) -> Cup | UBend:
+    return replace(case, newton=NewtonOptions())
+
+
+#: How it is run: the case, and the context of the run.
+VARIANTS: dict[str, tuple[Callable[[Any], Any], Callable[[], Any]]] = {
+    "tight, none kept": (_tight, _no_kept_points),
+    "none kept": (lambda case: case, _no_kept_points),
+    "as it is": (lambda case: case, nullcontext),
+}
+
+
+def measured(name: str, variant: str) -> dict[str, str]:
+    """One part in one way."""
+    change, context = VARIANTS[variant]
+    case = change(PARTS["U-bend, one mesh"] if name == THREE else PARTS[name])
+    how: Callable[..., Drawn] = extrapolated if name == THREE else draw
+    start = time.process_time()
+    with context(), timings() as runs:
+        drawn = how(case, progress=False)
+    seconds = time.process_time() - start
+    attempts = Timing.sum(runs).attempts
+    return {
+        "part": name,
+        "": variant,
+        "CPU s": f"{seconds:.1f}",
+        "evaluations": str(attempts.evaluations),
+        "beside, %": f"{100.0 * attempts.beside:.0f}",
+        "thrown away, %": f"{100.0 * attempts.share:.0f}",
+        "increments": str(sum(len(run) - 1 for run in (drawn.result, drawn.released) if run is not None)),
+        "numbers": _numbers(drawn),
+    }
+
+
+def _numbers(drawn: Drawn) -> str:
+    """What is asked of such a part."""
+    measures = {name: value for name, (value, _) in drawn.measures().items()}
+    measures |= {name: limit.value for name, limit in drawn.estimates.items()}
+    errors = drawn.errors()
+    names = ["theta1", "theta2", "radius of the wall"] if isinstance(drawn.case, UBend) else ["height, mean"]
+    texts = [f"{measures[name]:.2f}" + (f" ± {errors[name]:.2f}" if errors.get(name) else "") for name in names]
+    return ", ".join([f"{measures['largest punch force']:.2f} kN", *texts])
+
+
+def table(rows: list[dict[str, str]]) -> str:
+    """All rows in Markdown."""
+    lines = ["| " + " | ".join(rows[0]) + " |", "|---|---|" + "---:|" * (len(rows[0]) - 3) + "---|"]
+    return "\n".join([*lines, *("| " + " | ".join(row.values()) + " |" for row in rows)]) + "\n"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--part", choices=[*PARTS, THREE], nargs="*", default=[*PARTS, THREE])
+    parser.add_argument("--variant", choices=VARIANTS, nargs="*", default=list(VARIANTS))
+    parser.add_argument("--page", type=Path, metavar="FILE", help="write the table into this page")
+    record.add_option(parser)
+    given = parser.parse_args()
+    logging.getLogger("umform").setLevel(logging.ERROR)
+    uf.set_threads(1)
+    rows = []
+    for name in given.part:
+        for variant in given.variant if name != THREE else given.variant[-1:]:
+            rows.append(measured(name, variant))
+            print(" | ".join(rows[-1].values()), flush=True)
+    text = table(rows)
+    record.write(given.json, "draws", {f"{row['part']}, {row['']}, CPU s": float(row["CPU s"]) for row in rows})
+    if given.page:
+        head, rest = given.page.read_text(encoding="utf-8").split(BEGIN)
+        given.page.write_text(head + BEGIN + "\n" + text + "\n" + END + rest.split(END)[1], encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
