@@ -42,8 +42,8 @@ class Before(Part):
     """Name of the control, of value 1, of the unbalanced forces: those of tools and supports of that operation, and of
     removed metal. Steps move it to 0."""
     keep: list[Name] = []
-    """Names of contacts with friction of that deck and of this one whose points keep their friction: tools that stay
-    where they stood."""
+    """Names of contacts with friction of that deck and of this one whose points keep their friction, and a penalty that
+    has grown: tools that stay where they stood."""
 
     def restore(self, model: Model, folder: File, tables: Mapping[str, Any]) -> None:
         """Restore a model, built from the data of a deck, to the state.
@@ -100,9 +100,9 @@ class Before(Part):
             )
         return {
             name: KeptContact(
-                np.asarray(found[name]["faces"]), found[name]["history"], json.loads(found[name]["names"])
+                np.asarray(one["faces"]), one["history"], json.loads(one["names"]), float(one.get("penalty", 0.0))
             )
-            for name in self.keep
+            for name, one in ((name, found[name]) for name in self.keep)
         }
 
     def keep_friction(self, model: Model, kept: Mapping[str, KeptContact], contacts: Mapping[str, Contact]) -> None:
@@ -151,7 +151,12 @@ def write_state(model: Model, path: File, tables: Mapping[str, Any]) -> None:
     bodies = {body.key: state.terms[body.key] for body in model.bodies}
     rubbed = {pair.name: KeptContact.of(pair) for pair in model.pairs_of_tools() if pair.rubs}
     contacts = {
-        name: {"faces": kept.faces, "history": kept.history, "names": json.dumps(kept.names)}
+        name: {
+            "faces": kept.faces,
+            "history": kept.history,
+            "names": json.dumps(kept.names),
+            "penalty": kept.penalty,
+        }
         for name, kept in rubbed.items()
     }
     tree = {"points": model.mesh.points, "u": state.u, "time": state.time, "began": state.began, "bodies": bodies}

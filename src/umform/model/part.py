@@ -136,7 +136,8 @@ class ModelPart:
         """Let a tool that stays through the cut keep the friction of its points.
 
         Elements that stay keep the tractions, the anchors of sticking points, and the distances slid of their points;
-        those that were fitted to the line begin without. The tool must stand where it stood.
+        those that were fitted to the line begin without. A penalty that has grown stays. The tool must stand where it
+        stood.
 
         Parameters
         ----------

@@ -9,6 +9,8 @@ from umform.solution.records import Cause
 
 #: Largest number of increments for which a failing extrapolation is skipped.
 _LONGEST_REST = 15
+#: Failures after which an increment may exceed the allowed penetration.
+_YIELDING = 3
 #: Largest number of cuts for which failing softer penalties are skipped.
 _LONGEST_SOFT_REST = 3
 
@@ -34,6 +36,8 @@ class Habits:
         Successive failures of softer penalties while a tool held the sheet.
     soft_rest : int
         Failed increments that will be cut without them.
+    failures : int
+        Increments that failed, less those that kept the allowed penetration since; zero to three.
     last : bool
         Whether the next increment will not be cut: beyond it lies a limit point, and a jump to the next stable state is
         accepted however far it is. eq. (5.102)
@@ -44,6 +48,7 @@ class Habits:
     stable: bool = True
     soft_misses: int = 0
     soft_rest: int = 0
+    failures: int = 0
     last: bool = False
 
     @property
@@ -55,6 +60,11 @@ class Habits:
     def softens(self) -> bool:
         """Whether softer penalties may be tried before the next cut."""
         return self.soft_rest == 0
+
+    @property
+    def yields(self) -> bool:
+        """Whether the next increment may exceed the allowed penetration, rather than fail."""
+        return self.last or self.failures >= _YIELDING
 
     def learn(self, failed: Mapping[str, Cause], won: str, negative_pivots: int | None) -> None:
         """Record an increment: the strategies that failed and why, the one that converged, the pivots at the end."""
@@ -77,6 +87,10 @@ class Habits:
         elif cause is not Cause.SINGULAR:  # near loss of contact cuts do not help, but softer penalties may
             self.soft_misses += 1
             self.soft_rest = min(2**self.soft_misses - 1, _LONGEST_SOFT_REST)
+
+    def count(self, *, kept: bool) -> None:
+        """Count an increment that kept the allowed penetration, or one that failed."""
+        self.failures = max(self.failures - 1, 0) if kept else min(self.failures + 1, _YIELDING)
 
     def last_chance(self) -> None:
         """Try softer penalties, and a jump, in an increment that will not be cut."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -11,17 +12,65 @@ from umform.model import Model
 from umform.model.changed_forces import changed_residual
 from umform.model.contact import Contact
 from umform.solution.newton import Newton
-from umform.solution.records import Converged
+from umform.solution.options import Manner
+from umform.solution.records import Converged, Failed
 
 log = logging.getLogger("umform.contact")
 
 #: Largest number of passes; the history has the remaining penetration.
 _PASSES = 10
 #: Part of the allowed penetration that a larger penalty aims at; its largest growth in a pass, tried in this order.
-_AIM, GROWTHS = 0.85, (30.0, 2.0)
+_AIM, _GROWTHS = 0.85, (30.0, 2.0)
 
 
-def kept(model: Model, newton: Newton, converged: Converged, growth: float) -> Converged:
+def within_allowed(
+    model: Model,
+    newton: Newton,
+    converged: Converged,
+    again: Callable[[], Converged],
+    yields: bool,
+    manner: Manner | None = None,
+) -> Converged:
+    """Equilibrium with penalties that keep the allowed penetration.
+
+    Parameters
+    ----------
+    model : Model
+        At ``converged``, not yet committed.
+    newton : Newton
+        The method, converged.
+    converged : Converged
+        Equilibrium with the present penalties.
+    again : callable
+        Finds it again from the state before the increment.
+    yields : bool
+        Whether the increment may exceed the allowed penetration rather than fail.
+    manner : Manner, optional
+        Mode of the iterations; default: from the options.
+
+    Raises
+    ------
+    Failed
+        If a pass does not converge, and the increment may not exceed the allowed penetration.
+    """
+    penalties = {contact: contact.penalty for contact in model.contacts}
+    for growth in _GROWTHS:
+        if not excesses(model, converged):
+            break
+        try:
+            with newton.timing.attempts.trying("stiffer penalties"):
+                return _grown(model, newton, converged, growth, manner)
+        except Failed:
+            for contact, penalty in penalties.items():
+                contact.use_penalty(penalty)
+            if not yields:  # a smaller increment is nearer to its pressures
+                raise
+            model.prepare()
+            converged = again()
+    return converged
+
+
+def _grown(model: Model, newton: Newton, converged: Converged, growth: float, manner: Manner | None) -> Converged:
     """Increase the penalties of contacts beyond their allowed penetration, and iterate, until none is. eq. (4.200)
 
     Parameters
@@ -34,6 +83,8 @@ def kept(model: Model, newton: Newton, converged: Converged, growth: float) -> C
         Equilibrium with the present penalties.
     growth : float
         Largest growth of a penalty in a pass.
+    manner : Manner, optional
+        Mode of the iterations.
 
     Raises
     ------
@@ -50,7 +101,7 @@ def kept(model: Model, newton: Newton, converged: Converged, growth: float) -> C
             grown = min(excess[contact] / _AIM, growth) * contact.penalty
             contact.stiffen(found[contact], min(grown, contact.largest_penalty), part)
         change = changed_residual(model, converged.evaluation, parts)
-        again = newton.go_on(converged, change)
+        again = newton.go_on(converged, change, manner)
         converged = replace(converged, evaluation=again.evaluation, passes=converged.passes + again.iterations)
         log.debug("    pass %d of the penalties, %d iterations", number, len(again.iterations))
     return converged

@@ -17,7 +17,7 @@ from umform.model.checks import diagnosis
 from umform.model.control import Control
 from umform.model.loose_part import loose_part
 from umform.solution.augmentation import augmented
-from umform.solution.keeping import GROWTHS, excesses, kept, relaxed
+from umform.solution.keeping import excesses, relaxed, within_allowed
 from umform.solution.records import Cause, Converged, Failed, Iteration
 from umform.solution.strategies import Increment, equilibrium
 from umform.steps.crushed import crushed
@@ -64,7 +64,9 @@ def take_increment(
             _multipliers_stay(run, failure)
             model.prepare()
             converged = equilibrium(replace(increment, guess=converged.x - x_before))
-    except BaseException:  # no convergence, Ctrl-C, an error of a user's function: restore the last converged state
+    except BaseException as error:  # no convergence, Ctrl-C, an error of a user's function: restore the previous state
+        if isinstance(error, Failed):
+            run.habits.count(kept=False)
         for control, value in zip(controls, before, strict=True):
             control.value = value
         model.time = time_before
@@ -72,6 +74,8 @@ def take_increment(
             contact.use_penalty(penalty)
         model.revert()
         raise
+    if not excesses(model, converged):
+        run.habits.count(kept=True)
     model.commit(converged.evaluation)
     way = changes(model.controls, controls, np.subtract(values, before))
     earlier = run.trail if run.newton.options.extrapolate > 1 else None
@@ -83,28 +87,19 @@ def take_increment(
 
 def _within_allowed(run: Run, increment: Increment) -> tuple[Converged, Floats | None]:
     """Equilibrium with penalties that keep the allowed penetration; if they grew, the displacement before."""
-    model, attempts = run.model, run.newton.timing.attempts
+    model, yields = run.model, run.habits.yields
     try:
         converged = equilibrium(increment)
-    except Failed:  # perhaps grown penalties are too stiff for this increment
-        if not relaxed(model):
+    except Failed:
+        if not (yields and relaxed(model)):
             raise
-        model.prepare()
+        model.prepare()  # perhaps grown penalties are too stiff for this increment
         converged = equilibrium(increment)
     if not excesses(model, converged):
         return converged, None
     x_soft = converged.x.copy()
-    penalties = {contact: contact.penalty for contact in model.contacts}
-    for growth in GROWTHS:
-        try:
-            with attempts.trying("stiffer penalties"):
-                return kept(model, run.newton, converged, growth), x_soft
-        except Failed:
-            for contact, penalty in penalties.items():
-                contact.use_penalty(penalty)
-            model.prepare()
-            converged = equilibrium(replace(increment, guess=x_soft - model.x))
-    return converged, x_soft  # with more penetration: the next increment tries again
+    again = lambda: equilibrium(replace(increment, guess=x_soft - model.x))  # noqa: E731
+    return within_allowed(model, run.newton, converged, again, yields), x_soft
 
 
 def _multipliers_stay(run: Run, failure: Failed | None) -> None:

@@ -122,6 +122,26 @@ def test_a_tool_that_stays_keeps_its_friction(pressed, edge, same):
     assert result["cut"][-1] == 0.0
 
 
+def test_a_tool_that_stays_keeps_the_penalty_that_has_grown(tmp_path):
+    """Its points carry what they carried; with the estimate they would carry less."""
+    first = FIRST.replace("penalty = 1e4\n", "").replace("down = -1e-3", "down = -6e-3")
+    (tmp_path / "press.toml").write_text(first)
+    deck = load(tmp_path / "press.toml")
+    problem = deck.build()
+    problem.solve(progress=False)
+    write_state(problem.model, tmp_path / "state.h5", deck.source.data)
+    before = problem.contacts["die"]
+    (tmp_path / "trim.toml").write_text(SECOND.replace("penalty = 1e4\n", "").replace("EDGE", "elements"))
+    problem = load(tmp_path / "trim.toml").build()
+    die = problem.contacts["die"]
+    assert die.penalty == before.penalty > 1.1 * die.initial_penalty
+    points = 7 * die.block.per_facet
+    found = problem.model.evaluate(problem.model.x).found[die]
+    np.testing.assert_allclose(found.pressure[:points], before.found.pressure[:points], rtol=1e-9)
+    problem.solve(progress=False)
+    assert die.penalty >= before.penalty
+
+
 def test_a_contact_that_keeps_nothing_is_refused(pressed):
     folder, _ = pressed
     (folder / "other.toml").write_text(SECOND.replace("EDGE", "line").replace('keep = ["die"]', 'keep = ["punch"]'))

@@ -7,9 +7,12 @@ import pytest
 
 import umform as uf
 from umform.errors import NoConvergence
+from umform.model.contact import Contact
 from umform.model.contact.encounter import Encounter
 from umform.results.penetration import force_error, penetrations
+from umform.solution import keeping
 from umform.solution.options import NewtonOptions
+from umform.solution.records import Failed
 
 STEEL = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(yield_stress=200.0, modulus=1000.0))
 
@@ -151,3 +154,61 @@ def test_a_penetration_that_is_prescribed_does_not_grow_the_penalty_without_end(
     result = uf.solve(model, uf.Move(down, -0.02, steps=8), frames=0, progress=False)
     assert pair.penalty == pair.largest_penalty == pytest.approx(10.0 * 210e3 / 0.91, rel=0.01)
     assert not penetrations(model, result)["table"].kept
+
+
+def failing(monkeypatch, times):
+    """Let passes of the penalties fail, so many times; how often they were tried is the length of the list."""
+    tried, grown = [], keeping._grown
+
+    def sometimes(*given):
+        tried.append(given)
+        if len(tried) <= times:
+            given[0].revert()
+            raise Failed("as asked", [])
+        return grown(*given)
+
+    monkeypatch.setattr(keeping, "_grown", sometimes)
+    return tried
+
+
+def test_an_increment_whose_penalty_cannot_grow_is_cut(monkeypatch):
+    """It is not accepted with more penetration than allowed: a shorter one has a pressure nearer to the last."""
+    failing(monkeypatch, 2)
+    result, pair = run()
+    assert penetrations(result.model, result)["ball"].kept and pair.penalty > pair.initial_penalty
+    assert 0.0 < abs(result["punch"][1]) < 0.2  # of .5: the first increment was cut twice
+
+
+def test_where_no_increment_is_short_enough_the_excess_is_marked(monkeypatch):
+    """After three failures both growths are tried, and the increment is accepted as it is."""
+    tried = failing(monkeypatch, 1000)
+    result, pair = run(steps=3)
+    assert 5 <= len(tried) <= 2 * len(result)
+    assert result["punch"][-1] == -3.0 and pair.penalty == pair.initial_penalty
+    assert not penetrations(result.model, result)["ball"].kept
+
+
+def test_an_arc_keeps_the_allowed_penetration():
+    """At its end, too, where it goes back to the target at a fixed load."""
+    model, move, pair = stretched()
+    touch, arc = uf.Move(move.control, to=-0.5, steps=1), uf.Arc(move.control, to=-3.0, increment=0.15)
+    result = uf.solve(model, [touch, arc], frames=0, progress=False)
+    assert penetrations(model, result)["ball"].kept and pair.penalty > 2.0 * pair.initial_penalty
+    assert result["punch"][-1] == -3.0
+    plain = run()[0]
+    assert result["punch_force"][-1] == pytest.approx(plain["punch_force"][-1], rel=2e-3)
+
+
+def test_an_arc_that_fails_takes_its_penalty_back(monkeypatch):
+    model, move, pair = stretched()
+    uf.solve(model, uf.Move(move.control, to=-1.0, steps=2), frames=0, progress=False)
+    grown, stiffen = pair.penalty, Contact.stiffen
+
+    def too_much(pair, found, penalty, change):
+        stiffen(pair, found, penalty, change)
+        raise Failed("as asked", [])
+
+    monkeypatch.setattr(Contact, "stiffen", too_much)
+    with pytest.raises(NoConvergence):
+        uf.solve(model, uf.Arc(move.control, to=-5.0, increment=0.5, cuts=0), frames=0, progress=False)
+    assert pair.penalty == grown

@@ -1,4 +1,4 @@
-"""History of friction that contact points keep through a cut."""
+"""History of friction, and the penalty, that contact points keep through a cut."""
 
 from __future__ import annotations
 
@@ -32,17 +32,22 @@ class KeptContact:
         That of the points, with places and vectors in global axes.
     names : dict of str to int
         Its parts and their sizes.
+    penalty : float
+        The penalty, if it has grown; zero otherwise.
     """
 
     faces: Ids
     history: Floats
     names: dict[str, int]
+    penalty: float = 0.0
 
     @classmethod
     def of(cls, contact: Contact) -> KeptContact:
         """The converged history of a pair with friction."""
         names = contact.block.law.quantities
-        return cls(contact.faces.copy(), _turned(contact.state()["history"], names, contact.pose), dict(names))
+        history = _turned(contact.state()["history"], names, contact.pose)
+        grown = contact.adapts and contact.penalty > contact.initial_penalty
+        return cls(contact.faces.copy(), history, dict(names), contact.penalty if grown else 0.0)
 
     def left(self, parents: Numbers, same: NDArray[np.bool_]) -> KeptContact:
         """What a part keeps of it.
@@ -61,7 +66,9 @@ class KeptContact:
         return replace(self, faces=faces, history=self.history[kept])
 
     def put(self, contact: Contact) -> int:
-        """Give a pair with a history of its own that of its points; returns the number of faces that have it.
+        """Give a pair with a history of its own that of its points, and the penalty that the stage before has found.
+
+        Returns the number of faces that have the history.
 
         Raises
         ------
@@ -83,6 +90,7 @@ class KeptContact:
         rotation, shift = contact.pose
         history[kept] = _turned(self.history[rows[kept]], names, (rotation.T, -shift @ rotation))
         contact.restore({"history": history})
+        contact.begin_with(self.penalty)
         return len(kept)
 
 

@@ -124,6 +124,12 @@ class PairPoints(Term):
         self.use_penalty(value)
         self._standing_penalty = value
 
+    def begin_with(self, penalty: float) -> None:
+        """Begin with a penalty that has grown before, if it grows and this one is larger."""
+        if self.adapts and penalty > self.penalty:
+            self._standing_penalty = min(penalty, self.largest_penalty)
+            self.use_penalty(self._standing_penalty)
+
     def use_penalty(self, value: float) -> None:
         """Evaluate with this penalty from now on."""
         self._penalty = value

@@ -33,8 +33,8 @@ from umform.surfaces import Box, Plane, UDie
 #: Usual clearance beside the punch in thicknesses, that of NUMISHEET 93: 1 mm for a sheet of 0.78 mm.
 CLEARANCE = 1.0 / 0.78
 #: A given penalty of the holder over that of the other tools, and its allowed penetration in thicknesses by which it is
-#: chosen otherwise, eq. (4.29). Under a stiff plane points of a flat sheet open and close at small forces, and Newton's
-#: method takes many increments or fails.
+#: chosen otherwise, eq. (4.29). A stiff plane touches the sheet only in front of the edge of the die; the rest of the
+#: flange then lies without pressure between two planes, its contact is not determined, and Newton's method fails.
 _HOLDER, _GIVEN_WAY = 0.06, 1.0 / 100.0
 _RULES = COMMON | {
     "length": length("the length of the blank", "in mm, such as 350"),
@@ -206,7 +206,7 @@ class UBend:
         holder = model.tool("holder", Plane((0.0, 0.0, t), (0.0, 0.0, -1.0)))
         hold = held_by(model, holder, 0.5 * self.holder_force / self.width, blocks=False)
         under = model.contact("upper", holder, name="under_holder", **flat)
-        under.allowed = None  # it tilts the flange; with a penalty that grows there, Newton's method fails
+        under.allowed = None  # it does not grow, see _HOLDER
         punch = Box((0.0, 0.0, t + deep), (self.punch_width, 10.0 * t + 100.0, 2.0 * deep), self.punch_edge)
         ram = model.tool("punch", punch)
         model.contact("upper", ram, name="under_punch", **edges)

@@ -16,6 +16,7 @@ import numpy as np
 from umform.errors import InvalidValue, NoConvergence
 from umform.model import Model
 from umform.model.control import Control
+from umform.solution.keeping import excesses
 from umform.solution.records import Cause, Failed
 from umform.steps.arc_length.critical import CriticalPoints
 from umform.steps.arc_length.equation import Line
@@ -184,10 +185,13 @@ class Following:
         path = self.path
         tried = path.shortened(self.length)
         try:
-            converged = path.advance(tried)
+            converged = path.advance(tried, run.habits.yields)
         except Failed as failure:
+            run.habits.count(kept=False)
             self._cut(run, step, failure, tried)
             return
+        if not excesses(run.model, converged):
+            run.habits.count(kept=True)
         run.evaluation = converged.evaluation
         self.count += 1
         fraction = path.state.fraction

@@ -6,7 +6,8 @@ docs/theory, 5.12
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, Self
 
 import numpy as np
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
 from umform.model import Model
+from umform.solution.keeping import within_allowed
 from umform.solution.newton import Newton
 from umform.solution.options import Manner
 from umform.solution.records import Converged, Failed
@@ -126,24 +128,44 @@ class Path:
         to_end = (1.0 - self.state.fraction) / self.state.slope
         return min(length, 1.05 * to_end) if to_end > 0.0 else length
 
-    def advance(self, length: float) -> Converged:
-        """Make an increment of this length and commit it; after a failure the previous state is restored."""
+    def advance(self, length: float, yields: bool) -> Converged:
+        """Make an increment of this length and commit it; after a failure the previous state is restored.
+
+        ``yields``: whether it may exceed the allowed penetration rather than fail.
+        """
         model, time_before = self.model, self.model.time
+        penalties = {contact: contact.penalty for contact in model.contacts}
         try:
             with model.with_term(self.equation):
                 with self.newton.timing.attempts.trying("arc"):
-                    converged, state = self.newton.guarded(lambda: self._correct(length))
+                    converged, state = self.newton.guarded(lambda: self._correct(length, yields))
                 model.commit(converged.evaluation)
         except BaseException:  # no convergence, Ctrl-C, an error of a user's function: restore the last converged state
             model.time = time_before
+            for contact, penalty in penalties.items():
+                contact.use_penalty(penalty)
             model.revert()
             model.prepare()
             raise
         self.state = state
         return converged
 
-    def _correct(self, length: float) -> tuple[Converged, PathState]:
-        """Predict along the tangent (5.25), correct on the arc, and correct at the end if it was passed. eq. (5.23)"""
+    def _correct(self, length: float, yields: bool) -> tuple[Converged, PathState]:
+        """Correct on the arc, and at the end of the line if it was passed. eq. (5.23)"""
+        x, state = self.model.x, self.state
+        keeping = partial(within_allowed, self.model, self.newton, yields=yields, manner=self._manner)
+        converged = keeping(self._on_arc(length), lambda: self._on_arc(length))
+        if converged.x[-1] >= 1.0:
+            converged = keeping(self._land(converged, length), lambda: self._land(self._on_arc(length), length))
+        dx, fraction = converged.x - x, float(converged.x[-1])
+        tangent, found = self._tangent(converged.evaluation)
+        tangent *= math.copysign(1.0 / math.sqrt(self._product(tangent, tangent)), self._product(dx, tangent))
+        arc = state.arc + math.sqrt(self._product(dx, dx))
+        signs = found.negative_pivots, found.odd
+        return converged, PathState(fraction, arc, tangent[:-1], float(tangent[-1]), *signs)
+
+    def _on_arc(self, length: float) -> Converged:
+        """Predict along the tangent (5.25), and correct on the arc."""
         x, state = self.model.x, self.state
         self._set_time(state.arc + length)
         self.equation.ask(length, self.model.u)
@@ -152,14 +174,7 @@ class Path:
         converged = self.newton.correct(x, dx, self._manner)
         if self._product(converged.x - x, ahead) <= 0.0:
             raise Failed("the path turns back within one increment", converged.iterations)
-        if converged.x[-1] >= 1.0:
-            converged = self._land(converged, length)
-        dx, fraction = converged.x - x, float(converged.x[-1])
-        tangent, found = self._tangent(converged.evaluation)
-        tangent *= math.copysign(1.0 / math.sqrt(self._product(tangent, tangent)), self._product(dx, tangent))
-        arc = state.arc + math.sqrt(self._product(dx, dx))
-        signs = found.negative_pivots, found.odd
-        return converged, PathState(fraction, arc, tangent[:-1], float(tangent[-1]), *signs)
+        return converged
 
     def _land(self, beyond: Converged, length: float) -> Converged:
         """Go back from a state beyond the end of the line to the end, at a fixed load."""
@@ -174,7 +189,7 @@ class Path:
         landed = self.newton.correct(at_end, back, self._manner)
         if float(np.linalg.norm((landed.x - x)[: self.model.u.size])) > 1.5 * length:
             raise Failed("the last increment jumps off the path", landed.iterations)
-        return Converged(landed.evaluation, beyond.iterations + landed.iterations)
+        return replace(landed, iterations=beyond.iterations + landed.iterations, passes=beyond.passes)
 
     def _tangent(self, evaluation: Evaluation) -> tuple[Floats, Factorisation]:
         """Tangent of the path, the load parameter last, and the signs of the pivots. eq. (5.25)"""
