@@ -12,7 +12,7 @@ from umform.errors import InvalidValue, NoConvergence
 #: How many jobs the sample has.
 SAMPLE = 42
 #: Those that jump at the end of a stable path.
-JUMPS = {104, 166}
+JUMPS = {104}
 
 
 @pytest.fixture
