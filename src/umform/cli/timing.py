@@ -20,7 +20,10 @@ def show_timing(timing: Timing, title: str = "Where the time went") -> None:
     from rich import box
     from rich.table import Table
 
-    table = Table("part", title=title, box=box.SIMPLE_HEAD)
+    from umform import threads
+
+    count = threads()
+    table = Table("part", title=f"{title}, {count} thread{'s' if count > 1 else ''}", box=box.SIMPLE_HEAD)
     for name in ("s", "%", "calls", "ms a call"):
         table.add_column(name, justify="right")
     for name, seconds, share, calls in timing.rows():
