@@ -24,7 +24,7 @@ from typing import Any
 
 import record
 import umform as uf
-from imbalance import FORCES, largest_drift, resultants
+from imbalance import FORCES, largest_drift
 from jobs import COUNT, Done, Job, job
 from robust_page import drawn, failures, page, table
 from umform.errors import NoConvergence, UmformError
@@ -92,7 +92,7 @@ def imbalance(task: Job, done: Done) -> str:
     """What does not balance in what a job gave; nothing if all does."""
     found = []
     for result in done.results:
-        force, moment = resultants(result.balance())
+        force, moment = result.balance().largest_imbalances
         found += [("forces", force, FORCES), ("moments", moment, FORCES)]
     found += [(name, *pair) for name, pair in done.deviations.items()]
     coarse = drift(done)

@@ -159,8 +159,7 @@ def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     watch.phase("end", 1.0)
     result = outcome.result
     last = {name: float(value) for name, value in result.rows[-1].items() if abs(float(value)) < float("inf")}
-    texts = {"warnings": list(result.warnings), "events": list(result.events)}
-    return {"last": last, "increments": len(result) - 1, "seconds": result.seconds, "resumed": taken_up, **texts}
+    return {**result.summary(), "last": last, "resumed": taken_up}
 
 
 if __name__ == "__main__":

@@ -18,6 +18,8 @@ from umform.model.control import Prescribed
 from umform.processes.bending.measures import at_marks, jump, roughness
 from umform.processes.bending.parameters import FreeBending
 from umform.report.repeats import counted
+from umform.results.balanced import Balanced, balanced
+from umform.results.run_record import run_record
 from umform.results.shape import Shape
 from umform.run import Result, solve
 from umform.solution.newton import Newton
@@ -61,6 +63,10 @@ class Bending:
         Why the case ended early; empty if it is complete.
     timing : Timing
         Where the time went.
+    balance : Balanced or None
+        Balance of forces and energies.
+    checks : dict
+        Penetration of the contact and balance, as JSON data.
     result : Result or None
         Everything else; None for a case that ran in another process.
     live : Live or None
@@ -78,6 +84,8 @@ class Bending:
     warnings: tuple[str, ...] = ()
     failure: str = ""
     timing: Timing = field(default_factory=Timing)
+    balance: Balanced | None = None
+    checks: dict[str, dict[str, object]] = field(default_factory=dict)
     result: Result | None = None
     live: Live | None = None
 
@@ -127,6 +135,7 @@ class Bending:
             "solver": self.solver,
             "iterations": self.iterations,
             "seconds": self.seconds,
+            **self.checks,
             "warnings": counted(self.warnings),
             "failure": self.failure,
         }
@@ -267,6 +276,8 @@ def measured(case: FreeBending, result: Result, failure: Exception | None = None
         warnings=(*_cautions(case, result.model.mesh.cell), *result.warnings),
         failure=failure_text(failure),
         timing=result.timing,
+        balance=balanced(result),
+        checks=run_record({"bending": result}),
         result=result,
     )
 
