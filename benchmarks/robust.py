@@ -50,7 +50,7 @@ class OutOfTime(BaseException):
 
 
 def outcome(number: int) -> dict[str, Any]:
-    """Run a job in this process, and say what came of it."""
+    """Run a job in this process and return its outcome."""
     logging.getLogger("umform").addHandler(logging.NullHandler())
     uf.set_threads(1)
     task, start, done = job(number), time.process_time(), Done([])
@@ -166,7 +166,7 @@ def known(path: Path | None) -> dict[int, dict[str, Any]]:
 
 
 def show(number: int) -> None:
-    """Print one job with all that it was drawn as, and what comes of it."""
+    """Print the random choices of one job, and its outcome."""
     print(json.dumps(job(number).keys, indent=1))
     print(json.dumps(outcome(number), indent=1))
 

@@ -73,7 +73,7 @@ def _order() -> str:
 
 
 def _outcome(folder: Path) -> dict[str, Any]:
-    """Run a job, and say what came of it whatever it is."""
+    """Run a job and return its outcome, of failures too."""
     try:
         order = json.loads((folder / ORDER).read_text(encoding="utf-8"))
         write_live(folder, {"fraction": 0.0, "phase": "start", "increments": 0, "shape": 0})

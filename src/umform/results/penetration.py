@@ -1,4 +1,4 @@
-"""How far a run let the sheet into its tools, whether that was allowed, and what it makes of the forces."""
+"""Largest penetration of each contact of a run, the allowed one, and the estimated error of the forces."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from umform.results.history import History
 
 #: Penetration relative to the thickness that is reported, and that of a sufficient penalty.
 _DEEP, _SHALLOW = 0.1, 0.02
-#: Tolerance of the promise, relative to the allowed penetration.
+#: Tolerance of the check, relative to the allowed penetration.
 _ROUND_OFF = 1e-3
 
 

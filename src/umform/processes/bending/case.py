@@ -39,7 +39,7 @@ _WINDOW = 0.1 / 15
 
 @dataclass(frozen=True)
 class Bending:
-    """What came out of one case.
+    """Results of one case.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ class Bending:
     seconds : float
         Wall time.
     warnings : tuple of str
-        What the run had to say.
+        Warnings of the run.
     failure : str
         Why the case ended early; empty if it is complete.
     timing : Timing
@@ -70,7 +70,7 @@ class Bending:
     result : Result or None
         Everything else; None for a case that ran in another process.
     live : Live or None
-        What a page shows of it that moves, if that was asked for.
+        Interactive parts of its page, if requested.
     """
 
     case: FreeBending
@@ -179,7 +179,7 @@ def free_bending(case: FreeBending | None = None, *, frames: int = 1, progress: 
 
 
 def check(case: FreeBending) -> None:
-    """Build the model of a case and look at it, so that nothing but the solution itself can fail later.
+    """Build and check the model of a case, so that only the solution can fail later.
 
     Raises
     ------
@@ -240,7 +240,7 @@ def cell_of(name: str) -> str:
 
 
 def failed(case: FreeBending, error: Exception) -> Bending:
-    """What is left of a case that was ended by an exception: all that was reached, if it is there."""
+    """The results up to an exception that ended a case."""
     result: Result | None = getattr(error, "result", None)
     if result is not None and len(result) and result.frames:
         return measured(case, result, error)
@@ -249,7 +249,7 @@ def failed(case: FreeBending, error: Exception) -> Bending:
 
 
 def failure_text(error: Exception | None) -> str:
-    """What is said of an exception that ended a case; nothing without one."""
+    """Text of an exception that ended a case; empty without one."""
     if error is None:
         return ""
     if isinstance(error, UmformError):
@@ -283,7 +283,7 @@ def measured(case: FreeBending, result: Result, failure: Exception | None = None
 
 
 def _cautions(case: FreeBending, cell: str) -> Iterator[str]:
-    """What is known beforehand to mislead."""
+    """Warnings of settings that are known to mislead."""
     if cell == "hex8" and case.mesh[1] == 1 and not case.is_paper_element:
         yield (
             "one bilinear element over the width lets the section tilt freely across the strip: with this thickness "
