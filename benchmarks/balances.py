@@ -23,7 +23,7 @@ import umform as uf
 from balances_page import page, summary
 from corpus import JOBS, Watched
 from corpus.answers import Answer
-from imbalance import FORCES, largest_drift, resultants
+from imbalance import FORCES, largest_drift
 from umform.model.tool_controls import ToolMotion
 
 
@@ -137,7 +137,7 @@ def penetration(result: uf.Result) -> float:
 def measured(answer: Answer) -> dict[str, float]:
     """All quantities of a job that it has."""
     results = answer.results
-    force, moment = np.max([resultants(result.balance()) for result in results], axis=0).tolist()
+    force, moment = np.max([result.balance().largest_imbalances for result in results], axis=0).tolist()
     volumes = [result.volume_change() for result in results]
     found = {
         "forces": force,

@@ -24,7 +24,7 @@ from typing import Any
 
 import record
 import umform as uf
-from imbalance import FORCES, largest_drift, resultants
+from imbalance import FORCES, largest_drift
 from jobs import COUNT, Done, Job, job
 from robust_page import drawn, failures, page, table
 from umform.errors import NoConvergence, UmformError
@@ -50,7 +50,7 @@ class OutOfTime(BaseException):
 
 
 def outcome(number: int) -> dict[str, Any]:
-    """Run a job in this process, and say what came of it."""
+    """Run a job in this process and return its outcome."""
     logging.getLogger("umform").addHandler(logging.NullHandler())
     uf.set_threads(1)
     task, start, done = job(number), time.process_time(), Done([])
@@ -92,7 +92,7 @@ def imbalance(task: Job, done: Done) -> str:
     """What does not balance in what a job gave; nothing if all does."""
     found = []
     for result in done.results:
-        force, moment = resultants(result.balance())
+        force, moment = result.balance().largest_imbalances
         found += [("forces", force, FORCES), ("moments", moment, FORCES)]
     found += [(name, *pair) for name, pair in done.deviations.items()]
     coarse = drift(done)
@@ -166,7 +166,7 @@ def known(path: Path | None) -> dict[int, dict[str, Any]]:
 
 
 def show(number: int) -> None:
-    """Print one job with all that it was drawn as, and what comes of it."""
+    """Print the random choices of one job, and its outcome."""
     print(json.dumps(job(number).keys, indent=1))
     print(json.dumps(outcome(number), indent=1))
 

@@ -85,7 +85,7 @@ def in_umform(friction: float | None, stroke: float, rule: str) -> dict[str, Any
 
 
 def sections() -> dict[str, np.ndarray[Any, np.dtype[np.float64]]]:
-    """Polygons of die, holder and punch; who walks along them has the sheet on the left, seen against y."""
+    """Polygons of die, holder and punch with the sheet on their left, seen against y."""
 
     def line(*ends: tuple[float, float]) -> list[Any]:
         (a, b), (c, d) = ends

@@ -11,8 +11,6 @@ from umform_book.newton_order import NewtonOrder, measure
 
 #: An imbalance of the forces above this is not round-off.
 _AT_REST = 1e-6
-#: Part of the largest energy below which a sheet is unloaded: its forces are round-off.
-_NOTHING = 1e-12
 
 if TYPE_CHECKING:
     from umform.run import Result
@@ -53,15 +51,14 @@ def balance_row(case: str, run: str, result: Result) -> BalanceRow:
     drift = balance.external_work - energy
     if abs(balance.force_imbalance[0]) > _AT_REST:  # a start inside of a tool is no equilibrium
         drift -= drift[min(1, len(drift) - 1)]
-    bears = np.abs(energy) > _NOTHING * np.abs(energy).max()
-    bears[0] = False  # the start
+    force, moment = balance.largest_imbalances
     return BalanceRow(
         case=case,
         run=run,
         increments=len(result) - 1,
         iterations=int(result["iterations"].sum()),
         drift=float(np.abs(drift[1:]).max(initial=0.0) / (np.abs(energy).max() or 1.0)),
-        force=float(np.abs(balance.force_imbalance[bears]).max(initial=0.0)),
-        moment=float(np.abs(balance.moment_imbalance[bears]).max(initial=0.0)),
+        force=force,
+        moment=moment,
         newton=measure(result.iterations),
     )

@@ -126,7 +126,7 @@ class _Api:
         return {"jobs": rows, "full": None if full is None else said(full)}
 
     def job(self, request: Request) -> _Json:
-        """A job, with its numbers, what it tells of its run, and its files."""
+        """A job with its numbers, live data and files."""
         job = self._known(request)
         folder = self.queue.place(job.id)
         files = [file for file in sorted(_FILES) if (folder / RESULTS / file).is_file()]

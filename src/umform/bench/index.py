@@ -54,7 +54,7 @@ class Job:
     parameters : dict
         What was ordered.
     state, reason : str
-        One of `STATES`, and what is to be said of it.
+        One of `STATES`, and its reason.
     summary : dict
         The numbers that came out.
     created, ended : float or None

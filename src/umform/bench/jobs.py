@@ -27,7 +27,7 @@ from umform.io.atomic import PendingFile
 
 log = logging.getLogger("umform.bench")
 
-#: Jobs that may wait, bytes of a deck, and starts of a job that dies without a word.
+#: Jobs that may wait, bytes of a deck, and starts of a job whose process dies without an outcome.
 MOST_WAITING, LONGEST_DECK, MOST_STARTS = 200, 400_000, 3
 #: Bytes that a folder may have if nothing else is said.
 USUAL_DISK = 10e9
@@ -191,7 +191,7 @@ class Queue:
             self.disk.forget()
 
     def live(self, name: str) -> dict[str, Any]:
-        """What a job tells while it runs."""
+        """Live data of a running job."""
         with suppress(OSError, ValueError):
             content: dict[str, Any] = json.loads((self.place(name) / LIVE).read_text(encoding="utf-8"))
             return content
@@ -218,7 +218,7 @@ class Queue:
             self._wake.clear()
 
     def _reap(self) -> None:
-        """Write down what came of processes that have ended; press those that do not stop."""
+        """Store the outcomes of processes that have ended; kill those that do not stop."""
         for name in list(self._running):
             if self._lives(name):
                 if time.monotonic() > self._asked.get(name, float("inf")):

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from umform.errors import UmformError
 
-#: Part of the memory of the machine that a job may have: a mesh that cannot be meant then harms nobody.
+#: Part of the memory of the machine that a job may have: a mesh far too fine then fails with a message.
 _MEMORY = 0.8
 #: Bytes that stay free on the disk, and seconds for which a size that was found counts.
 _LEFT, _FRESH = 200e6, 5.0

@@ -1,4 +1,4 @@
-"""What a job tells while it runs: how far it is, its curve, and the section of the sheet, in a small file."""
+"""Live data of a running job in a small file: progress, curve, section of the sheet."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ class Watch:
         self._next = time.monotonic() + _OFTEN
 
     def phase(self, name: str, fraction: float) -> None:
-        """Go on to another part of the work; the run has ended, and its last increments are told."""
+        """Begin another phase after the end of the run, and write the last increments."""
         self._over = True
         if self._run is not None:
             self._take(self._run)
@@ -83,7 +83,7 @@ class Watch:
 
     def shape(self, result: History) -> None:
         """Write the shape in space."""
-        from umform.bench.shape import write_shape  # loads the report and its pictures: after the first state is told
+        from umform.bench.shape import write_shape  # loads the report and its pictures: late
 
         write_shape(self.folder, result, self.title)
         self.content["shape"] += 1
@@ -108,7 +108,7 @@ class BendTold:
         self._back = False
 
     def __call__(self, run: Run) -> dict[str, Any]:
-        """What there is to tell of the present state."""
+        """Live data of the present state."""
         brake, result = self.brake, run.result
         section = Section.of(run.model.mesh, run.model.u)
         back = bool(brake.run.steps) and isinstance(brake.run.steps[-1], Release)
@@ -142,7 +142,7 @@ class DeckTold:
         self.increments, self.steps = max(1, increments), max(1, steps)
 
     def __call__(self, run: Run) -> dict[str, Any]:
-        """What there is to tell of the present state."""
+        """Live data of the present state."""
         result, number = run.result, min(run.number, self.steps)
         done = max((len(result) - 1) / self.increments, (number - 1) / self.steps)
         told: dict[str, Any] = {"phase": "loading", "fraction": min(_BEFORE_FILES, done)}

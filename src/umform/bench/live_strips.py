@@ -1,4 +1,4 @@
-"""What a strip tells while it is bent several times, or hemmed: operation, outline, curve."""
+"""Live data of a strip with several bends or a hem: operation, outline, curve."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class StripTold:
         self._number = -1
 
     def __call__(self, run: Run) -> dict[str, Any]:
-        """What there is to tell of the present state."""
+        """Live data of the present state."""
         if run.model is not self._model:  # each operation has its own
             self._model, self._number = run.model, self._number + 1
         number = min(self._number, self.count - 1)

@@ -23,7 +23,17 @@ FILES = (*part_files.FILES, *hem_files.FILES)
 #: Most points of a profile on the page.
 _MOST = 400
 #: What the page shows of a record as it is.
-_AS_IT_IS = ("collisions", "coarse_mesh", "flanges", "length_balance", "increments", "warnings", "seconds")
+_AS_IT_IS = (
+    "collisions",
+    "coarse_mesh",
+    "flanges",
+    "length_balance",
+    "increments",
+    "warnings",
+    "seconds",
+    "contacts",
+    "balance",
+)
 
 
 def run_strip(folder: Path, title: str, wanted: Wanted, sheet: AirBending, note: str) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""What somebody wants bent, as the form of the page sends it, and the bend that it means."""
+"""The form of the page as data, and the parameters of the bend that follow from it."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ class Wanted(WantedStrip):
         return self
 
     def law(self) -> tuple[J2 | Metal, str]:
-        """Law of the sheet, and what is to be said of it."""
+        """Law of the sheet, and a note on its source."""
         from umform.sheet_metals import get, of_certificate
 
         if self.yield_stress is None or self.tensile_strength is None:

@@ -73,7 +73,7 @@ def _order() -> str:
 
 
 def _outcome(folder: Path) -> dict[str, Any]:
-    """Run a job, and say what came of it whatever it is."""
+    """Run a job and return its outcome, of failures too."""
     try:
         order = json.loads((folder / ORDER).read_text(encoding="utf-8"))
         write_live(folder, {"fraction": 0.0, "phase": "start", "increments": 0, "shape": 0})
@@ -159,8 +159,7 @@ def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     watch.phase("end", 1.0)
     result = outcome.result
     last = {name: float(value) for name, value in result.rows[-1].items() if abs(float(value)) < float("inf")}
-    texts = {"warnings": list(result.warnings), "events": list(result.events)}
-    return {"last": last, "increments": len(result) - 1, "seconds": result.seconds, "resumed": taken_up, **texts}
+    return {**result.summary(), "last": last, "resumed": taken_up}
 
 
 if __name__ == "__main__":

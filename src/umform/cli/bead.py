@@ -14,6 +14,7 @@ from umform.cli.drawing import without_help_texts
 from umform.cli.metal import law_of
 from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.run_checks import show_checks
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import echo_warnings, print_warnings_once
 from umform.errors import UmformError
@@ -147,6 +148,7 @@ def _show(drawn: Drawn, note: str) -> None:
     screen = console()
     screen.print(table)
     screen.print(f"equivalent: {in_python(drawn)}", soft_wrap=True, markup=False, highlight=False)
+    show_checks(screen, drawn.stages)
     if note:
         screen.print(note, soft_wrap=True)
     echo_warnings(drawn.warnings)

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from umform.cli.contacts import show_contacts
 from umform.cli.root import console
+from umform.cli.run_checks import show_checks
 from umform.cli.warnings import echo_warnings
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def show_bend(done: AirBend, rows: list[Measures], errors: Budget | None, note: 
         screen.print(remark, soft_wrap=True)
     if rows:
         _print_table("Bending table", table_header(), table_rows(rows))
-    show_contacts(screen, done.result)
+    show_checks(screen, done.stages)
     if note:
         screen.print(note, soft_wrap=True)
     echo_warnings(done.warnings)

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from umform.cli.contacts import show_contacts
 from umform.cli.metal import law_of
 from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.run_checks import show_checks
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import echo_warnings, print_warnings_once
 from umform.errors import InvalidValue
@@ -300,7 +300,7 @@ def _show(drawn: Drawn, note: str) -> None:
         table.add_row(*row)
     screen = console()
     screen.print(table)
-    show_contacts(screen, drawn.result)
+    show_checks(screen, drawn.stages)
     if remark := about_errors(drawn):
         screen.print(remark, soft_wrap=True)
     if note:

@@ -11,6 +11,7 @@ import typer
 from umform.cli.metal import law_of
 from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.run_checks import show_checks
 from umform.cli.warnings import echo_warnings, print_warnings_once
 
 _HEM, _TOOLS = "Hem (mm, degrees)", "Tools of the first bend (mm, degrees)"
@@ -96,6 +97,7 @@ def hem(
         try:
             with printing(f"the files of the hem are in {place}"):
                 _show(rows(done.measures), [*remarks(done), note])
+                show_checks(console(), done.stages)
                 echo_warnings(list(done.warnings))
         finally:  # even if the table cannot be printed
             files = write_files(place, done, note)

@@ -11,9 +11,9 @@ import typer
 
 from umform.cli import INTERRUPTED
 from umform.cli.check import Changes, DeckFile, Force, deck_errors, read
-from umform.cli.contacts import show_contacts
 from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks, petsc_options
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing, say_of
+from umform.cli.run_checks import show_checks
 from umform.cli.step_table import step_tables
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import echo_warnings, print_warnings_once
@@ -101,7 +101,7 @@ def show(outcome: Outcome) -> None:
     part = modelled_part(result.model)
     if part:
         screen.print(part, soft_wrap=True)
-    show_contacts(screen, result)
+    show_checks(screen, {"run": result})
     show_measures(outcome.taken, screen)
     for event in result.events:
         screen.print(event, soft_wrap=True, markup=False)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from umform.cli.root import console, printing
+from umform.cli.run_checks import show_checks
 from umform.cli.warnings import echo_warnings
 
 if TYPE_CHECKING:
@@ -77,4 +78,5 @@ def _show(part: Part, note: str, length: float | None) -> None:
         said.append(total_force(max(done.measures.largest_force for done in part.bends), length))
     for text in (*said, *remarks(part), *([note] if note else [])):
         screen.print(text, soft_wrap=True)
+    show_checks(screen, part.stages)
     echo_warnings(text for text in part.warnings if text not in part.collisions)

@@ -226,7 +226,7 @@ def _twice(node: int, direction: str, other: str, by: str) -> InvalidValue:
         where=f"node {node}, direction {direction}",
         value=f"by {other} and by {by}",
         cause="two supports ask for it",
-        remedy="take the node out of one of the sets; a hinge bears a node that is held if its partner is too",
+        remedy="take the node out of one of the sets; a hinge may have a fixed node if its partner is fixed too",
     )
 
 

@@ -12,10 +12,24 @@ from umform.report.live import Live, style
 from umform.report.materials import material_text
 from umform.report.repeats import counted
 from umform.report.versions import versions
-from umform.results.penetration import penetrations
+from umform.results.balanced import LIMIT, Balanced, balanced
+from umform.results.penetration import stage_penetrations
 
 if TYPE_CHECKING:
     from umform.results.history import History
+
+_ENERGIES = {
+    "external work": "external_work",
+    "elastic energy": "elastic",
+    "plastic work": "plastic",
+    "energy of the contacts": "contact",
+    "work of friction": "friction",
+}
+_BALANCE = (
+    "Imbalances are relative to the largest forces and moments, the drift of external work from the sum of the "
+    f"energies is relative to the largest energy; its limit is {100.0 * LIMIT:g} %. Works and energies are those of "
+    "the modelled part."
+)
 
 
 def write_report(
@@ -88,7 +102,7 @@ def _parts(result: History, live: Live, deck: str, note: str, more: Iterable[str
     if deck:
         yield parts.heading("Deck")
         yield parts.folded("The input of this run", deck)
-    yield from closing(result)
+    yield from closing({"run": result}, result)
 
 
 def parameter_parts(values: Mapping[str, object], note: str) -> Iterator[str]:
@@ -99,13 +113,14 @@ def parameter_parts(values: Mapping[str, object], note: str) -> Iterator[str]:
     yield parts.pairs({name.replace("_", " "): value for name, value in values.items()})
 
 
-def closing(result: History) -> Iterator[str]:
-    """The end of every report: its contacts, the time of the run, and versions."""
-    if result.model.contacts:
+def closing(stages: Mapping[str, History], main: History) -> Iterator[str]:
+    """The end of every report: contacts and balance of each stage, the time of the main one, and versions."""
+    if any(result.model.contacts for result in stages.values()):
         yield parts.heading("Contacts")
-        yield from contacts(result)
+        yield from contacts(stages)
+    yield from balance_parts({stage: balanced(result) for stage, result in stages.items()})
     yield parts.heading("Where the time went")
-    yield time_spent(result)
+    yield time_spent(main)
     yield parts.heading("Versions")
     yield parts.pairs(versions())
 
@@ -150,7 +165,40 @@ def settings(result: History) -> dict[str, object]:
     return rows | {f"contact {pair.name}": str(pair.tool.surface) for pair in model.contacts}
 
 
-def contacts(result: History) -> Iterator[str]:
+def contacts(stages: Mapping[str, History]) -> Iterator[str]:
     """Allowed and reached penetration of each contact; marked where it was not kept."""
-    for name, reached in penetrations(result.model, result).items():
-        yield parts.note(f"contact {name}: {reached.text}", bad=not reached.kept)
+    for stage, rows in stage_penetrations(stages).items():
+        which = f"{stage}, " if len(stages) > 1 else ""
+        for name, reached in rows.items():
+            yield parts.note(f"{which}contact {name}: {reached.text}", bad=not reached.kept)
+
+
+def balance_parts(balances: Mapping[str, Balanced | None]) -> Iterator[str]:
+    """Balances of runs by name, a column for each; a drift beyond its limit is marked."""
+    found = {name: one for name, one in balances.items() if one is not None}
+    if found:
+        yield parts.heading("Balance of forces and energies")
+        yield _balance_table(found)
+        yield parts.paragraph(_BALANCE)
+
+
+def _balance_table(found: Mapping[str, Balanced]) -> str:
+    ones = list(found.values())
+    rows: list[list[str]] = [
+        ["largest imbalance of forces", *(f"{one.force_imbalance:.1e}" for one in ones)],
+        ["largest imbalance of moments", *(f"{one.moment_imbalance:.1e}" for one in ones)],
+        ["largest drift of the energies, %", *(_drift(one) for one in ones)],
+        ["in step", *(str(one.drift_step) for one in ones)],
+        ["energies at the start", *(f"{one.before:.6g}" for one in ones)],
+        *(
+            [f"work of {tool}", *(f"{one.works[tool]:.6g}" if tool in one.works else "" for one in ones)]
+            for tool in dict.fromkeys(tool for one in ones for tool in one.works)
+        ),
+        *([f"{name} at the end", *(f"{getattr(one, key):.6g}" for one in ones)] for name, key in _ENERGIES.items()),
+    ]
+    return parts.table(["", *found], rows)
+
+
+def _drift(one: Balanced) -> str:
+    text = f"{100.0 * one.drift:.2g}"
+    return text if one.small else parts.Bad(text)

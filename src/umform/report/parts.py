@@ -17,6 +17,10 @@ from umform.io.atomic import PendingFile
 from umform.plotting import inline_svg
 
 
+class Bad(str):
+    """Text of a cell that is beyond a limit."""
+
+
 def heading(text: str) -> str:
     """A heading."""
     return f"<h2>{escape(text)}</h2>"
@@ -35,10 +39,15 @@ def note(text: str, *, bad: bool = False) -> str:
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table whose first column names the rows."""
+    """A table whose first column names the rows; cells that are `Bad` are marked."""
     head = "".join(f"<th>{escape(cell)}</th>" for cell in header)
-    body = "\n".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
+    body = "\n".join("<tr>" + "".join(map(_cell, row)) + "</tr>" for row in rows)
     return f'<div class="wide"><table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody></table></div>'
+
+
+def _cell(text: str) -> str:
+    mark = ' class="bad"' if isinstance(text, Bad) else ""
+    return f"<td{mark}>{escape(text)}</td>"
 
 
 def pairs(values: Mapping[str, object]) -> str:

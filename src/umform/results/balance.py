@@ -24,6 +24,8 @@ from umform.model.term import At, Energies
 from umform.ranks import Ranks
 
 Floats = NDArray[np.float64]
+#: Part of the largest energy below which a sheet is not loaded.
+_NOTHING = 1e-12
 
 
 def energies(model: Model, evaluation: Evaluation) -> Energies:
@@ -79,6 +81,18 @@ class Balance:
     force_imbalance: Floats
     moment_imbalance: Floats
     works: Mapping[str, Floats]
+
+    @property
+    def largest_imbalances(self) -> tuple[float, float]:
+        """Largest imbalance of forces and of moments in the increments in which the sheet is loaded.
+
+        The start may be out of balance, and forces on a sheet that nothing touches yet are round-off.
+        """
+        energy = np.abs(self.elastic + self.plastic + self.contact + self.friction)
+        bears = ~(energy <= _NOTHING * energy.max(initial=0.0))  # an unknown energy is NaN
+        bears[:1] = False
+        force, moment = (one[bears].max(initial=0.0) for one in (self.force_imbalance, self.moment_imbalance))
+        return float(force), float(moment)
 
 
 def drift(external_work: Floats, stored: Floats) -> Floats:

@@ -1,8 +1,8 @@
-"""How far a run let the sheet into its tools, whether that was allowed, and what it makes of the forces."""
+"""Largest penetration of each contact of a run, the allowed one, and the estimated error of the forces."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
 
 import numpy as np
@@ -16,7 +16,7 @@ from umform.results.history import History
 
 #: Penetration relative to the thickness that is reported, and that of a sufficient penalty.
 _DEEP, _SHALLOW = 0.1, 0.02
-#: Tolerance of the promise, relative to the allowed penetration.
+#: Tolerance of the check, relative to the allowed penetration.
 _ROUND_OFF = 1e-3
 
 
@@ -69,10 +69,28 @@ def penetrations(model: Model, result: History) -> dict[str, Reached]:
     return {contact.name: _reached(model, result, contact) for contact in model.contacts}
 
 
-def contact_record(result: History) -> dict[str, dict[str, object]]:
+def stage_penetrations(stages: Mapping[str, History]) -> dict[str, dict[str, Reached]]:
+    """The same of each run of a process by its name.
+
+    Contacts that a later run does not touch or only unloads are left out of it.
+    """
+    found = {stage: penetrations(result.model, result) for stage, result in stages.items()}
+    first = next(iter(stages), "")
+    return {
+        stage: {
+            name: reached
+            for name, reached in rows.items()
+            if stage == first or reached.reached > stages[stage][f"{name}_penetration"][0]
+        }
+        for stage, rows in found.items()
+    }
+
+
+def contact_record(stages: Mapping[str, History]) -> dict[str, object]:
     """The same as JSON data."""
     return {
-        name: {**asdict(reached), "kept": reached.kept} for name, reached in penetrations(result.model, result).items()
+        stage: {name: {**asdict(reached), "kept": reached.kept} for name, reached in rows.items()}
+        for stage, rows in stage_penetrations(stages).items()
     }
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from umform.errors import InvalidValue
 from umform.results.history import History
+from umform.results.run_record import run_record
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -26,6 +27,10 @@ class Result(History):
     >>> result.write("bending.vtkhdf")  # doctest: +SKIP
     >>> result.plot("tip", "tip_force", "curve.png")  # doctest: +SKIP
     """
+
+    def summary(self) -> dict[str, Any]:
+        """Numbers that describe the run: effort, events, warnings, penetration of the contacts, balance."""
+        return super().summary() | run_record({"run": self})
 
     def write(self, path: str | Path, *, lagrange: bool = False) -> Path:
         """Write frames (``.vtkhdf``) or the history (``.csv``), atomically.

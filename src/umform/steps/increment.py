@@ -23,6 +23,7 @@ from umform.solution.strategies import Increment, equilibrium
 from umform.steps.crushed import crushed
 from umform.steps.limit_load import limit_load
 from umform.steps.loop import Run
+from umform.steps.thinned import thinned
 from umform.steps.trail import Trail, changes
 from umform.surfaces import UserSurface
 
@@ -147,8 +148,11 @@ def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], value
         )
         remedy = f"hold the sheet in more places, or take a thicker or a shorter one; else {remedy}"
     limit = limit_load(run, controls) if loose is None else None
+    burst = thinned(run, failure)
     if limit is not None:
         cause, remedy = limit
+    elif burst is not None:
+        cause, remedy = f"{cause}; {burst[0]}", burst[1]
     remedy += own_parts(run.model)
     pressed = pressed_tools(run)
     if pressed:

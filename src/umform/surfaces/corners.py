@@ -135,7 +135,7 @@ def _joined(at: list[Floats], roundings: list[_Rounding], closed: bool) -> list[
                 where=f"edge from corner {i} at {_pair(at[i])} to corner {k} at {_pair(at[k])}",
                 value=f"the edge is {length:.6g} long, the fillets take {rounding.setback:.6g} and "
                 f"{following.setback:.6g} of it",
-                cause="the radii are larger than the edge bears",
+                cause="the radii are too large for the length of the edge",
                 remedy="smaller radii, or a longer edge",
             )
         if left > 1e-12 * length:

@@ -15,7 +15,7 @@ from umform_book.plastic.pulled_section import FIBRES, ElementSection, FibreSect
 Floats = NDArray[np.float64]
 
 LAWS = ("isotropic", "Chaboche", "Yoshida-Uemori, falling modulus")
-RADII, TENSIONS = (5.0, 10.0, 20.0, 100.0), (0.3, 0.6)
+RADII, TENSIONS = (5.0, 10.0, 20.0, 50.0, 100.0), (0.3, 0.6)
 YIELD_FORCE = 2.0 / np.sqrt(3.0) * 141.6
 #: Limits of stretch and thinning, of the moment, of the springback.
 WITHIN, MOMENT, SPRINGBACK = 0.03, 0.015, 0.01

@@ -181,6 +181,7 @@ def test_deck_that_is_stopped_and_handed_on_ends_with_the_same_bits(tmp_path):
     job = queue.index.job(name)
     queue.close()
     assert job.state == "done" and job.summary["resumed"], job.reason
+    assert job.summary["balance"]["run"]["force_imbalance"] < 1e-6
     with (results / "history.csv").open(newline="") as text:
         column = [float(row["tip_force"]) for row in csv.DictReader(text)]
     assert column == Deck.read(DECK).build().solve(progress=False)["tip_force"].tolist()

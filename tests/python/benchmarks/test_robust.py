@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from umform.errors import InvalidValue, NoConvergence
+from umform.results.balance import Balance
 
 #: How many jobs the sample has.
 SAMPLE = 42
@@ -68,9 +69,19 @@ def test_errors_are_told_apart(robust, monkeypatch, error, ended):
 def result(force=0.0, drift=0.0):
     """A run that does not balance."""
     rows = [9.0, 9.0, force]  # the start need not be in equilibrium, and before a first touch there is round-off alone
-    energies = {"elastic": np.array([5.0, 1e-14, 1.0]), "plastic": np.zeros(3), "contact": np.zeros(3)}
-    balance = SimpleNamespace(
-        force_imbalance=np.array(rows), moment_imbalance=np.zeros(3), drift=np.array([0.0, 0.0, -drift]), **energies
+    zero = np.zeros(3)
+    balance = Balance(
+        step=zero,
+        time=zero,
+        external_work=zero,
+        elastic=np.array([5.0, 1e-14, 1.0]),
+        plastic=zero,
+        contact=zero,
+        friction=zero,
+        drift=np.array([0.0, 0.0, -drift]),
+        force_imbalance=np.array(rows),
+        moment_imbalance=zero,
+        works={},
     )
     return SimpleNamespace(balance=lambda: balance)
 

@@ -134,12 +134,15 @@ def test_all_files_are_written(tmp_path, bend, errors):
     record = json.loads((tmp_path / "out" / "bend.json").read_text())
     assert record["measures"]["angle"] == bend.measures.angle
     assert record["budget"]["changes"]["mesh/2"]["angle"] == errors.changes["mesh/2"]["angle"]
+    (balance,) = record["balance"].values()
+    assert balance["force_imbalance"] < 1e-6 and balance["moment_imbalance"] < 1e-6
+    assert set(record["contacts"]["bend"]) == {"die", "punch"}
     with (tmp_path / "out" / "curve.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == len(bend.stroke)
     assert float(rows[-1]["stroke"]) == bend.stroke[-1]
     page = (tmp_path / "out" / "report.html").read_text()
-    assert "% thrown away" in page
+    assert "% thrown away" in page and "<td>work of punch</td>" in page
     assert all(quantity.label in page for quantity in QUANTITIES.values())
     assert all(f'id="{part}"' in page for part in ("shape-canvas", "curves", "scene", "history-csv"))
     deck = (tmp_path / "out" / "bend.toml").read_text()

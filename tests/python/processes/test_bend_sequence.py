@@ -69,12 +69,18 @@ def test_the_record_is_json(profile_z, tmp_path):
     assert text["bends"][1]["measures"]["angle"] == profile_z.bends[1].measures.angle
     assert len(text["profile"]) == len(profile_z.profile)
     assert text["bends"][0]["outline"]["before"]["stroke"] == 0.0
+    first, second = (text["balance"][f"bend {number}"] for number in (1, 2))
+    assert second["before"] == pytest.approx(first["external_work"], rel=0.01)
+    assert max(one["force_imbalance"] for one in (first, second)) < 1e-6
+    assert set(text["contacts"]["bend 2"]) == {"die", "punch"}
     write_files(tmp_path, profile_z)
     assert {file.name for file in tmp_path.iterdir()} == set(FILES)
     page = (tmp_path / "report.html").read_text()
     assert flanges(profile_z) in page
     assert all(f"<td>{cell}</td>" in page for row in bend_rows(profile_z) for cell in row[1:-1] if row[0] != "bend")
     assert "coarse mesh" in page
+    assert "bend 2, contact die: penetration up to" in page
+    assert f"<td>work of punch</td><td>{first['works']['punch']:.6g}</td>" in page
 
 
 def test_a_collision_is_told_in_plain_words(profile_z):

@@ -84,7 +84,11 @@ def test_files(drawn, tmp_path):
     record = json.loads((tmp_path / "bead.json").read_text())
     assert record["measures"]["restraint"] == drawn.restraint
     assert record["parameters"]["groove"] == drawn.case.width
-    assert "a note" in (tmp_path / "report.html").read_text()
+    balance = record["balance"]["drawing"]
+    assert balance["friction"] == drawn.result["friction_work"][-1] > 0.0
+    assert balance["works"]["loads and supports"] > 0.0 and "upper_tool" in balance["works"]
+    page = (tmp_path / "report.html").read_text()
+    assert "a note" in page and "<h2>Balance of forces and energies</h2>" in page
 
 
 @pytest.mark.parametrize(

@@ -56,10 +56,14 @@ def test_the_record_is_json(hem, tmp_path):
     text = json.loads(json.dumps(record(hem), allow_nan=False))
     assert text["measures"]["height"] == hem.measures.height
     assert len(rows(hem.measures)) == len(text["measures"])
+    assert list(text["balance"]) == list(text["contacts"]) == ["first bend", "flattening"]
+    assert text["balance"]["flattening"]["works"]["plate"] > 0.0
+    assert "insert" in text["contacts"]["flattening"]
     write_files(tmp_path, hem)
     assert {file.name for file in tmp_path.iterdir()} == set(FILES)
     page = (tmp_path / "report.html").read_text()
     assert all(f"<td>{value}</td>" in page for _, value, _ in rows(hem.measures))
+    assert page.count("<h2>Balance of forces and energies</h2>") == 1 and "<th>flattening</th>" in page
     assert "V 8, 30 degrees, shoulder 1, punch radius 0.5, 30 degrees; V/t 8" in page
 
 

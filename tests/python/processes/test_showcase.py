@@ -96,6 +96,8 @@ def test_table_as_json(outcome):
     assert first["thickness_order"] == 1
     assert first["F_15"] > first["F_2"] > 0
     assert {"u_zero_force", "J", "roughness", "iterations", "seconds"} <= first.keys()
+    assert first["balance"]["bending"]["force_imbalance"] < 1e-6
+    assert first["contacts"]["bending"]["cylinder"]["kept"] in (True, False)
     assert {"umform", "numpy", "scipy", "python", "platform"} <= record["versions"].keys()
 
 

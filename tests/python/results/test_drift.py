@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 import umform as uf
+from umform.report.page import write_report
+from umform.results.balanced import balanced
 from umform.run.open_run import OpenRun
 
 
@@ -45,6 +47,29 @@ def test_short_increments_are_not():
     assert about(result) == []
 
 
+def test_the_record_has_imbalances_works_and_energies():
+    result = pulled()
+    (record,) = result.summary()["balance"].values()
+    drift = result.balance().drift
+    assert (record["drift"], record["drift_step"], record["small"]) == (np.abs(drift).max(), 1, False)
+    assert record["force_imbalance"] < 1e-6 and record["moment_imbalance"] < 1e-6
+    assert record["works"]["loads and supports"] == pytest.approx(record["external_work"] - record["before"])
+    energies = record["elastic"] + record["plastic"] + record["contact"] + record["friction"]
+    scale = np.abs(result["elastic_energy"] + result["plastic_work"]).max()
+    assert record["external_work"] - energies == pytest.approx(drift[-1] * scale)
+
+
+@pytest.mark.parametrize("steps", [4, 60])
+def test_a_report_marks_a_drift_beyond_its_limit(steps, tmp_path):
+    result = pulled(steps=steps)
+    found = balanced(result)
+    assert found.small == (steps == 60)
+    page = write_report(result, tmp_path / "a.html").read_text()
+    mark = "" if found.small else ' class="bad"'
+    assert f"<td{mark}>{100 * found.drift:.2g}</td>" in page
+    assert ("more than the limit of 1 %" in found.text) == (not found.small)
+
+
 def test_the_run_that_follows_is_not_blamed():
     model = pulled().model
     again = uf.solve(model, uf.Move(model.controls[0], 0.0201, steps=2), frames=0, progress=False)
@@ -67,6 +92,9 @@ def test_unknown_energies_are_no_drift():
     result = uf.solve(model, uf.Move(model.prescribe("x1", "x", "pull"), 0.5, steps=1), frames=0, progress=False)
     assert np.isnan(result["elastic_energy"]).any()
     assert about(result) == []
+    (record,) = result.summary()["balance"].values()
+    assert record["drift"] is record["elastic"] is None and record["force_imbalance"] < 1e-6
+    assert "unknown" in balanced(result).text
 
 
 def test_a_run_that_ends_early_is_named_too():

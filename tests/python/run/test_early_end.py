@@ -70,10 +70,10 @@ def test_steps_of_an_open_run_agree_too(monkeypatch):
     assert of_one_state(run.result, model) == pytest.approx(0.6)
 
 
-def bulge():
+def bulge(radius=50.0, cells=(2, 2)):
     """A quarter of a clamped disc under pressure; the wall thins faster than the metal hardens."""
     metal = uf.J2(E=70e3, nu=0.33, hardening=uf.Voce(125.95, 314.98, 12.22))
-    model = uf.Model(uf.mesh.disc(50.0, 1.0, (2, 2), part="quarter"), "ANS3DEAS", material=metal)
+    model = uf.Model(uf.mesh.disc(radius, 1.0, cells, part="quarter"), "ANS3DEAS", material=metal)
     model.symmetry("x0", "x")
     model.symmetry("y0", "y")
     model.fix("rim")
@@ -100,6 +100,29 @@ def test_beyond_the_largest_pressure_the_arc_is_named_and_works():
     passed = uf.solve(model, arc, frames=0, progress=False)
     assert any("a maximum of the load" in event for event in passed.events)
     assert passed["p"].max() == pytest.approx(reached, rel=0.02)
+
+
+@pytest.mark.parametrize("arc", [False, True])
+def test_a_mesh_too_coarse_for_the_maximum_is_named_by_its_thinning(arc):
+    """One element carries more than the sheet does, until it is turned inside out while the load still rises."""
+    model, p = bulge(20.0, (1, 1))
+    step = uf.Arc(p, 60.0, increment=0.05) if arc else uf.Move(p, 60.0, steps=20)
+    with pytest.raises(NoConvergence) as caught:
+        uf.solve(model, step, frames=0, progress=False)
+    error, result = caught.value, caught.value.result
+    assert result["p"].argmax() == len(result) - 1
+    loss = float(error.cause.split("has lost ")[1].split(" %")[0])
+    assert loss == pytest.approx(-100.0 * uf.fields.thickness_change(model).min(), abs=0.5)
+    assert "maximum of the load" not in error.cause and "more elements where it thins" in error.remedy
+
+
+def test_an_arc_that_ends_behind_the_largest_pressure_names_it():
+    model, p = bulge(20.0, (3, 3))
+    with pytest.raises(NoConvergence) as caught:
+        uf.solve(model, uf.Arc(p, 60.0, increment=0.05), frames=0, progress=False)
+    cause, largest = caught.value.cause, caught.value.result["p"].max()
+    assert caught.value.result["p"][-1] < largest
+    assert f"had passed the maximum of the load near p = {largest:.6g}" in cause
 
 
 def test_a_failure_below_the_largest_load_names_no_arc():

@@ -35,7 +35,7 @@ struct Coulomb {
     double stiffness(const double* history) const { return std::max(penalty, history[Stiffness]); }
     double reach(const double* trial) const { return trial[Multiplier] / penalty; }
 
-    /// The tool does not hold the place, which is at z in its frame.
+    /// The point is out of contact, at z in the frame of the tool.
     void leave(const Vec3& z, const double* state, double* trial) const {
         std::fill(trial + Held, trial + Change, 0.0);
         put(trial + Where, z);
@@ -44,7 +44,7 @@ struct Coulomb {
         add_work(state, trial, 0.0);
     }
 
-    /// What has happened since the converged state was the work of loads.
+    /// Resets the work of friction to that of the converged state: loads did the work since then.
     void forget_work(const double* state, double* trial) const { trial[Work] = state[Work]; }
 
     /// Writes the requested multipliers to the input history.
@@ -63,7 +63,7 @@ struct Coulomb {
         return {elastic, history[Slip], stored(history), history[Work], history[Above], tangential_stiffness(history)};
     }
 
-    /// Lets multipliers carry a traction at a place that is held, as far as it points along the tool. eq. (4.50)
+    /// Requests the tangential part of a traction as the tangential multiplier. eq. (4.50)
     void augment(const Place& place, const Vec3& t, const double* state, double* trial) const {
         const Facing facing(place);
         const bool held = state[Held] != 0.0;

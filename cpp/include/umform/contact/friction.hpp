@@ -1,4 +1,4 @@
-// Laws of friction: the largest tangential traction that a tool can bear.
+// Laws of friction: the largest tangential traction.
 #pragma once
 
 #include <algorithm>

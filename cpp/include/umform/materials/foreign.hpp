@@ -1,4 +1,4 @@
-// What laws from shared libraries have in common: they may give numbers that are none, and they may not bear threads.
+// Common parts of laws from shared libraries: they may return NaN, and may not be thread-safe.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct ForeignTraits {
     MaterialFromFunction::Traits law;
 };
 
-/// Keeps other threads out while a law is called that does not bear them.
+/// Locks the calls of a law that is not thread-safe.
 class Gate {
   public:
     explicit Gate(bool open) : mutex_(open ? nullptr : std::make_shared<std::mutex>()) {}

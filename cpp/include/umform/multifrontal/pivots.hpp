@@ -1,4 +1,4 @@
-// What the pivots of a factorisation tell: the inertia, the sign of the determinant, how close to singular the matrix is.
+// Results from the pivots of a factorisation: the inertia, the sign of the determinant, how close to singular the matrix is.
 #pragma once
 
 #include <algorithm>

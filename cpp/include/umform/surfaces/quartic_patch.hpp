@@ -35,7 +35,7 @@ struct QuarticPatch {
         std::array<Lanes, 10> cubic;
         std::array<Lanes, 6> q;
         const char* numbers = reinterpret_cast<const char*>(&control);
-        for (int i = 0; i < 14; ++i)  // the fourth lane is that of nobody
+        for (int i = 0; i < 14; ++i)  // the fourth lane is unused
             std::memcpy(&quartic[i], numbers + i * sizeof(Vec3), sizeof(Lanes));
         quartic[14] = Lanes::Vector{control[14][0], control[14][1], control[14][2], 0.0};
         reduce<4>(quartic.data(), r, u, v, cubic.data());
@@ -71,7 +71,7 @@ struct FlatFoot {
     double square;
 };
 
-/// The regions of Voronoi of corners, edges and face tell where the foot lies.
+/// The Voronoi regions of corners, edges and face determine where the foot lies.
 inline FlatFoot foot_on_triangle(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 ab = difference(b, a), ac = difference(c, a), ax = difference(x, a);
     const auto with = [&](double u, double v) {

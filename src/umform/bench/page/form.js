@@ -109,7 +109,7 @@ export class Form {
     return make("div", { class: `row ${kind}`, "data-field": name }, text, box, make("p", { class: "note", id: `n-${name}`, role: "status" }));
   }
 
-  /** The drawn tools in their lists; the rest of the form stays as somebody may be typing there. */
+  /** Fill the lists of drawn tools. The rest of the form stays: the user may be typing there. */
   fillTools() {
     for (const name of ["punch", "die"]) {
       element(`f-${name}`)?.replaceChildren(...this.options(name));
@@ -258,7 +258,7 @@ export class Form {
   }
 
   /**
-   * What is to be said, by field: how numbers were read, what is unusual, what is wrong.
+   * Notes by field: numbers as they were read, warnings, errors.
    * @param {any} found @returns {Map<string, {kind: string, texts: string[]}>}
    */
   notes(found) {

@@ -97,7 +97,7 @@ export class Jobs {
 /** A part that has collided with the tools is none that is done. @param {string} state @param {any} summary */
 const markOf = (state, summary) => (state === "done" && summary.collides ? "collides" : state);
 
-/** How far a job is, or what came of it. @param {any} row @returns {string} */
+/** Progress of a job, or its outcome. @param {any} row @returns {string} */
 function end({ state, fraction, summary }) {
   const angle = summary.measures?.angle;
   return state === "running" ? `${Math.round(100 * fraction)} %` : state === "done" && angle ? `${number(angle, 1)}°` : t(`state.${markOf(state, summary)}`);

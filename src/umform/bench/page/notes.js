@@ -1,10 +1,10 @@
 // @ts-check
-// Notes beside a field. What is there already stays: a button that is replaced between press and release loses its click.
+// Notes beside a field. Unchanged elements are kept: a button that is replaced between press and release loses its click.
 
 import { make } from "./dom.js";
 
 /**
- * @param {any} place @param {string} kind "bad", "warn" or "" @param {string[]} texts @param {any} [button] what helps; the same one each time
+ * @param {any} place @param {string} kind "bad", "warn" or "" @param {string[]} texts @param {any} [button] button of the remedy; the same element at each call
  */
 export function put(place, kind, texts, button = null) {
   const name = kind ? `note ${kind}` : "note";

@@ -10,7 +10,7 @@ import { language, t } from "./texts.js";
  * @param {Record<string, any>} attributes @param {unknown} value @param {(value: number | string | null) => void} taken @param {number} [step] of the arrow keys
  */
 export function numberField(attributes, value, taken, step = 1) {
-  // A field of type "number" drops a comma without a word in an English browser.
+  // A field of type "number" drops a comma without a message in an English browser.
   const field = make("input", { type: "text", inputmode: "decimal", autocomplete: "off", ...attributes, value: typed(value, language) });
   field.addEventListener("input", () => taken(taking(field.value)));
   field.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => {

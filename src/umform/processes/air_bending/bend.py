@@ -113,6 +113,11 @@ class AirBend:
         return None if self.case.width is None else self.measures.largest_force * self.case.width
 
     @property
+    def stages(self) -> dict[str, Result]:
+        """The run by its name."""
+        return {"bend": self.result}
+
+    @property
     def iterations(self) -> int:
         """Number of Newton iterations."""
         return int(self.result["iterations"].sum())

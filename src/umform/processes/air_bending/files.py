@@ -21,7 +21,7 @@ from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.remarks import coarse_mesh
 from umform.processes.air_bending.words import columns
 from umform.report.versions import versions
-from umform.results.penetration import contact_record
+from umform.results.run_record import run_record
 
 if TYPE_CHECKING:
     from umform.processes.air_bending.budget import Budget
@@ -99,7 +99,7 @@ def record(bend: AirBend, table: Sequence[Measures] = (), budget: Budget | None 
         "tensile_strength": strength(bend.case),
         **_told({"force_balance": bend.force_balance}),
         "penetration": bend.penetration,
-        "contacts": contact_record(bend.result),
+        **run_record(bend.stages),
         "increments": len(bend.result) - 1,
         "iterations": bend.iterations,
         "seconds": bend.result.seconds,

@@ -115,7 +115,7 @@ def _parts(
     if deck:
         yield parts.heading("Deck")
         yield parts.folded("The input of this bend, for umform run", deck)
-    yield from closing(bend.result)
+    yield from closing(bend.stages, bend.result)
 
 
 def parameters(case: AirBending) -> dict[str, object]:

@@ -12,7 +12,7 @@ from umform.processes.air_bending.measures import QUANTITIES, Measures
 if TYPE_CHECKING:
     from umform.processes.air_bending.budget import Budget
 
-#: What stands for a number that cannot be told.
+#: Text of an unknown number.
 _UNTOLD = "–"
 #: Columns of a bending table.
 _TABLE = ("stroke", "loaded_angle", "angle", "springback", "force", "radius", "k_factor", "bend_deduction")

@@ -16,6 +16,7 @@ from umform.processes.air_bending.files import parameters
 from umform.processes.air_bending.remarks import coarse_mesh
 from umform.processes.bend_sequence.part import BendDone, Part
 from umform.report.versions import versions
+from umform.results.run_record import run_record
 
 _DATA = ("sequence.json", "profile.csv", "curves.csv", "part.vtkhdf")
 _PICTURES = ("part.png", "part.svg")
@@ -88,6 +89,7 @@ def record(part: Part) -> dict[str, Any]:
         "increments": sum(len(done.result) - 1 for done in part.bends),
         "iterations": int(sum(done.result["iterations"].sum() for done in part.bends)),
         "seconds": sum(done.result.seconds for done in part.bends),
+        **run_record(part.stages),
         "collisions": part.collisions,
         "coarse_mesh": coarse_mesh(sequence.sheet),
         "warnings": part.warnings,

@@ -51,7 +51,7 @@ def _parts(part: Part, picture: Figure, note: str) -> Iterator[str]:
     yield from parameter_parts(parameters(part.sequence.sheet), note)
     yield parts.heading("Model of the last bend")
     yield parts.pairs(settings(part.bends[-1].result))
-    yield from closing(part.bends[-1].result)
+    yield from closing(part.stages, part.bends[-1].result)
 
 
 def curves(part: Part) -> Figure:

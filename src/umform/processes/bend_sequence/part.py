@@ -115,6 +115,11 @@ class Part:
         return sum(self.flanges) - sum(done.measures.bend_deduction for done in self.bends) - self.sequence.length
 
     @property
+    def stages(self) -> dict[str, Result]:
+        """The runs of the bends."""
+        return {f"bend {number}": done.result for number, done in enumerate(self.bends, start=1)}
+
+    @property
     def profile(self) -> Floats:
         """Outline (n, 2) of the part: the lower face from left to right, then the upper face back."""
         return self.strip.outline

@@ -18,6 +18,8 @@ from umform.model.control import Prescribed
 from umform.processes.bending.measures import at_marks, jump, roughness
 from umform.processes.bending.parameters import FreeBending
 from umform.report.repeats import counted
+from umform.results.balanced import Balanced, balanced
+from umform.results.run_record import run_record
 from umform.results.shape import Shape
 from umform.run import Result, solve
 from umform.solution.newton import Newton
@@ -37,7 +39,7 @@ _WINDOW = 0.1 / 15
 
 @dataclass(frozen=True)
 class Bending:
-    """What came out of one case.
+    """Results of one case.
 
     Attributes
     ----------
@@ -56,15 +58,19 @@ class Bending:
     seconds : float
         Wall time.
     warnings : tuple of str
-        What the run had to say.
+        Warnings of the run.
     failure : str
         Why the case ended early; empty if it is complete.
     timing : Timing
         Where the time went.
+    balance : Balanced or None
+        Balance of forces and energies.
+    checks : dict
+        Penetration of the contact and balance, as JSON data.
     result : Result or None
         Everything else; None for a case that ran in another process.
     live : Live or None
-        What a page shows of it that moves, if that was asked for.
+        Interactive parts of its page, if requested.
     """
 
     case: FreeBending
@@ -78,6 +84,8 @@ class Bending:
     warnings: tuple[str, ...] = ()
     failure: str = ""
     timing: Timing = field(default_factory=Timing)
+    balance: Balanced | None = None
+    checks: dict[str, dict[str, object]] = field(default_factory=dict)
     result: Result | None = None
     live: Live | None = None
 
@@ -127,6 +135,7 @@ class Bending:
             "solver": self.solver,
             "iterations": self.iterations,
             "seconds": self.seconds,
+            **self.checks,
             "warnings": counted(self.warnings),
             "failure": self.failure,
         }
@@ -170,7 +179,7 @@ def free_bending(case: FreeBending | None = None, *, frames: int = 1, progress: 
 
 
 def check(case: FreeBending) -> None:
-    """Build the model of a case and look at it, so that nothing but the solution itself can fail later.
+    """Build and check the model of a case, so that only the solution can fail later.
 
     Raises
     ------
@@ -231,7 +240,7 @@ def cell_of(name: str) -> str:
 
 
 def failed(case: FreeBending, error: Exception) -> Bending:
-    """What is left of a case that was ended by an exception: all that was reached, if it is there."""
+    """The results up to an exception that ended a case."""
     result: Result | None = getattr(error, "result", None)
     if result is not None and len(result) and result.frames:
         return measured(case, result, error)
@@ -240,7 +249,7 @@ def failed(case: FreeBending, error: Exception) -> Bending:
 
 
 def failure_text(error: Exception | None) -> str:
-    """What is said of an exception that ended a case; nothing without one."""
+    """Text of an exception that ended a case; empty without one."""
     if error is None:
         return ""
     if isinstance(error, UmformError):
@@ -267,12 +276,14 @@ def measured(case: FreeBending, result: Result, failure: Exception | None = None
         warnings=(*_cautions(case, result.model.mesh.cell), *result.warnings),
         failure=failure_text(failure),
         timing=result.timing,
+        balance=balanced(result),
+        checks=run_record({"bending": result}),
         result=result,
     )
 
 
 def _cautions(case: FreeBending, cell: str) -> Iterator[str]:
-    """What is known beforehand to mislead."""
+    """Warnings of settings that are known to mislead."""
     if cell == "hex8" and case.mesh[1] == 1 and not case.is_paper_element:
         yield (
             "one bilinear element over the width lets the section tilt freely across the strip: with this thickness "

@@ -13,6 +13,7 @@ from umform.processes.bending.figure import curves, shapes
 from umform.processes.bending.parameters import RECONSTRUCTION
 from umform.report import parts
 from umform.report.live import style
+from umform.report.page import balance_parts
 from umform.report.repeats import counted
 from umform.report.versions import versions
 
@@ -67,6 +68,7 @@ def write_page(folder: Path, runs: Sequence[Bending], pictured: Bending) -> list
         parts.heading("Numbers"),
         parts.table(table.header(runs), table.rows(runs)),
         parts.paragraph(" ".join(["Forces in N at displacements in mm.", *table.legend(runs)])),
+        *balance_parts({run.case.name: run.balance for run in runs}),
         *_deformed(_compared(runs, pictured)),
         *_moving(pictured),
         parts.heading("Settings"),

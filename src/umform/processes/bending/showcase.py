@@ -40,7 +40,7 @@ log = logging.getLogger("umform.processes")
 
 @dataclass(frozen=True)
 class Selection:
-    """Which meshes, elements and contact rules to run; what is left empty is that of the example."""
+    """Meshes, elements and contact rules to run; empty: those of the example."""
 
     meshes: tuple[tuple[int, int], ...] = ()
     elements: tuple[str, ...] = ()
@@ -174,7 +174,7 @@ def _run(task: tuple[FreeBending, Path | None], progress: bool | None) -> Bendin
 
 
 def _given_up(task: tuple[FreeBending, Path | None], error: Exception) -> Bending:
-    """What is left of a run that an exception ended."""
+    """The results of a run that an exception ended."""
     case, _ = task
     if not isinstance(error, UmformError):
         log.info("%s: %s", case.name, error, exc_info=error)

@@ -213,15 +213,19 @@ class Drawn:
         return 100.0 * float(self.result["friction_work"][-1] / self.result["external_work"][-1])
 
     @property
+    def stages(self) -> dict[str, Result]:
+        """Drawing and release, as far as it came."""
+        return {"drawing": self.result} | ({} if self.released is None else {"release": self.released})
+
+    @property
     def iterations(self) -> int:
         """Newton iterations of drawing and release."""
-        stages = [self.result] if self.released is None else [self.result, self.released]
-        return int(sum(stage["iterations"].sum() for stage in stages))
+        return int(sum(stage["iterations"].sum() for stage in self.stages.values()))
 
     @property
     def seconds(self) -> float:
         """Wall time of drawing and release."""
-        return self.result.seconds + (0.0 if self.released is None else self.released.seconds)
+        return sum(stage.seconds for stage in self.stages.values())
 
     @property
     def warnings(self) -> list[str]:

@@ -14,7 +14,7 @@ from umform.processes.draw.u_bend import UBend
 from umform.processes.draw.words import about_errors, parameters
 from umform.report.versions import versions
 from umform.results.forming.sections import columns as section_columns
-from umform.results.penetration import contact_record
+from umform.results.run_record import run_record
 
 _PICTURES = (
     "blank", "curve", "thinning", "major_middle", "limit_margin", "wrinkling", "punch_distance", "gauge", "limits",
@@ -107,7 +107,7 @@ def record(drawn: Drawn) -> dict[str, Any]:
         "increments": len(drawn.result) - 1,
         "iterations": drawn.iterations,
         "seconds": drawn.seconds,
-        "contacts": contact_record(drawn.result),
+        **run_record(drawn.stages),
         "warnings": drawn.warnings,
         "versions": versions(),
     }

@@ -80,4 +80,4 @@ def _parts(drawn: Drawn, figures: Mapping[str, Figure], note: str) -> Iterator[s
     yield parts.paragraph(before_the_run(drawn.case))
     yield parts.heading("Model")
     yield parts.pairs(settings(drawn.result))
-    yield from closing(drawn.result)
+    yield from closing(drawn.stages, drawn.result)

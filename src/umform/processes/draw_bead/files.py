@@ -12,6 +12,7 @@ from umform.processes.draw_bead.equivalent import in_deck, in_python
 from umform.processes.draw_bead.measures import QUANTITIES, Drawn
 from umform.processes.draw_bead.words import parameters
 from umform.report.versions import versions
+from umform.results.run_record import run_record
 
 _DATA = ("curve.csv", "bead.json", "bead.vtkhdf", "equivalent.toml")
 _PAGE = ("curve.png", "curve.svg", "shape.png", "shape.svg", "report.html")
@@ -67,6 +68,7 @@ def record(drawn: Drawn) -> dict[str, Any]:
         "increments": len(drawn.result) - 1,
         "iterations": int(drawn.result["iterations"].sum()),
         "seconds": drawn.result.seconds,
+        **run_record(drawn.stages),
         "warnings": drawn.warnings,
         "versions": versions(),
     }

@@ -105,6 +105,11 @@ class Drawn:
         return self.limits.restraint.value, self.limits.uplift.value
 
     @property
+    def stages(self) -> dict[str, Result]:
+        """The run by its name."""
+        return {"drawing": self.result}
+
+    @property
     def warnings(self) -> list[str]:
         """Warnings."""
         return self.result.warnings

@@ -48,4 +48,4 @@ def _parts(drawn: Drawn, figures: Mapping[str, Figure], note: str) -> Iterator[s
     yield from parameter_parts(parameters(drawn) | {"material": material_text(drawn.case.material)}, note)
     yield parts.heading("Model")
     yield parts.pairs(settings(drawn.result))
-    yield from closing(drawn.result)
+    yield from closing(drawn.stages, drawn.result)

@@ -15,6 +15,7 @@ from umform.processes.air_bending.files import parameters
 from umform.processes.air_bending.remarks import coarse_mesh
 from umform.processes.hemming.measures import Hem
 from umform.report.versions import versions
+from umform.results.run_record import run_record
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -66,9 +67,10 @@ def record(hem: Hem) -> dict[str, Any]:
         "measures": asdict(hem.measures),
         "curve": {"stroke": hem.stroke.tolist(), "force": hem.force.tolist()},
         "profile": np.round(hem.profile, 4).tolist(),
-        "increments": len(hem.result) - 1 + len(first.result) - 1,
-        "iterations": int(hem.result["iterations"].sum() + first.result["iterations"].sum()),
-        "seconds": hem.result.seconds + first.result.seconds,
+        **run_record(hem.stages),
+        "increments": sum(len(run) - 1 for run in hem.stages.values()),
+        "iterations": int(sum(run["iterations"].sum() for run in hem.stages.values())),
+        "seconds": sum(run.seconds for run in hem.stages.values()),
         "coarse_mesh": coarse_mesh(case.sheet),
         "warnings": list(hem.warnings),
         "versions": versions(),

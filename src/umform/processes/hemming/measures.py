@@ -83,6 +83,11 @@ class Hem:
     result: Result
 
     @property
+    def stages(self) -> dict[str, Result]:
+        """The first bend and the flattening."""
+        return {"first bend": self.first.bends[0].result, "flattening": self.result}
+
+    @property
     def profile(self) -> Floats:
         """Outline (n, 2): the outer face from the tip of the flange to the end of the base, then the inner face."""
         return self.strip.outline

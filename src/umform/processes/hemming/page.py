@@ -46,7 +46,7 @@ def _parts(hem: Hem, picture: Figure, note: str) -> Iterator[str]:
     yield from parameter_parts(_given(hem), note)
     yield parts.heading("Model of the flattening")
     yield parts.pairs(settings(hem.result))
-    yield from closing(hem.result)
+    yield from closing(hem.stages, hem.result)
 
 
 def _given(hem: Hem) -> dict[str, object]:

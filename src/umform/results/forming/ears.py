@@ -1,4 +1,4 @@
-"""Ears of a cup: height of its rim over the angle to the rolling direction, as waves around it. eq. (5.70)"""
+"""Ears of a cup: height of its rim over the angle to the rolling direction, in harmonics. eq. (5.70)"""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from umform.mesh import Mesh, Selector
 
 Floats = NDArray[np.float64]
 
-#: Smallest ear: its amplitude relative to the mean height. Peak over valley is twice that, one per cent.
+#: Smallest amplitude of ears relative to the mean height. Peak to valley is twice that, one per cent.
 SMALLEST_EAR = 0.005
-#: Elements of the rim in the shortest wave that a mesh resolves.
+#: Elements of the rim per wave of the highest harmonic that a mesh resolves.
 _ELEMENTS = 6
-#: Waves around the cup whose amplitudes are measures of it.
+#: Harmonics whose amplitudes are measures of a cup.
 _WAVES = (2, 4, 6, 8)
-#: Angles around the cup at which its ears are looked for.
+#: Number of angles at which the sum of harmonics is searched for peaks.
 _STEPS = 720
 #: Name of the measure.
 NUMBER_OF_EARS = "number of ears"
@@ -74,16 +74,16 @@ class EarProfile:
 
     @cached_property
     def resolved(self) -> int:
-        """Largest number of waves around the whole cup that its nodes resolve."""
+        """Highest harmonic, in waves around the whole cup, that its nodes resolve."""
         return len(self.whole().angle) // _ELEMENTS
 
     def wave(self, number: int) -> tuple[float, float]:
-        """Amplitude of the wave that goes around the whole cup so many times, and the angle of its crest.
+        """Amplitude of a harmonic, and the angle of its crest.
 
         Parameters
         ----------
         number : int
-            From 0, the mean, to ``resolved``.
+            Number of waves around the whole cup, from 0 (the mean) to ``resolved``.
 
         Returns
         -------
@@ -93,7 +93,7 @@ class EarProfile:
         Raises
         ------
         InvalidValue
-            If the nodes of the rim do not resolve so many waves.
+            If the nodes of the rim do not resolve the harmonic.
         """
         if not 0 <= number <= self.resolved:
             raise InvalidValue(
@@ -107,9 +107,9 @@ class EarProfile:
 
     @cached_property
     def smallest_ear(self) -> float:
-        """Amplitude from which on a wave counts as ears: ``SMALLEST_EAR`` of the mean height.
+        """Smallest amplitude of a harmonic that counts as ears.
 
-        It is more where the nodes stand further off the waves that they resolve: the amplitude of such a wave.
+        It is ``SMALLEST_EAR`` times the mean height, or the amplitude of the residual of the fit if that is larger.
         """
         return max(SMALLEST_EAR * abs(self.mean), float(np.sqrt(2.0) * self._rest.std()))
 
@@ -127,19 +127,19 @@ class EarProfile:
         return {"height, mean": self.mean, "height, lowest": low, "height, highest": high}
 
     def waves(self) -> dict[str, float]:
-        """Amplitudes of the waves that the rim resolves, and ``smallest_ear``, by the names of their measures."""
+        """Amplitudes of the resolved harmonics, and ``smallest_ear``, by the names of their measures."""
         found = {f"amplitude of {n} waves": self.wave(n)[0] for n in _WAVES if n <= self.resolved}
         return found | {"ears count from an amplitude of": self.smallest_ear}
 
     def words(self, unit: str) -> str:
-        """How many ears there are and the amplitude of their largest wave, or that there are none."""
+        """Number of ears and the largest amplitude of their harmonics as text."""
         count = len(self.ears())
         if not count:
             return f"no ears above {self.smallest_ear:.3g} {unit}"
         return f"{count} ears, amplitude {max(self.wave(n)[0] for n in self._counted):.3g} {unit}"
 
     def _extremes(self, sign: float) -> Floats:
-        """Peaks, or valleys, of the waves that count; each stands out as one wave of the smallest ear does."""
+        """Peaks, or valleys, of the sum of the counted harmonics, at least as prominent as the smallest ear."""
         from scipy.signal import find_peaks  # slow to import
 
         angle = 2.0 * np.pi / _STEPS * np.arange(_STEPS)
@@ -149,17 +149,17 @@ class EarProfile:
 
     @cached_property
     def _counted(self) -> list[int]:
-        """Waves of the smallest ear or larger; one wave around a cup is no ear: its blank lay beside the axis."""
+        """Harmonics with the amplitude of the smallest ear or more. The first one is an eccentric blank, no ear."""
         return [n for n in range(2, self.resolved + 1) if abs(self._waves[n]) >= self.smallest_ear > 0.0]
 
     @cached_property
     def _basis(self) -> NDArray[np.complex128]:
-        """Waves 0 to the last resolved one at the nodes around the whole cup, shape (nodes, waves)."""
+        """Harmonics 0 to the highest resolved one at the nodes around the whole cup, shape (nodes, harmonics)."""
         return np.exp(-1j * np.radians(self.whole().angle)[:, None] * np.arange(self.resolved + 1))
 
     @cached_property
     def _waves(self) -> NDArray[np.complex128]:
-        """The height is the real part of _basis @ _waves, in the least squares of the nodes."""
+        """Complex amplitudes by least squares: the height is the real part of _basis @ _waves."""
         real = np.hstack([self._basis.real, -self._basis.imag[:, 1:]])
         found = np.linalg.lstsq(real, self.whole().height, rcond=None)[0]
         count = self.resolved + 1
@@ -167,7 +167,7 @@ class EarProfile:
 
     @cached_property
     def _rest(self) -> Floats:
-        """Heights of the nodes above the waves that they resolve."""
+        """Residual of the fit at the nodes."""
         return np.asarray(self.whole().height - (self._basis @ self._waves).real)
 
     def _closed(self) -> tuple[Floats, Floats]:

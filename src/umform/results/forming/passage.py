@@ -28,8 +28,7 @@ class LargestForce:
     value : float
         Largest mean over a passage.
     ripple : float
-        Largest distance of the force itself from that mean, within a passage of it or above it anywhere: what one
-        element makes of the force, and the band of the value.
+        Error band of the value: largest deviation of the force from that mean within a passage, or above it anywhere.
     stroke : float
         Stroke in the middle of that passage.
     """

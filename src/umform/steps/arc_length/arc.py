@@ -24,6 +24,7 @@ from umform.steps.arc_length.path import Path
 from umform.steps.increment import last_residuals
 from umform.steps.loop import Run
 from umform.steps.move import check_time
+from umform.steps.thinned import thinned
 
 log = logging.getLogger("umform.arc")
 
@@ -219,7 +220,7 @@ class Following:
         log.info("step %d: %s; arc length cut to %.3g of the first", number, failure.reason, self.length / path.first)
         if self.length < path.first / 2**step.cuts:
             at = path.line.text(path.state.fraction)
-            raise _no_convergence(failure, f"step {number}, at {at}") from None
+            raise _no_convergence(run, failure, f"step {number}, at {at}", path.line) from None
 
 
 def _say_how_it_ended(run: Run, step: Arc, number: int, path: Path, ended: bool) -> None:
@@ -238,15 +239,35 @@ def _started(run: Run, step: Arc) -> Path:
     try:
         return Path.begin(run, line, step.increment, time=step.time, spherical=step.kind == "spherical")
     except Failed as failure:
-        raise _no_convergence(failure, f"step {run.number}, at its beginning") from None
+        raise _no_convergence(run, failure, f"step {run.number}, at its beginning", line) from None
 
 
-def _no_convergence(failure: Failed, where: str) -> NoConvergence:
+def _no_convergence(run: Run, failure: Failed, where: str, line: Line) -> NoConvergence:
+    cause, remedy = (
+        failure.reason,
+        (
+            "look at the last converged state (it is kept): a path that ends or branches, folded elements, contact "
+            "that jumps; else a smaller increment or grow, more iterations in NewtonOptions, more cuts"
+        ),
+    )
+    burst = thinned(run, failure)
+    if burst is not None:
+        cause, remedy = f"{cause}; {burst[0]}", burst[1]
+    largest = _passed(run, line)
+    if largest:
+        cause = f"{cause}; the path had passed the maximum of the load near {largest}, which is a result"
     return NoConvergence(
         "the path cannot be followed further, not even with the smallest arc length",
         where=where,
         value=last_residuals(failure.iterations),
-        cause=failure.reason,
-        remedy="look at the last converged state (it is kept): a path that ends or branches, folded elements, contact "
-        "that jumps; else a smaller increment or grow, more iterations in NewtonOptions, more cuts",
+        cause=cause,
+        remedy=remedy,
     )
+
+
+def _passed(run: Run, line: Line) -> str:
+    """The largest load of the step, if the path went back from there; empty otherwise."""
+    control, (start, end) = next((one, ends) for one, ends in line.ends.items() if ends[0] != ends[1])
+    fractions = [(row[control.name] - start) / (end - start) for row in run.result.rows if row["step"] == run.number]
+    largest = max(fractions, default=0.0)
+    return line.text(largest) if fractions and fractions[-1] < largest else ""

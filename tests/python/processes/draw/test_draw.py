@@ -137,8 +137,16 @@ def test_files_of_a_cup(tmp_path):
     with h5py.File(tmp_path / "release.vtkhdf") as file:
         assert "punch_distance" in file["VTKHDF/PointData"] and "limit_margin" in file["VTKHDF/CellData"]
     assert "punch_distance" in (tmp_path / "fields.csv").read_text().splitlines()[0]
-    assert json.loads((tmp_path / "part.json").read_text())["ending"] is None
+    kept = json.loads((tmp_path / "part.json").read_text())
+    assert kept["ending"] is None
+    assert set(kept["balance"]) == {"drawing", "release"}
+    assert set(kept["contacts"]["drawing"]) == {"on_die", "under_holder", "under_punch"}
+    assert kept["contacts"]["release"] == {}  # they only open
+    works = kept["balance"]["drawing"]["works"]
+    assert works["punch"] > 0.0 and {"die", "holder"} < set(works)
+    assert sum(works.values()) == pytest.approx(kept["balance"]["drawing"]["external_work"])
     page = (tmp_path / "report.html").read_text()
+    assert "<td>work of punch</td>" in page and "<th>release</th>" in page
     assert "Forming limit diagram" in page and "Height of the cup" in page
 
 
