@@ -692,6 +692,11 @@ class ContactBlock:
     @open.setter
     def open(self, arg: bool, /) -> None: ...
 
+    def keep(self, points: NDArray[uint8]) -> None:
+        """
+        Points that the next evaluation holds, without friction, wherever they are: not 0.
+        """
+
     @property
     def law(self) -> ContactLaw: ...
 

@@ -66,7 +66,8 @@ class Evaluated(Assembled):
         if rates or until is not None:
             du = self.displacement_of_supports(rates)
         scalars, step = dict(zip(unknowns, x[dofs:].tolist(), strict=True)), self.time - self._converged_time
-        at = At(u, self.time, self._values(scalars), step, None if du is None else du[:dofs], rates, until, scalars, keep)
+        du = None if du is None else du[:dofs]
+        at = At(u, self.time, self._values(scalars), step, du, rates, until, scalars, keep)
         values = np.zeros(assembly.entries) if tangent else None
         border = Border.of(unknowns, dofs)
         into = Into(np.zeros(dofs), values, np.zeros(dofs), assembly.scatters, self._positions, self.ranks, border)

@@ -171,9 +171,7 @@ class Newton:
                 error.motion = self._solver.weak
             raise
 
-    def _solve(
-        self, extrapolation: Floats | None, manner: Manner, beyond: Floats | None, keep: bool
-    ) -> Converged:
+    def _solve(self, extrapolation: Floats | None, manner: Manner, beyond: Floats | None, keep: bool) -> Converged:
         """First increment from the extrapolation, or from the tangent by eq. (5.6); then corrections."""
         system = self.system
         solver = self.ready_solver()

@@ -141,9 +141,7 @@ class System(Protocol):
     def largest_entry(self, values: Floats) -> float:
         """Size of the largest entry of the tangent."""
 
-    def evaluate(
-        self, x: Floats, du: Floats | None = None, *, tangent: bool = True, keep: bool = False
-    ) -> Evaluation:
+    def evaluate(self, x: Floats, du: Floats | None = None, *, tangent: bool = True, keep: bool = False) -> Evaluation:
         """Residual and tangent, or the residual alone, which leaves the blocks of enhanced parameters unchanged.
 
         With ``keep`` tools hold all points that they hold in the converged state, whatever the gap. eq. (4.230)

@@ -63,13 +63,13 @@ class Contact(PairPoints):
         self.block.set_pose(*pose)
         way = self._relative_way(at, into, pose)
         product = None if way is None else into.predictor
-        keep = at.keep and self.keeps_points and self._last is not None
-        if keep:
-            self.block.keep(self._last.status)
+        last = self._last if at.keep and self.keeps_points else None
+        if last is not None:
+            self.block.keep(last.status)
         scatter = into.scatters[self][0]
         scale = self.block.evaluate(at.u, scatter, into.residual, into.values, way, product)[1]
         found = self._found(scale, at.u, pose)
-        if keep and bool(((self._last.status > 0) & (found.status == 0)).any()):
+        if last is not None and bool((last.active & ~found.active).any()):
             found = replace(found, kept=True)
         if at.until is not None and self.tool.motion is not None:
             turned = self.tool.pose(at.values, at.until)[0] @ pose[0].T

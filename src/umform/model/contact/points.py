@@ -100,7 +100,7 @@ class PairPoints(Term):
 
     @property
     def keeps_points(self) -> bool:
-        """Whether a first evaluation can hold open points: no cells, and the travel of the tool is given. eq. (4.230)"""
+        """Whether a first evaluation holds open points: no cells, and the travel of the tool is given. eq. (4.230)"""
         return self.cells is None and not self.tool.unknowns and not self.tool.open
 
     @property

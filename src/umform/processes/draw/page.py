@@ -58,9 +58,12 @@ def write_page(path: Path, drawn: Drawn, figures: Mapping[str, Figure], note: st
 
 def _texts(case: Cup | UBend) -> dict[str, str]:
     """Parameters that are objects, as text."""
-    settings = {name: vars(getattr(case, name)).items() for name in ("newton", "pace")}
-    given = {name: [f"{key} {value:g}" for key, value in pairs if value is not None] for name, pairs in settings.items()}
-    return {name: ", ".join(texts) for name, texts in given.items()} | {"material": material_text(case.material)}
+    settings = {name: vars(getattr(case, name)) for name in ("newton", "pace")}
+    texts = {
+        name: ", ".join(f"{key.replace('_', ' ')} {value:g}" for key, value in given.items() if value is not None)
+        for name, given in settings.items()
+    }
+    return texts | {"material": material_text(case.material)}
 
 
 def _parts(drawn: Drawn, figures: Mapping[str, Figure], note: str) -> Iterator[str]:
