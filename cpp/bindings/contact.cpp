@@ -315,7 +315,8 @@ void bind_contact(nb::module_& m) {
         .def(
             "keep",
             [](ContactBlock& b, nb::ndarray<const std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu> points) {
-                require(points.size() == static_cast<std::size_t>(b.points()), "there is one mark for each contact point");
+                require(points.size() == static_cast<std::size_t>(b.points()),
+                        "there is one mark for each contact point");
                 b.kept.assign(points.data(), points.data() + points.size());
             },
             nb::arg("points"), nb::sig("def keep(self, points: NDArray[uint8]) -> None"),
