@@ -267,7 +267,7 @@ class Scalar:
             x=x, residual=np.array([self.residual(at)]), values=np.array([self.slope(at)]), predictor=np.zeros(1),
             force_scale=self.scale, failed=4 if abs(at) > 1e6 else -1, failure="is out of its domain", round_off=0.0,
             status=np.array(self.active(at), dtype=np.uint8), flowing=np.zeros(0, dtype=np.uint8),
-            border=Border.of((), 1), kept=False,
+            border=Border.of((), 1), kept=keep,
             at_points=lambda chosen: f": {int(chosen.sum())} points",
         )  # fmt: skip
 
@@ -286,6 +286,24 @@ class Scalar:
 
 def arc_tangent(start):
     return Scalar(math.atan, lambda x: 1 / (1 + x * x), start)
+
+
+def test_no_state_converges_with_points_that_are_kept():
+    system = arc_tangent(0.0)  # in equilibrium from the beginning
+    kept = Newton(system).solve(np.zeros(1), keep=True)
+    assert len(kept.iterations) == 2
+    assert not kept.evaluation.kept
+    assert len(Newton(system).solve(np.zeros(1)).iterations) == 1
+
+
+def test_a_sheet_that_springs_back_is_solved_like_an_elastic_one():
+    newton = Newton(arc_tangent(3.0))
+    assert (newton.manner().mixed, newton.manner().line_search) == (False, True)
+    newton.springs_back = True
+    assert (newton.manner().mixed, newton.manner().line_search) == (True, False)
+    assert newton.manner(rubs=True).line_search
+    newton.options = NewtonOptions(mixed=False, line_search=True)
+    assert (newton.manner().mixed, newton.manner().line_search) == (False, True)
 
 
 def test_line_search_tames_a_step_that_diverges_without():

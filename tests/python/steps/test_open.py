@@ -12,6 +12,7 @@ from umform import materials as mt
 from umform.errors import InvalidValue, NoConvergence
 from umform.mesh import strip
 from umform.model import Model
+from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions
 
 STEEL = mt.J2(E=206e3, nu=0.3, hardening=mt.Swift(565.32, 0.007117, 0.2589))
@@ -75,6 +76,24 @@ def test_both_springbacks_agree(friction, apart):
         np.testing.assert_allclose(result[f"{tool}_left"][1:], np.linspace(1, 0, 7)[1:], atol=1e-12)
     assert np.abs(result.balance().drift).max() < 1e-3
     assert result.balance().force_imbalance.max() < 1e-9
+
+
+def test_the_opening_is_solved_as_springback_and_the_next_step_is_not(monkeypatch):
+    seen = []
+    solve_ = Newton.solve
+
+    def watched(self, *arguments, **named):
+        seen.append((self.manner().mixed, self.manner().line_search))
+        return solve_(self, *arguments, **named)
+
+    monkeypatch.setattr(Newton, "solve", watched)
+    part = ubend(0.1)
+    gauge = part.model.hold_rigid(lambda x, y, z: x < 1e-9, name="gauge")
+    solve(part.model, [Close(part.hold, force=-10.0), Move(part.stroke, -3.0)], progress=False)
+    assert set(seen) == {(False, True)}
+    seen.clear()
+    solve(part.model, Free(part.model.tools, steps=2, on=gauge), progress=False)
+    assert set(seen) == {(True, False)}
 
 
 def test_what_friction_remembered_does_not_come_back():
