@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from umform.results.fields import thickness_change
 from umform.solution.records import Cause, Failed
 from umform.steps.loop import Run
@@ -14,7 +16,8 @@ def thinned(run: Run, failure: Failed) -> tuple[str, str] | None:
     """Cause and remedy if the sheet had lost half of its thickness at the last converged state; None otherwise."""
     if failure.cause is not Cause.CELL:
         return None
-    loss = run.model.ranks.max(float(-thickness_change(run.model).min()))
+    with np.errstate(invalid="ignore", divide="ignore"):  # a face without an area has no thickness
+        loss = run.model.ranks.max(float(-thickness_change(run.model).min()))
     if not loss > _BURST:
         return None
     lost = f"{100.0 * loss:.0f} % of its thickness"

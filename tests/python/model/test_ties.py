@@ -168,7 +168,7 @@ def test_a_hinge_goes_with_a_plane_of_symmetry_that_holds_both_nodes(hold):
 def test_a_hinge_beside_one_node_that_is_held_says_what_to_do():
     model = Model(strip(10.0, 1.0, 0.2, (4, 1)), material=ELASTIC)
     model.fix("x0_upper", "z")
-    with pytest.raises(InvalidValue, match="if its partner is too"):
+    with pytest.raises(InvalidValue, match="if its partner is fixed too"):
         model.hinge("x0", "z")
 
 

@@ -88,6 +88,7 @@ def test_what_was_learnt_on_a_branch_is_forgotten_on_the_way_back():
     mark, habits = run.mark(), replace(run._run.habits)
     run._run.habits.learn(failed={"extrapolation": Cause.STALL}, won="tangent", negative_pivots=1)
     run._run.habits.last_chance()
+    run._run.habits.count(kept=False)
     run._run.habits.learn_of_cut({"softer penalties": Cause.STALL})
     assert all(vars(run._run.habits)[name] != value for name, value in vars(habits).items())
     run.go_back(mark)
