@@ -37,7 +37,7 @@ LIMIT, PATIENCE = 100, 10
 ENERGIES, FALLS = 0.02, 0.6
 #: What the warning of a jump says.
 JUMPED = "jumped to the next stable state"
-#: Jobs of all kinds that the ordinary tests run: the cheapest ones, cheap ones that throw much away, and one that jumps
+#: Jobs of all kinds that the ordinary tests run: the cheapest ones, cheap ones that throw much away, and two that jump
 #: at the end of a stable path.
 SAMPLE = (
     8, 9, 22, 23, 24, 33, 46, 57, 71, 72, 77, 93, 99, 104, 112, 117, 124, 130, 133, 141, 165, 166, 167, 180, 191, 194,

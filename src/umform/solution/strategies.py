@@ -163,7 +163,7 @@ STRATEGIES = (
     Strategy(
         "extrapolation",
         lambda at: at.extrapolates and not at.came_round,
-        lambda at: at.newton.solve(at.guess, at.newton.manner(wary=at.wary), keep=at.keeps),
+        lambda at: at.newton.solve(at.guess, at.newton.manner(wary=at.wary), keep=at.keeps and at.newton.options.keep),
     ),
     Strategy(
         "tangent",

@@ -13,7 +13,7 @@ from umform.results.balance import Balance
 #: How many jobs the sample has.
 SAMPLE = 42
 #: Those that jump at the end of a stable path.
-JUMPS = {104}
+JUMPS = {104, 166}
 
 
 @pytest.fixture

@@ -10,6 +10,7 @@ from umform.mesh import strip
 from umform.model import Model
 from umform.model.evaluated import Evaluated
 from umform.run import solve
+from umform.solution.options import NewtonOptions
 from umform.steps import Move, Release
 from umform.surfaces import Cylinder
 
@@ -87,10 +88,13 @@ def test_no_state_converges_with_kept_points_and_a_release_keeps_none(monkeypatc
 
     monkeypatch.setattr(Evaluated, "evaluate", watched)
     model.commit = committed
-    solve(model, Move(way, 2.0, steps=5), frames=0, progress=False)
+    keep = NewtonOptions(keep=True)
+    solve(model, Move(way, 2.0, steps=5), options=keep, frames=0, progress=False)
     assert any(asked)
     asked.clear()
-    solve(model, Release(way), frames=0, progress=False)
+    solve(model, Release(way), options=keep, frames=0, progress=False)
     assert not any(asked)
     assert converged
     assert not any(converged)
+    solve(model, Move(way, 2.0, steps=5), frames=0, progress=False)
+    assert not any(asked)  # an option

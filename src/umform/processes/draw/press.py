@@ -12,7 +12,7 @@ from umform.solution.options import NewtonOptions
 from umform.steps import Close, Free, Move, Pace, Step
 
 #: Tolerances of drawing: what one increment leaves over is a force of the next. Tighter ones change no number.
-OPTIONS = NewtonOptions(residual=1e-3, increment=1e-2)
+OPTIONS = NewtonOptions(residual=1e-3, increment=1e-2, keep=True)
 #: Stiffness of the distance blocks relative to the force on them, per mm.
 _BLOCKS = 200.0
 #: Travel of the holder at which the blocks begin to carry load, mm.
