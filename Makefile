@@ -124,7 +124,7 @@ test-cpp: env  ## tests of the kernels alone
 
 test-python: dev  ## tests of the installed package
 	$(SAY) 'Testing the installed package'
-	@OMP_NUM_THREADS=1 $(BIN)/pytest -q -n $(JOBS) --dist loadfile -m 'not long' $(ARGS)
+	@OMP_NUM_THREADS=1 $(BIN)/python tools/run_tests.py -n $(JOBS) $(ARGS)
 
 test-long: dev  ## the long verification runs
 	@$(BIN)/pytest -q -m long $(ARGS)

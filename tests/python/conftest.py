@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import signal
+import sys
 from collections.abc import Mapping
 from dataclasses import is_dataclass
 from types import SimpleNamespace
@@ -23,6 +24,15 @@ def pytest_configure():
     """Hear Ctrl-C, which a shell without job control lets everything in the background ignore."""
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node, error):
+    """Print the exit status of a worker that has died."""
+    if error:
+        process = node.gateway._io.popen
+        process.wait(10)
+        print(f"worker {node.gateway.id} ended with {process.returncode}", file=sys.stderr, flush=True)
 
 
 #: One law of each kind; the plastic one yields at a strain of 0.001, so that the states of the tests are plastic.
