@@ -123,7 +123,16 @@ def test_a_snapshot_has_the_penalty():
     assert (pair.penalty, pair.stiffening_work) == (pair.initial_penalty, 0.0)
     model.restore(after)
     assert pair.penalty == grown == pair.block.penalty
-    assert pair.stiffening_work == pytest.approx(work, rel=1e-12)
+    assert pair.stiffening_work == work
+
+
+def test_a_snapshot_has_the_bits_of_the_work_for_any_number_of_facets():
+    model = uf.Model(uf.mesh.strip(14.0, 7.0, 1.0, (14, 7)), material=STEEL)
+    pair = model.contact("upper", uf.Plane((0.0, 0.0, 1.0), "-z"))
+    for work in (1.0, -1.0 / 3.0, 0.1):
+        pair.stiffening_work = work
+        pair.restore(pair.state())
+        assert pair.stiffening_work == work
 
 
 def test_the_table_has_each_contact_with_its_own_numbers():
@@ -171,6 +180,18 @@ def failing(monkeypatch, times):
     return tried
 
 
+def failing_once_stiffer(monkeypatch):
+    """Let passes of the penalties fail when a penalty has grown."""
+    stiffen = Contact.stiffen
+
+    def too_much(pair, found, penalty, change):
+        stiffen(pair, found, penalty, change)
+        pair.revert()
+        raise Failed("as asked", [])
+
+    monkeypatch.setattr(Contact, "stiffen", too_much)
+
+
 def test_an_increment_whose_penalty_cannot_grow_is_cut(monkeypatch):
     """It is not accepted with more penetration than allowed: a shorter one has a pressure nearer to the last."""
     failing(monkeypatch, 2)
@@ -188,6 +209,13 @@ def test_where_no_increment_is_short_enough_the_excess_is_marked(monkeypatch):
     assert not penetrations(result.model, result)["ball"].kept
 
 
+def test_an_increment_that_exceeds_the_allowed_penetration_has_the_penalty_before(monkeypatch):
+    failing_once_stiffer(monkeypatch)
+    result, pair = run(steps=3)
+    assert result["punch"][-1] == -3.0 and not penetrations(result.model, result)["ball"].kept
+    assert np.all(result["ball_penalty"] == pair.initial_penalty) and pair.penalty == pair.initial_penalty
+
+
 def test_an_arc_keeps_the_allowed_penetration():
     """At its end, too, where it goes back to the target at a fixed load."""
     model, move, pair = stretched()
@@ -202,13 +230,8 @@ def test_an_arc_keeps_the_allowed_penetration():
 def test_an_arc_that_fails_takes_its_penalty_back(monkeypatch):
     model, move, pair = stretched()
     uf.solve(model, uf.Move(move.control, to=-1.0, steps=2), frames=0, progress=False)
-    grown, stiffen = pair.penalty, Contact.stiffen
-
-    def too_much(pair, found, penalty, change):
-        stiffen(pair, found, penalty, change)
-        raise Failed("as asked", [])
-
-    monkeypatch.setattr(Contact, "stiffen", too_much)
+    grown = pair.penalty
+    failing_once_stiffer(monkeypatch)
     with pytest.raises(NoConvergence):
         uf.solve(model, uf.Arc(move.control, to=-5.0, increment=0.5, cuts=0), frames=0, progress=False)
     assert pair.penalty == grown

@@ -81,3 +81,12 @@ def test_only_the_last_attempt_may_jump():
     assert habits.last
     habits.learn(failed={}, won="tangent", negative_pivots=0)
     assert not habits.last
+
+
+def test_an_increment_may_exceed_the_allowed_penetration_after_three_failures_more_than_were_kept():
+    habits = Habits()
+    yields = []
+    for kept in (False, False, True, False, False, False, True, False, True, True, True, True, False, False, False):
+        habits.count(kept=kept)
+        yields.append(habits.yields)
+    assert yields == [False, False, False, False, True, True, False, True, *[False] * 6, True]

@@ -132,7 +132,8 @@ class Contact(PairPoints):
         tree: Tree = {"history": self._by_facet(self.block.state)}
         if self.adapts:
             tree["penalty"] = np.full(len(self.facets), self._standing_penalty)
-            tree["stiffening work"] = np.full(len(self.facets), self.stiffening_work / max(len(self.facets), 1))
+            work = tree["stiffening work"] = np.zeros(len(self.facets))
+            work[:1] = self.stiffening_work  # shares of all facets would not add up to the same bits
         return tree
 
     def _by_facet(self, history: Floats) -> Floats:
