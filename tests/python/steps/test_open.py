@@ -36,7 +36,7 @@ class Drawing:
         return x - x[0]
 
 
-def ubend(friction=None, points=5):
+def ubend(friction=None, points=5, augmented=False):
     """A small U-bend in plane strain."""
     mesh = strip(60.0, 1.0, 1.0, (30, 1)).transformed(lambda x: np.add(x, (0.0, 0.0, 0.5)))
     model = Model(mesh, "BEND8", material=STEEL)
@@ -44,7 +44,7 @@ def ubend(friction=None, points=5):
     model.fix(lambda x, y, z: x > -1.0, "y")
     die, holder = model.tool("die", UDie(34.0, 100.0, 4.0, 4.0)), model.tool("holder", Plane((0, 0, 2.0), (0, 0, -1)))
     punch = model.tool("punch", Box((0, 0, 51.0), (31.0, 100.0, 100.0), 4.0))
-    rule = {"points": points, "friction": friction, "penetration": 0.02}
+    rule = {"points": points, "friction": friction, "penetration": 0.02, "augmented": augmented}
     model.contact("lower", die, name="on_die", **rule)
     model.contact("upper", holder, name="under_holder", **rule)
     model.contact("upper", punch, name="under_punch", **rule)
@@ -131,6 +131,18 @@ def test_a_tool_is_put_back_where_the_sheet_is_clear_of_it():
     result = solve(part.model, Move(part.stroke, -3.0))
     assert result["punch_fz"][-1] > 1.0
     assert gauge.removed
+
+
+def test_a_tool_that_is_put_back_has_no_multipliers():
+    """Points that multipliers have borne press on nothing before the tool touches again."""
+    part = ubend(augmented=True)
+    punch, pair = part.model.tools[2], part.model.contacts[2]
+    solve(part.model, [Close(part.hold, force=-10.0), Move(part.stroke, -0.5), Free(punch, steps=2)], progress=False)
+    assert pair.multipliers.any()
+    solve(part.model, Move(part.stroke, 2.0, steps=1), progress=False)
+    part.model.put_back(punch)
+    assert not pair.multipliers.any()
+    assert solve(part.model, Move(part.stroke, 1.5, steps=1), progress=False)["punch_fz"][-1] == 0.0
 
 
 @pytest.mark.parametrize("stop", [6, 8])
