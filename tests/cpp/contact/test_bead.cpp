@@ -80,6 +80,21 @@ void check_within() {
     CHECK(free.state[Work] == 0.0 && free.state[Slip] == 0.0);
 }
 
+/// The elastic slip is the part of the way that comes back: it grows with the way up to the allowed one.
+void check_elastic_slip() {
+    Rig rig({0.2, 0.0, 0.0});
+    const auto elastic = [&rig] {
+        const Vec3 slipped = rig.bead.rubbing(rig.state).elastic_slip;
+        return std::sqrt(dot(slipped, slipped));
+    };
+    rig.at({0.2, 0.0, 0.0});
+    CHECK(elastic() == 0.0);
+    rig.at({0.2 - 0.3 * slip, 0.0, 0.0});
+    CHECK_NEAR(elastic(), 0.3 * slip, 1e-14);
+    rig.at({0.0, 0.0, 0.0});
+    CHECK_NEAR(elastic(), slip, 1e-14);
+}
+
 /// A tool that carries the place along does no work; one that moves below it does what the place would do.
 void check_moving_tool() {
     Rig carried({0.2, 0.0, 0.0}), drawn({0.2, 0.0, 0.0});
@@ -116,6 +131,7 @@ void check_lift() {
 int main() {
     check_across();
     check_within();
+    check_elastic_slip();
     check_moving_tool();
     check_lift();
     return report("contact bead");

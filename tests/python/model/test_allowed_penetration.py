@@ -74,6 +74,11 @@ def test_a_given_penalty_stays_and_is_marked():
     assert reached.text.count("MISSED") == 1 and f"{reached.reached / 0.005:.3g} times over" in reached.text
 
 
+def test_the_penalty_of_multipliers_stays():
+    pair = stretched(augmented=True)[2]
+    assert pair.allowed == 0.005 and not pair.adapts
+
+
 def test_the_force_is_that_of_multipliers():
     """What the estimate of the error says, and the error itself."""
     exact = abs(run(augmented=True, penetration=1e-4)[0]["punch_force"][1:])
