@@ -87,6 +87,16 @@ def test_the_graded_points_miss_the_neutral_fibre(fibres):
     assert (found / fibres - 1.0).min() > 0.1
 
 
+def test_while_a_sheet_is_bent_the_distance_of_its_faces_is_the_root_mean_square_of_the_stretches_of_the_fibres():
+    fibres, element = FibreSection(STEEL, 400), ElementSection("ANS3DEAS", STEEL)
+    for section in (fibres, element):
+        section.bend(0.0, 0.3 * YIELD_FORCE, 2)
+        section.bend(0.2, 0.3 * YIELD_FORCE, 20)
+    square = float(np.sqrt((1.0 + 2.0 * fibres.E33).mean()))
+    assert square - fibres.thickness == pytest.approx(1.5e-3, rel=0.02)
+    assert element.thickness == pytest.approx(square, abs=2e-4)
+
+
 @pytest.mark.parametrize("name", ["ANS3DEAS", "BEND18"])
 @pytest.mark.parametrize("turns", [1, 2, 3])
 def test_another_numbering_of_the_element_gives_the_same_within_the_error_of_the_rule(name, turns):
