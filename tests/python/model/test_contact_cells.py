@@ -277,6 +277,10 @@ def test_what_was_found_is_that_of_the_forces(rng):
     assert block.state.shape == (block.points, 5)
     assert not block.symmetric
     assert block.law.symmetric
+    block.multipliers = 3.0 * rng.random(block.points)
+    respond(block, u)
+    found = block.found()
+    np.testing.assert_allclose(found.pressure, block.multipliers[found.points] - PENALTY * found.gap, rtol=1e-12)
 
 
 @pytest.mark.parametrize("lift", [0.15, 2.0], ids=["near", "far"])
