@@ -62,15 +62,16 @@ struct MetalCard {
 /// phi, its gradient (6,) by the components of the stress.
 nb::object evaluate(const YieldFunction& yield, const Input& stress) {
     if (stress.size() != 6) throw std::invalid_argument("a stress has six components");
-    Voigt T;
+    Vec<Lanes, 6> T;
     std::copy_n(stress.data(), 6, T.begin());
     return std::visit(
         [&](const auto& function) -> nb::object {
-            double phi;
-            Deviator<double> n;
+            Lanes phi;
+            Deviator<Lanes> n;
             function.gradient(function.basis.components(T, 1.0), phi, n);
-            const Voigt gradient = function.basis.tensor(n, 0.5);
-            return nb::make_tuple(phi, to_numpy(std::vector<double>(gradient.begin(), gradient.end()), {6}));
+            std::vector<double> gradient(6);
+            std::ranges::transform(function.basis.tensor(n, 0.5), gradient.begin(), [](Lanes x) { return leading(x); });
+            return nb::make_tuple(leading(phi), to_numpy(std::move(gradient), {6}));
         },
         yield);
 }

@@ -74,6 +74,12 @@ bool all(Truths mask) {
     return !any(!mask);
 }
 
+/// That of the first lane.
+inline double leading(double x) { return x; }
+inline double leading(Lanes x) { return x[0]; }
+inline bool leading(bool mask) { return mask; }
+inline bool leading(LaneMask mask) { return mask[0]; }
+
 /// `yes` where the mask is set, else `no`.
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
 inline Lanes select(LaneMask mask, Lanes yes, Lanes no) { return mask.v ? yes.v : no.v; }

@@ -82,9 +82,9 @@ struct GeneralReturn : PlasticIncrement<Real> {
 
 /// Newton's method on the equations of a stage, a factor of the yield stress: from xi and dp as they are to the solution, where
 /// `open`. Leaves the lanes without one in the mask; where there is none left, the equations at the solution. eqs. (3.90), (3.91)
-template <class Real, class Yield, class Watch>
+template <class Real, class Yield>
 GeneralReturn<Real> solve_stage(const MetalParts& metal, const Yield& yield, const PlasticStart<Real>& start,
-                                Real stage, Deviator<Real>& xi, Real& dp, Mask<Real>& open, const Watch& watch) {
+                                Real stage, Deviator<Real>& xi, Real& dp, Mask<Real>& open, Seen seen) {
     constexpr int most_evaluations = 60;
     constexpr double least_fall = 1e-4;  // of the residual, as a share of what the step promises
     const bool rated = metal.rate.active();
@@ -99,8 +99,7 @@ GeneralReturn<Real> solve_stage(const MetalParts& metal, const Yield& yield, con
         for (int i = 0; i < 5; ++i) xi[i] = select(moved, at.xi[i], xi[i]);
         dp = select(moved, at.dp, dp);
         merit = select(moved, at.merit, merit);
-        if constexpr (!std::is_same_v<Watch, NoWatch>)
-            if (moved) watch(std::sqrt(merit / size));
+        if (seen && leading(moved)) seen->push_back(std::sqrt(leading(merit / size)));
         open = open & !(merit <= solved);
         if (!any(open)) return at;
         const Factors5<Real> factors(at.M);
@@ -128,9 +127,9 @@ Real rated_start(const MetalParts& metal, const PlasticStart<Real>& start, Real 
 
 /// Newton from the point of the surface on the ray to the trial stress; where that fails, in stages from the surface through the
 /// trial stress, on which it is the solution. eqs. (3.89)-(3.92)
-template <class Real, class Yield, class Watch = NoWatch>
+template <class Real, class Yield>
 PlasticFlow<Real> general_return_map(const MetalParts& metal, const Yield& yield, const PlasticStart<Real>& start,
-                                     Mask<Real> plastic, const Watch& watch = {}) {
+                                     Mask<Real> plastic, Seen seen = nullptr) {
     constexpr double shrink = 0.7;
     const bool rated = metal.rate.active();
     Deviator<Real> xi, n;
@@ -152,7 +151,7 @@ PlasticFlow<Real> general_return_map(const MetalParts& metal, const Yield& yield
         for (int i = 0; i < 5; ++i) xi[i] = first * xi[i];
     }
     Mask<Real> open = plastic;
-    GeneralReturn<Real> at = solve_stage<Real>(metal, yield, start, 1.0, xi, dp, open, watch);
+    GeneralReturn<Real> at = solve_stage<Real>(metal, yield, start, 1.0, xi, dp, open, seen);
     Mask<Real> found = !open;
     if (any(open)) {
         Mask<Real> staged = open;
@@ -164,7 +163,7 @@ PlasticFlow<Real> general_return_map(const MetalParts& metal, const Yield& yield
         while (any(staged)) {
             stage = select(shrink * stage > 1.0, shrink * stage, 1.0);
             open = staged;
-            solve_stage<Real>(metal, yield, start, stage, xi, dp, open, watch);
+            solve_stage<Real>(metal, yield, start, stage, xi, dp, open, seen);
             staged = staged & !open;
             found = found | (staged & (stage == 1.0));
             staged = staged & (stage > 1.0);

@@ -93,12 +93,15 @@ struct Metal {
 
     /// Residuals, over the stresses, at the states that the return map of a point goes through; none where it does not flow.
     std::vector<double> residuals(const Voigt& h, const double* state, double step) const {
-        Voigt elastic;
+        Vec<Lanes, 6> elastic;
         for (int p = 0; p < 6; ++p) elastic[p] = h[p] - state[p];
-        const PlasticStart<double> start = begin(elastic, state, step);
+        const std::vector<Lanes> states(state, state + state_size);
+        const PlasticStart<Lanes> start = begin(elastic, states.data(), step);
+        LaneMask one = false;
+        one.set(0, true);
+        one = one & flows(start, PlasticIncrement<Lanes>(parts, start, 0.0), step);
         std::vector<double> found;
-        if (flows(start, PlasticIncrement<double>(parts, start, 0.0), step))
-            return_map(start, true, [&](double residual) { found.push_back(residual); });
+        if (any(one)) return_map(start, one, &found);
         return found;
     }
 
@@ -119,11 +122,11 @@ struct Metal {
         return !(yield.value(xi) <= none.y.value * (1.0 + plastic_margin));
     }
 
-    template <class Real, class Watch = NoWatch>
-    PlasticFlow<Real> return_map(const PlasticStart<Real>& start, Mask<Real> plastic, const Watch& watch = {}) const {
+    template <class Real>
+    PlasticFlow<Real> return_map(const PlasticStart<Real>& start, Mask<Real> plastic, Seen seen = nullptr) const {
         if constexpr (std::is_same_v<Yield, QuadraticYield>)
-            if (!two_surfaces()) return quadratic_return_map(parts, yield, start, plastic, watch);
-        return general_return_map(parts, yield, start, plastic, watch);
+            if (!two_surfaces()) return quadratic_return_map(parts, yield, start, plastic, seen);
+        return general_return_map(parts, yield, start, plastic, seen);
     }
 
     template <class Real>

@@ -1,6 +1,8 @@
 // What is known of a plastic increment at a point once its size is: the equation that return maps solve. docs/theory, 3.12
 #pragma once
 
+#include <vector>
+
 #include "umform/materials/back_stress.hpp"
 #include "umform/materials/hardening.hpp"
 #include "umform/materials/rate_factor.hpp"
@@ -76,9 +78,9 @@ struct PlasticIncrement {
     }
 };
 
-/// Watches nothing. In its place, for one point, one that takes the residual at each state that the Newton method of a return map
-/// accepts.
-struct NoWatch {};
+/// Where a return map puts the residual, over the stresses, at each state of the first point that its Newton method accepts; null
+/// where nobody asks.
+using Seen = std::vector<double>*;
 
 /// What a return map finds.
 template <class Real>

@@ -35,10 +35,9 @@ struct QuadraticReturn : PlasticIncrement<Real> {
 };
 
 /// Solves y/phi - 1 = 0, nearly linear in dp, where `open`, by Newton's method kept inside a bracket. eq. (3.79)
-template <class Real, class Watch = NoWatch>
+template <class Real>
 PlasticFlow<Real> quadratic_return_map(const MetalParts& metal, const QuadraticYield& yield,
-                                       const PlasticStart<Real>& start, Mask<Real> plastic,
-                                       [[maybe_unused]] const Watch& watch = {}) {
+                                       const PlasticStart<Real>& start, Mask<Real> plastic, Seen seen = nullptr) {
     constexpr int most_iterations = 100;
     Real dp = 0.0;
     QuadraticReturn<Real> at(metal, yield, start, dp);
@@ -57,7 +56,7 @@ PlasticFlow<Real> quadratic_return_map(const MetalParts& metal, const QuadraticY
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
         const Real phi = select(at.phi > 0.0, at.phi, 1e-300);
         const Real r = at.y.value / phi - 1.0;
-        if constexpr (!std::is_same_v<Watch, NoWatch>) watch(std::abs(r));
+        if (seen) seen->push_back(std::abs(leading(r)));
         low = select(r < 0.0, dp, low);
         high = select(r < 0.0, high, dp);
         open = open & !(abs(r) <= tolerance);
