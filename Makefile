@@ -51,10 +51,14 @@ $(VENV)/.tools: pyproject.toml tools/check_machine.py tools/requirements.py
 	@$(PIP) install -r $@.new
 	@mv $@.new $@
 
+# What umform needs at run time is fetched while umform is compiled.
 $(VENV)/.package: $(VENV)/.tools $(PACKAGE)
-	$(SAY) 'Compiling and installing umform with $(JOBS) jobs (a minute or two the first time)'
+	$(SAY) 'Compiling and installing umform with $(JOBS) jobs (a minute the first time)'
 	@touch $@.new
-	@$(PIP) install --no-build-isolation --config-settings=build-dir=$(BUILD) $(STRICT) .
+	@$(BIN)/python tools/requirements.py run > $(VENV)/run.new
+	@{ cmp -s $(VENV)/run.new $(VENV)/run || { $(PIP) install -r $(VENV)/run.new && mv $(VENV)/run.new $(VENV)/run; }; } & fetched=$$!; \
+	$(PIP) install --no-deps --no-build-isolation --config-settings=build-dir=$(BUILD) $(STRICT) .; built=$$?; \
+	wait $$fetched && exit $$built
 	@mv $@.new $@
 
 $(VENV)/.dev: $(VENV)/.tools
