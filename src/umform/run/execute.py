@@ -9,6 +9,7 @@ from typing import Any
 
 from umform.errors import InvalidValue
 from umform.model import Model
+from umform.progress import Show
 from umform.results.cells import tell_of_cells
 from umform.run.checked import checked
 from umform.run.going import checkpoints_of, go_on, loop_for, ready
@@ -28,7 +29,7 @@ def solve(
     solver: str = "auto",
     options: NewtonOptions | None = None,
     frames: int = 60,
-    progress: bool | None = None,
+    progress: Show = None,
     checkpoint: str | PathLike[str] | None = None,
     every: float = 60.0,
     note: Mapping[str, Any] | None = None,
@@ -48,8 +49,8 @@ def solve(
         Tolerances, line search, predictor.
     frames : int
         Approximate number of states kept for pictures in each step (the history has all of them); 0 keeps none.
-    progress : bool, optional
-        Show a progress bar; default: only on a terminal.
+    progress : bool or callable, optional
+        Show a progress bar; default: only on a terminal. A callable takes name, fraction and detail instead.
     checkpoint : str or PathLike, optional
         File for the complete state of the run, written at intervals, at Ctrl-C and at the end; :func:`resume` continues
         from it.
@@ -110,7 +111,7 @@ def resume(
     solver: str = "auto",
     options: NewtonOptions | None = None,
     frames: int = 60,
-    progress: bool | None = None,
+    progress: Show = None,
     every: float = 60.0,
 ) -> Result:
     """Continue a run from its checkpoint; the result equals that of an uninterrupted run, to the last bit.

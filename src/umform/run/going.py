@@ -8,7 +8,7 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from umform.errors import NoConvergence
-from umform.progress import Tick, progress_bar
+from umform.progress import Show, Tick, progress_bar
 from umform.results.bottoming import warn_of_bottoming
 from umform.results.drift import warn_of_drift
 from umform.results.penetration import warn_of_contact
@@ -75,7 +75,7 @@ def checkpoints_of(
     return Checkpoints(path, every, marks, note, run.model.ranks)
 
 
-def go_on(run: Run, steps: Sequence[Step], progress: bool | None, checkpoints: Checkpoints | None) -> None:
+def go_on(run: Run, steps: Sequence[Step], progress: Show, checkpoints: Checkpoints | None) -> None:
     """Continue to the end from the present state."""
     talks = run.model.ranks.rank == 0
     with progress_bar(progress if talks else False) as tick:

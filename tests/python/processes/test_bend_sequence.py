@@ -31,9 +31,19 @@ def single():
 
 
 @pytest.fixture(scope="module")
-def profile_z():
+def told():
+    return []
+
+
+@pytest.fixture(scope="module")
+def profile_z(told):
     bends = (Bend(AT[0], stroke=STROKE), Bend(AT[1], stroke=STROKE, direction="down"))
-    return bend_sequence(BendSequence(110.0, bends, SHEET), frames=8, progress=False)
+    return bend_sequence(BendSequence(110.0, bends, SHEET), frames=8, progress=lambda *tick: told.append(tick))
+
+
+def test_one_bar_counts_the_bends(profile_z, told):
+    assert [tick for tick in told if tick[0] == "all bends"] == [("all bends", 0.0), ("all bends", 0.5)]
+    assert {name for name, *_ in told} >= {"bend 1, loading", "bend 2, loading"}
 
 
 def test_bends_far_apart_are_single_bends(profile_z, single):

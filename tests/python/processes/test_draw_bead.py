@@ -139,12 +139,16 @@ def test_three_meshes_are_run_and_the_finest_is_kept(drawn, monkeypatch):
     """On meshes of half, 0.7 and all of the elements."""
     meshes = []
 
-    def instead(case, *, frames, **how):
+    def instead(case, *, frames, progress, **how):
         meshes.append((case.elements, frames))
+        progress("step 2", 0.5, "way 1")
         return replace(drawn, case=case, restraint=60.0 + 100.0 / case.elements**2, uplift=80.0)
 
     monkeypatch.setattr(case_module, "drawn_through", instead)
-    found = case_module.extrapolated(drawn.case, frames=7)
+    told = []
+    found = case_module.extrapolated(drawn.case, frames=7, progress=lambda *tick: told.append(tick))
+    shares = np.array([0.5, 0.5**0.5, 1.0])
+    assert [fraction for _, fraction, _ in told] == pytest.approx((np.cumsum(shares) - 0.75 * shares) / shares.sum())
     assert [elements for elements, _ in meshes] == pytest.approx([2.5, 5.0 / 2.0**0.5, 5.0])
     assert [frames for _, frames in meshes] == [0, 0, 7]
     assert found.forces == pytest.approx((60.0, 80.0), rel=1e-12)

@@ -21,8 +21,19 @@ COARSE = Hemming(base=13.0, increments=24, sheet=replace(ACUTE, elements_per_thi
 
 
 @pytest.fixture(scope="module")
-def hem():
-    return hemming(COARSE, tolerance=5.0, frames=12, progress=False)
+def told():
+    return []
+
+
+@pytest.fixture(scope="module")
+def hem(told):
+    return hemming(COARSE, tolerance=5.0, frames=12, progress=lambda *tick: told.append(tick))
+
+
+def test_progress_is_told_for_each_increment_of_the_plate(hem, told):
+    fractions = [fraction for name, fraction, *_ in told if name == "flattening"]
+    assert len(fractions) == int((hem.result["step"] <= 12).sum()) - 1
+    assert fractions == sorted(fractions) and fractions[-1] == pytest.approx(1.0)
 
 
 def test_the_hem_has_its_height_under_load(hem):

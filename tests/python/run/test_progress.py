@@ -43,3 +43,22 @@ def test_the_bar_is_drawn(capsys, monkeypatch):
     with progress_bar(False) as tick:
         tick("step 1", 0.5, "x")
     assert capsys.readouterr().err == ""
+
+
+def test_runs_under_one_bar_take_their_shares():
+    """Moves take the time; steps with a word behind their number do not move the bar, and nothing moves it too far."""
+    from umform.progress import parts
+
+    told = []
+    first, second = parts(lambda *tick: told.append(tick), "2 runs", [1.0, 3.0], moves=2)
+    for tick, name, fraction in (
+        (first, "step 1: close", 1.0),
+        (first, "step 2", 0.5),
+        (second, "step 1", 1.0),
+        (second, "step 2", 0.5),
+        (second, "step 3: release", 0.5),
+        (second, "step 4", 0.5),
+    ):
+        tick(name, fraction, "punch 1")
+    assert [fraction for _, fraction, _ in told] == [0.0, 0.0625, 0.625, 0.8125, 1.0, 1.0]
+    assert told[1] == ("2 runs", 0.0625, "1 of 2, step 2: punch 1")

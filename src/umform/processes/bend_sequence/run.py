@@ -12,7 +12,7 @@ from umform.processes.bend_sequence.part import BendDone, Part
 from umform.processes.bend_sequence.sides import Strip
 from umform.processes.bend_sequence.strip import flat_strip
 from umform.processes.bend_sequence.strip_brake import StripBrake
-from umform.progress import Tick, progress_bar
+from umform.progress import Show, Tick, progress_bar
 from umform.run import Result
 
 #: Approximate number of states of a bend that are kept for pictures and for collisions.
@@ -20,7 +20,7 @@ FRAMES = 30
 
 
 def bend_sequence(
-    sequence: BendSequence, *, tolerance: float = 0.02, frames: int = FRAMES, progress: bool | None = None
+    sequence: BendSequence, *, tolerance: float = 0.02, frames: int = FRAMES, progress: Show = None
 ) -> Part:
     """Bend a strip several times; each bend starts from the previous state: displacements, stresses, plastic strains.
 
@@ -32,8 +32,8 @@ def bend_sequence(
         Largest deviation of an angle in degrees.
     frames : int
         Approximate number of states of each bend that are kept; collisions are detected in these.
-    progress : bool, optional
-        Show a progress bar; default: only on a terminal.
+    progress : bool or callable, optional
+        Show a progress bar; default: only on a terminal. A callable takes name, fraction and detail instead.
 
     Returns
     -------
@@ -50,6 +50,8 @@ def bend_sequence(
     mesh, before, done = flat_strip(sequence), None, list[BendDone]()
     with progress_bar(progress) as tick:
         for number in range(len(sequence.bends)):
+            if len(sequence.bends) > 1:
+                tick("all bends", number / len(sequence.bends))
             try:
                 done.append(_bent(sequence, number, mesh, before, tolerance, frames, tick))
             except BaseException as error:

@@ -9,6 +9,7 @@ from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.endings import Ending, ending_of
 from umform.processes.draw.u_bend import UBend
+from umform.progress import Show
 from umform.results.forming import FormingLimit, KeelerBrazier, add_forming_fields
 from umform.run import Result, solve
 
@@ -24,7 +25,7 @@ def draw(
     limit: FormingLimit | None = None,
     frames: int = FRAMES,
     solver: str = "auto",
-    progress: bool | None = None,
+    progress: Show = None,
 ) -> Drawn:
     """Draw a part and take it out of its tools.
 
@@ -41,8 +42,8 @@ def draw(
         States that each step keeps for pictures.
     solver : str
         Sparse solver.
-    progress : bool, optional
-        Show a progress bar; default: only on a terminal.
+    progress : bool or callable, optional
+        Show a progress bar; default: only on a terminal. A callable takes name, fraction and detail instead.
 
     Returns
     -------

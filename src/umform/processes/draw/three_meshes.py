@@ -9,6 +9,7 @@ from umform.processes.draw.case import FRAMES, draw
 from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.u_bend import UBend
 from umform.processes.limit import FINER, Limit
+from umform.progress import Show, parts, progress_bar
 from umform.results.forming import FormingLimit
 
 #: Measures that are extrapolated; of a radius the curvature is, which has a limit even if the wall is straight.
@@ -22,7 +23,7 @@ def extrapolated(
     limit: FormingLimit | None = None,
     frames: int = FRAMES,
     solver: str = "auto",
-    progress: bool | None = None,
+    progress: Show = None,
 ) -> Drawn:
     """Draw a U-bend on three meshes: that of the case, and two whose elements turn 2 and 1.4 times as far.
 
@@ -52,14 +53,17 @@ def extrapolated(
             remedy="a smaller angle, or one mesh: --no-extrapolate",
         )
     coarser: list[Drawn] = []
-    for part in (FINER**2, FINER):
-        mesh = replace(case, turn=part * case.turn)
-        drawn = draw(mesh, limit=limit, frames=0, solver=solver, progress=progress)
-        if drawn.ending is not None or drawn.angles is None:
-            coarser.clear()
-            break
-        coarser.append(drawn)
-    finest = draw(case, limit=limit, frames=frames, solver=solver, progress=progress)
+    turns = [part * case.turn for part in (FINER**2, FINER, 1.0)]
+    with progress_bar(progress) as bar:
+        ticks = parts(bar, "3 meshes", [1.0 / turn for turn in turns])
+        for turn, tick in zip(turns[:2], ticks, strict=False):
+            drawn = draw(replace(case, turn=turn), limit=limit, frames=0, solver=solver, progress=tick)
+            if drawn.ending is not None or drawn.angles is None:
+                coarser.clear()
+                break
+            coarser.append(drawn)
+        *_, last = ticks
+        finest = draw(case, limit=limit, frames=frames, solver=solver, progress=last)
     if not coarser or finest.angles is None:
         return finest
     return replace(finest, coarser=tuple(coarser), estimates=estimates_of([*coarser, finest]))

@@ -10,6 +10,7 @@ from umform.processes.draw_bead.limits import Limits
 from umform.processes.draw_bead.measures import Drawn
 from umform.processes.draw_bead.parameters import DrawBead
 from umform.processes.limit import FINER, Limit
+from umform.progress import Show, parts, progress_bar
 from umform.run import solve
 from umform.steps import Move, Step
 
@@ -38,7 +39,7 @@ def build(case: DrawBead) -> tuple[Model, list[Step]]:
     return model, [Move(down, to=case.closing), Move(pull, to=case.way)]
 
 
-def extrapolated(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", progress: bool | None = None) -> Drawn:
+def extrapolated(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", progress: Show = None) -> Drawn:
     """Draw a strip through a bead on three meshes: that of the case, and two with 0.5 and 0.7 times as many elements.
 
     Parameters
@@ -52,11 +53,13 @@ def extrapolated(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", 
         Results on the finest mesh, with extrapolated forces and their errors.
     """
     every: list[Drawn] = []
-    for part in (FINER**-2, 1.0 / FINER, 1.0):
-        mesh = replace(case, elements=case.elements * part)
-        if every and case.penalty is None:
-            mesh = replace(mesh, penalty=penalty_by(every[-1], mesh))
-        every.append(drawn_through(mesh, frames=frames if part == 1.0 else 0, solver=solver, progress=progress))
+    shares = (FINER**-2, 1.0 / FINER, 1.0)
+    with progress_bar(progress) as bar:
+        for part, tick in zip(shares, parts(bar, "3 meshes", shares, moves=2), strict=True):
+            mesh = replace(case, elements=case.elements * part)
+            if every and case.penalty is None:
+                mesh = replace(mesh, penalty=penalty_by(every[-1], mesh))
+            every.append(drawn_through(mesh, frames=frames if part == 1.0 else 0, solver=solver, progress=tick))
     fine = every[-1]
     limits = Limits(
         Limit.of_three([one.restraint for one in every], FINER), Limit.of_three([one.uplift for one in every], FINER)
@@ -78,7 +81,7 @@ def limits_of(coarse: Drawn, fine: Drawn) -> Limits:
     return Limits(Limit.of(coarse.restraint, fine.restraint, refined), Limit.of(coarse.uplift, fine.uplift, refined))
 
 
-def drawn_through(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", progress: bool | None = None) -> Drawn:
+def drawn_through(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", progress: Show = None) -> Drawn:
     """Close a strip between bead and groove, and draw it through.
 
     Parameters

@@ -17,7 +17,7 @@ from umform.processes.bend_sequence.run import FRAMES, bend_sequence
 from umform.processes.bend_sequence.sides import Strip
 from umform.processes.hemming.measures import Hem, clearances, measured
 from umform.processes.hemming.parameters import Hemming
-from umform.progress import progress_bar
+from umform.progress import Show, parts, progress_bar
 from umform.run.open_run import OpenRun
 from umform.run.stages import continued
 from umform.steps import Move, Release
@@ -33,7 +33,7 @@ _POINTS = 5
 _TOUCHES = -0.01
 
 
-def hemming(case: Hemming, *, tolerance: float = 0.1, frames: int = FRAMES, progress: bool | None = None) -> Hem:
+def hemming(case: Hemming, *, tolerance: float = 0.1, frames: int = FRAMES, progress: Show = None) -> Hem:
     """Make a hem: an acute bend, flattened between a plate and a table.
 
     Parameters
@@ -44,8 +44,8 @@ def hemming(case: Hemming, *, tolerance: float = 0.1, frames: int = FRAMES, prog
         Largest deviation of the angle of the first bend in degrees.
     frames : int
         Approximate number of states kept of each operation.
-    progress : bool, optional
-        Show a progress bar; default: only on a terminal.
+    progress : bool or callable, optional
+        Show a progress bar; default: only on a terminal. A callable takes name, fraction and detail instead.
 
     Raises
     ------
@@ -58,12 +58,11 @@ def hemming(case: Hemming, *, tolerance: float = 0.1, frames: int = FRAMES, prog
     model, plate, way = in_press(case, first)
     run = OpenRun(model, options=OPTIONS, frames=max(1, frames // _PARTS))
     with progress_bar(progress) as tick:
-        for part in range(1, _PARTS + 1):
-            run.take(Move(plate, to=way * part / _PARTS, steps=math.ceil(case.increments / _PARTS)))
+        for part, told in enumerate(parts(tick, "flattening", [1.0] * _PARTS), 1):
+            run.take(Move(plate, to=way * part / _PARTS, steps=math.ceil(case.increments / _PARTS)), tick=told)
             strip = Strip.of(model.mesh, model.u)
             if not case.insert:
                 _refuse_touch(case, strip, way * (1.0 - part / _PARTS))
-            tick("flattening", part / _PARTS)
         force = run.result["stroke_force"] / case.sheet.thickness
         run.take(Release(plate, **unloading_keys(case.sheet)))
     released = Strip.of(model.mesh, model.u)

@@ -1,5 +1,6 @@
 """A U-bend on three meshes: limits of springback and their errors, the penalty that follows the mesh, the command."""
 
+import itertools
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -100,6 +101,24 @@ def test_three_meshes_are_run_and_the_finest_is_kept(runs):
     assert record(found)["errors"]["largest thinning"] is None and record(found)["about_errors"] == ""
 
 
+def test_one_bar_tells_the_progress_of_all_meshes(drawn, monkeypatch):
+    """Each mesh takes its share of the time, of its moves; closing and opening the tools do not move the bar."""
+
+    def instead(case, *, progress, **how):
+        for name, fraction in (("step 1: close", 1.0), ("step 2", 0.5), ("step 2", 1.0), ("step 1", 0.5)):
+            progress(name, fraction, "punch 1")
+        return replace(drawn, case=case)
+
+    monkeypatch.setattr("umform.processes.draw.three_meshes.draw", instead)
+    told = []
+    extrapolated(U, progress=lambda name, fraction, detail="": told.append((name, fraction, detail)))
+    assert {name for name, _, _ in told} == {"3 meshes"}
+    ends = np.cumsum([0.0, 1.0, 2.0**0.5, 2.0]) / (3.0 + 2.0**0.5)
+    reached = [(a, 0.5 * (a + b), b, b) for a, b in itertools.pairwise(ends)]
+    assert [fraction for _, fraction, _ in told] == pytest.approx(list(itertools.chain(*reached)))
+    assert told[5][2] == "2 of 3, step 2: punch 1"
+
+
 def test_without_angles_on_a_coarse_mesh_there_is_no_estimate(drawn, monkeypatch):
     turns = []
 
@@ -147,7 +166,7 @@ def test_the_command_runs_three_meshes_unless_told_otherwise(drawn, monkeypatch,
     monkeypatch.setattr("umform.processes.draw.three_meshes.extrapolated", instead("extrapolated"))
     monkeypatch.setattr("umform.processes.draw.case.draw", instead("draw"))
     monkeypatch.setattr("umform.processes.draw.files.write_files", lambda *_: [])
-    monkeypatch.setattr("umform.processes.draw.files.draw_blank", lambda *_: "blank.png")
+    monkeypatch.setattr("umform.processes.draw.files.draw_blank", lambda *_: ("blank.png", None))
     out = CliRunner().invoke(app, ["draw", "u", "--material", "DC04", "--out", str(tmp_path / "u"), *options])
     assert out.exit_code == 0, out.output
     assert called == (["extrapolated"] if runs_three else ["draw"])
