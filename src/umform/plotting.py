@@ -59,13 +59,20 @@ _STYLE: Any = {
 
 #: With more faces than this, no edges are drawn, and faces are pixels in SVG and PDF too.
 _MANY = 4000
-_FORMATS = (".png", ".svg", ".pdf")
 #: Dots per inch of pictures, and of pixels in SVG and PDF.
 _DPI = 200
-#: Lines compress as well at a low level, in two thirds of the time.
-_PNG = {"compress_level": 3}
+#: Formats, and how they are written: without a date; lines compress as well at a low level, in two thirds of the time.
+_FILES: Any = {
+    "png": {"pil_kwargs": {"compress_level": 3}},
+    "svg": {"metadata": {"Date": None}},
+    "pdf": {"metadata": {"CreationDate": None}},
+}
 #: Default fields of a shape: the first available one is shown.
 _FAVOURITES = ("plastic_strain_max", "thickness_change", "displacement")
+#: Sizes of histories and shapes; from where shapes are seen: azimuth and elevation in degrees.
+_HISTORY: Any = {"figsize": (6.2, 3.8), "layout": "constrained"}
+_SHAPE: Any = {"figsize": (7.2, 3.2), "layout": "compressed"}
+_VIEW = (-115.0, 28.0)
 
 
 @contextmanager
@@ -76,14 +83,14 @@ def house_style() -> Iterator[None]:
 
 
 class Picture(Figure):
-    """A figure for several files: laid out once, and drawn once as SVG.
+    """A figure for several files: laid out once, and drawn once in each format and resolution.
 
     matplotlib would repeat the layout for each file, which doubles the time.
     """
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
-        self.svg: dict[int, str] = {}  # by dots per inch
+        self.drawn: dict[tuple[str, int], bytes] = {}  # by format and dots per inch
 
     def savefig(self, *args: Any, **kwargs: Any) -> None:
         """Write the picture as `Figure` does, with the first layout."""
@@ -94,10 +101,16 @@ class Picture(Figure):
         super().savefig(*args, **kwargs)
 
 
+def frame(figure: Figure, *, left: float = 0.8, right: float = 0.15, bottom: float = 0.5, top: float = 0.35) -> None:
+    """Place axes by margins in inches: to find room for their labels takes matplotlib as long as to draw them."""
+    width, height = figure.get_size_inches()
+    figure.subplots_adjust(left / width, bottom / height, 1.0 - right / width, 1.0 - top / height)
+
+
 def save(figure: Figure, path: str | Path, dpi: int = _DPI) -> Path:
     """Write a figure as PNG (with a resolution in dots per inch), SVG or PDF, atomically."""
     path = Path(path)
-    if path.suffix not in _FORMATS:
+    if path.suffix[1:] not in _FILES:
         raise InvalidValue(
             "a picture is saved as PNG, SVG or PDF",
             where="picture",
@@ -106,31 +119,24 @@ def save(figure: Figure, path: str | Path, dpi: int = _DPI) -> Path:
             remedy="end it in .png or .svg",
         )
     with PendingFile(path) as temporary:
-        if path.suffix == ".svg":
-            temporary.write_text(_svg(figure, dpi), encoding="utf-8", newline="\n")
-        else:
-            with house_style():
-                if path.suffix == ".pdf":
-                    figure.savefig(temporary, dpi=dpi, metadata={"CreationDate": None})
-                else:
-                    figure.savefig(temporary, dpi=dpi, pil_kwargs=_PNG)
+        temporary.write_bytes(_drawn(figure, path.suffix[1:], dpi))
     return path
 
 
-def _svg(figure: Figure, dpi: int) -> str:
-    """The figure as a file of SVG without a date, drawn once if it is a picture."""
-    drawn = figure.svg if isinstance(figure, Picture) else {}
-    if dpi not in drawn:
-        text = io.StringIO()
+def _drawn(figure: Figure, kind: str, dpi: int) -> bytes:
+    """The figure as a file without a date; a picture is drawn once."""
+    known = figure.drawn if isinstance(figure, Picture) else {}
+    if (kind, dpi) not in known:
+        file = io.BytesIO()
         with house_style():
-            figure.savefig(text, format="svg", dpi=dpi, metadata={"Date": None})
-        drawn[dpi] = text.getvalue()
-    return drawn[dpi]
+            figure.savefig(file, format=kind, dpi=dpi, **_FILES[kind])
+        known[kind, dpi] = file.getvalue()
+    return known[kind, dpi]
 
 
 def inline_svg(figure: Figure) -> str:
     """The figure as an <svg> element for an HTML page: no prologue, no metadata, no links."""
-    svg = _svg(figure, _DPI)
+    svg = _drawn(figure, "svg", _DPI).decode("utf-8")
     svg = svg[svg.index("<svg") :]
     svg = re.sub(r"<metadata>.*?</metadata>\s*", "", svg, flags=re.DOTALL)
     return re.sub(r' xmlns(:\w+)?="[^"]*"', "", svg)
@@ -151,18 +157,30 @@ def plot_history(result: History, x: str, ys: Sequence[str], path: str | Path | 
         Where to save the picture: .png, .svg or .pdf.
     """
     with house_style():
-        figure = Figure(figsize=(6.2, 3.8), layout="constrained")
-        axes = figure.add_subplot()
-        for name in ys:
-            axes.plot(result[x], result[name], label=name)
-        axes.set_xlabel(x)
-        if len(ys) == 1:
-            axes.set_ylabel(ys[0])
-        else:
-            axes.legend()
+        figure = Figure(**_HISTORY)
+        _draw_history(figure, result, x, ys)
     if path is not None:
         save(figure, path)
     return figure
+
+
+def history_picture(result: History, x: str, ys: Sequence[str]) -> Picture:
+    """The figure of :func:`plot_history` for several files."""
+    with house_style():
+        picture = Picture(**_HISTORY)
+        _draw_history(picture, result, x, ys)
+    return picture
+
+
+def _draw_history(figure: Figure, result: History, x: str, ys: Sequence[str]) -> None:
+    axes = figure.add_subplot()
+    for name in ys:
+        axes.plot(result[x], result[name], label=name)
+    axes.set_xlabel(x)
+    if len(ys) == 1:
+        axes.set_ylabel(ys[0])
+    else:
+        axes.legend()
 
 
 def compare_histories(
@@ -223,7 +241,7 @@ def plot_shape(
     values: str | None = None,
     path: str | Path | None = None,
     *,
-    view: tuple[float, float] = (-115.0, 28.0),
+    view: tuple[float, float] = _VIEW,
 ) -> Figure:
     """Picture of the deformed sheet, coloured by a field.
 
@@ -238,22 +256,29 @@ def plot_shape(
     view : tuple of float
         Azimuth and elevation of the observer in degrees; (-90, 0) looks along y and shows x and z.
     """
-    if not isinstance(shape, Shape):
-        shape = Shape.of(shape)
-    if values is None:
-        values = next(
-            (name for name in ("plastic_strain_max", "thickness_change", "displacement") if name in shape.values), None
-        )
     with house_style():
-        figure = Figure(figsize=(7.2, 3.2), layout="compressed")
-        drawn = draw_shape(figure.add_subplot(), shape, values, view)
-        if values is not None:
-            bar = figure.colorbar(drawn, ax=figure.axes, shrink=0.7, aspect=25, pad=0.02)
-            bar.set_label(values.replace("_", " "))
-            bar.outline.set_visible(False)
+        figure = Figure(**_SHAPE)
+        _draw_shape(figure, shape if isinstance(shape, Shape) else Shape.of(shape), values, view)
     if path is not None:
         save(figure, path)
     return figure
+
+
+def shape_picture(shape: Shape) -> Picture:
+    """The figure of :func:`plot_shape` for several files."""
+    with house_style():
+        picture = Picture(**_SHAPE)
+        _draw_shape(picture, shape, None, _VIEW)
+    return picture
+
+
+def _draw_shape(figure: Figure, shape: Shape, values: str | None, view: tuple[float, float]) -> None:
+    values = values or next((name for name in _FAVOURITES if name in shape.values), None)
+    drawn = draw_shape(figure.add_subplot(), shape, values, view)
+    if values is not None:
+        bar = figure.colorbar(drawn, ax=figure.axes, shrink=0.7, aspect=25, pad=0.02)
+        bar.set_label(values.replace("_", " "))
+        bar.outline.set_visible(False)
 
 
 def draw_shape(

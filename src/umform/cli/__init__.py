@@ -33,6 +33,7 @@ def main() -> None:
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # more threads would only wait, actively
         _prepare_streams()
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # the signal of batch systems: handled as Ctrl-C
+        importlib.import_module("umform.cli.drawing").without_help_texts()
         importlib.import_module("umform.cli.commands").application(sys.argv[1:])(prog_name="umform")
     except KeyboardInterrupt:  # before the first command
         print("umform: interrupted", file=sys.stderr)

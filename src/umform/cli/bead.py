@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from umform.cli.drawing import without_help_texts
 from umform.cli.metal import law_of
 from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
@@ -112,7 +111,6 @@ def bead(
                 _show(drawn, note)
         finally:  # even if the table cannot be printed
             with drawn.result.timing.files:
-                without_help_texts()
                 files = write_files(place, drawn, note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:

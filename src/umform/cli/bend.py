@@ -12,7 +12,6 @@ import typer
 
 from umform.cli.bend_screen import show_bend
 from umform.cli.check import Force
-from umform.cli.drawing import without_help_texts
 from umform.cli.drawn_tools import drawn_tools
 from umform.cli.goals import check_goal, check_length, check_no_goal, check_press, strokes_of
 from umform.cli.metal import law_of
@@ -198,7 +197,6 @@ def bend(
             raise
         finally:  # even if the table cannot be printed
             with done.result.timing.files:
-                without_help_texts()
                 files = write_files(place, done, rows, errors, note=note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:

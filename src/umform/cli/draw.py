@@ -270,14 +270,15 @@ def _run(
     place = folder_for(out, Path("results") / name, FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     say(f"umform: {before_the_run(case)}")
     with staging(place, FILES):
-        say(f"umform: the mesh of the blank is drawn in {draw_blank(place, case)}")
+        picture, blank = draw_blank(place, case)
+        say(f"umform: the mesh of the blank is drawn in {picture}")
         drawn = how(case, limit=curve)
         try:
             with printing(f"the files of the part are in {place}"):
                 _show(drawn, note)
         finally:  # even if the table cannot be printed
             with drawn.result.timing.files:
-                files = write_files(place, drawn, note)
+                files = write_files(place, drawn, note, blank)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(drawn.result.timing)

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from umform.cli.drawing import without_help_texts
 from umform.cli.root import Debug, app
 
 if TYPE_CHECKING:
@@ -27,8 +26,6 @@ def plot(
     Colours show runs, line styles show columns. Without --y, list all columns.
     """
     from umform.io.histories import read_histories
-
-    without_help_texts()
     from umform.plotting import compare_histories
 
     histories = read_histories(runs)

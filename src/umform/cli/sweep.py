@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from umform.cli.check import Changes, DeckFile, Force, deck_errors, read
-from umform.cli.drawing import without_help_texts
 from umform.cli.root import Debug, Verbose, app, console
 from umform.cli.warnings import print_warnings_once
 from umform.errors import FileProblem, InvalidValue
@@ -58,7 +57,6 @@ def sweep(
     """
     from umform.sweeps import sweep as run_sweep
 
-    without_help_texts()
     print_warnings_once()
     with deck_errors():
         found = run_sweep(

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -11,7 +9,7 @@ from umform.deck.problem import Problem
 from umform.model.control import Control
 from umform.model.dead_load import Load
 from umform.model.pressure import Pressure
-from umform.plotting import house_style, plot_shape, save
+from umform.plotting import history_picture, house_style, shape_picture
 from umform.report.symmetry import mirrors, whole
 from umform.results.leading import leading_controls
 from umform.results.shape import Shape
@@ -19,19 +17,18 @@ from umform.run import Result
 from umform.steps import Release
 
 
-def draw_curve(problem: Problem, result: Result, path: Path) -> None:
+def curve(problem: Problem, result: Result) -> Figure:
     """Force over displacement of the control with the largest work; a load over the largest displacement."""
     moved = leading_controls(result)
     control = moved[0] if moved else main_control(problem)
     if isinstance(control, Load | Pressure):
-        _draw_load(control, result, path)
-    else:
-        result.plot(control.name, f"{control.name}_force", path)
+        return _load_curve(control, result)
+    return history_picture(result, control.name, [f"{control.name}_force"])
 
 
-def draw_shape(result: Result, path: Path) -> None:
+def shape(result: Result) -> Figure:
     """The whole part in its final state, with the mirror images of the modelled part."""
-    plot_shape(whole(Shape.of(result), mirrors(result.model)), path=path)
+    return shape_picture(whole(Shape.of(result), mirrors(result.model)))
 
 
 def main_control(problem: Problem) -> Control:
@@ -40,7 +37,7 @@ def main_control(problem: Problem) -> Control:
     return step.control if isinstance(step, Release) else step.moved()[0]
 
 
-def _draw_load(control: Control, result: Result, path: Path) -> None:
+def _load_curve(control: Control, result: Result) -> Figure:
     """A load over the displacement of the node with the largest final displacement, frame by frame."""
     displacements = np.array([frame.points["displacement"] for frame in result.frames])
     farthest = int(np.argmax(np.linalg.norm(displacements[-1], axis=1)))
@@ -50,4 +47,4 @@ def _draw_load(control: Control, result: Result, path: Path) -> None:
         axes = figure.add_subplot()
         axes.plot(np.linalg.norm(displacements[:, farthest], axis=1), values, marker=".", markersize=3)
         axes.set(xlabel=f"displacement of node {farthest}", ylabel=control.name)
-    save(figure, path)
+    return figure

@@ -74,12 +74,14 @@ def write(deck: Deck, problem: Problem, result: Result, stage: Staging, *, whole
     if wanted.state and whole:
         write_state(problem.model, waiting / STATE, deck.source.data)
     files = stage.commit([COPY, *_DATA, *data_files(waiting, stage.folder)])
+    drawn: dict[str, Figure] = {}
     if wanted.pictures:
-        from umform.deck.pictures import draw_curve, draw_shape  # matplotlib loads slowly
+        from umform.deck.pictures import curve, shape  # matplotlib loads slowly
         from umform.plotting import save
 
-        draw_curve(problem, result, waiting / "curve.png")
-        draw_shape(result, waiting / "shape.png")
+        drawn = {"curve": curve(problem, result), "shape": shape(result)}
+        for name, figure in drawn.items():
+            save(figure, waiting / f"{name}.png")
         if forming is not None:
             save(forming.diagram, waiting / "limits.png", dpi=120)
         taken.draw(waiting)
@@ -88,7 +90,8 @@ def write(deck: Deck, problem: Problem, result: Result, stage: Staging, *, whole
 
         metal = getattr(deck.contents.material, "note", "")
         more = chain(taken.parts(), () if forming is None else forming.parts())
-        write_report(result, waiting / "report.html", deck=text, title=deck.contents.title, note=metal, more=more)
+        page = waiting / "report.html"
+        write_report(result, page, deck=text, title=deck.contents.title, note=metal, more=more, drawn=drawn)
     return Written([*files, *stage.commit([*_PAGE, *picture_files(waiting, stage.folder)])], taken)
 
 

@@ -9,7 +9,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
 from umform.mesh import Mesh
-from umform.plotting import house_style, save
+from umform.plotting import Picture, house_style, save
 from umform.surfaces import ToolSizes
 
 
@@ -33,7 +33,7 @@ def draw_sizes(sizes: ToolSizes, path: str | Path, mesh: Mesh | None = None) -> 
 def sizes_figure(sizes: ToolSizes, mesh: Mesh | None = None) -> Figure:
     """The picture of :func:`draw_sizes`, not saved."""
     with house_style():
-        figure = Figure(figsize=(5.6, 3.8), layout="compressed")
+        figure = Picture(figsize=(5.6, 3.8), layout="compressed")
         axes = figure.add_subplot()
         shown = axes.pcolormesh(sizes.x, sizes.y, sizes.size.T, cmap="viridis", shading="gouraud", rasterized=True)
         if mesh is not None:

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from umform.plotting import COLOURS, Picture, house_style
+from umform.plotting import COLOURS, Picture, frame, house_style
 from umform.report import parts
 from umform.results.forming import FormingLimit
 
@@ -26,8 +26,9 @@ def limit_diagram(fields: Mapping[str, Floats], limit: FormingLimit | None) -> F
         Largest major strain over the minor one; without it, the diagram has no curve.
     """
     with house_style():
-        figure = Picture(figsize=(6.6, 4.2), layout="constrained")
+        figure = Picture(figsize=(6.6, 4.2))
         axes = figure.add_subplot()
+        frame(figure)
         axes.set(xlabel="minor strain, logarithmic", ylabel="major strain, logarithmic")
         for name, colour in zip(("lower", "upper", "middle"), (COLOURS[5], COLOURS[4], COLOURS[0]), strict=True):
             axes.plot(fields[f"minor_{name}"], fields[f"major_{name}"], ".", color=colour, markersize=2.5, label=name)

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from umform.io.tables import write_csv
-from umform.plotting import COLOURS, plot_history, plot_shape
+from umform.plotting import COLOURS, history_picture, shape_picture
 from umform.report import parts
 from umform.report.scene import Scene, scene_of
 from umform.report.symmetry import modelled_part, whole
@@ -24,6 +24,7 @@ from umform.results.leading import leading_controls
 from umform.results.shape import Shape
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from numpy import float64
     from numpy.typing import NDArray
 
@@ -60,6 +61,7 @@ class Live:
         stills: bool = True,
         more: Mapping[str, NDArray[float64]] | None = None,
         first: tuple[str, str] | None = None,
+        drawn: Mapping[str, Figure] | None = None,
     ) -> Live:
         """The parts for a result with a history; without kept frames, only its last state is drawn in 3D.
 
@@ -74,9 +76,14 @@ class Live:
         first : tuple of str, optional
             Abscissa and ordinate of the curve that is shown at first, for a page that says itself what forces refer
             to; default: the control with the largest work, below a note on the modelled part.
+        drawn : mapping of str to Figure, optional
+            Pictures that have been drawn already: the whole ``shape``, and the ``curve`` of the control with the
+            largest work.
         """
         scene, columns = scene_of(result), {**result.table(), **(more or {})}
-        shape, curves = _shape(result, scene, stills), _curves(result, stills, first)
+        known = drawn or {}
+        shape = _shape(result, scene, stills, known.get("shape"))
+        curves = _curves(result, stills, first, known.get("curve"))
         return cls(shape, curves, _table(columns), tuple(scene.notes), _scripts(scene))
 
 
@@ -96,11 +103,13 @@ def _scripts(scene: Scene) -> str:
     )
 
 
-def _shape(result: History, scene: Scene, stills: bool) -> str:
+def _shape(result: History, scene: Scene, stills: bool, drawn: Figure | None) -> str:
     """The 3D view, or a still of the last state if it cannot be drawn."""
     options = "".join(f"<option>{escape(name)}</option>" for name in scene.fields)
     caption = "The sheet in its last state, in true proportion" + ("; one part is modelled." if scene.mirrors else ".")
-    still = parts.figure(plot_shape(whole(Shape.of(result), scene.mirrors)), caption) if stills else ""
+    still = ""
+    if stills:
+        still = parts.figure(drawn or shape_picture(whole(Shape.of(result), scene.mirrors)), caption)
     hidden = {
         "without_tools": "" if scene.tools else " hidden",
         "without_mirrors": "" if scene.mirrors else " hidden",
@@ -109,22 +118,25 @@ def _shape(result: History, scene: Scene, stills: bool) -> str:
     return _filled("shape.html", still=still, fields=options, last=str(scene.frames - 1), **hidden)
 
 
-def _curves(result: History, stills: bool, first: tuple[str, str] | None) -> str:
+def _curves(result: History, stills: bool, first: tuple[str, str] | None, drawn: Figure | None) -> str:
     """Curves of the history, or a still for each control; above them what their forces refer to."""
     pairs = [(control.name, f"{control.name}_force") for control in leading_controls(result)]
+    known = [drawn] if pairs and drawn is not None else []
     if not pairs and result.model.controls:
         name = result.model.controls[0].name
         loaded = bool(np.ptp(result[name]))  # a load over itself says nothing; at the start nothing has moved yet
         pairs = [(name, "external_work" if loaded else f"{name}_force")]
-    drawn = [
-        parts.figure(plot_history(result, x, [y]), f"{y} over {x}, all converged increments.")
-        for x, y in (pairs if stills else [])
-    ]
+    shown = pairs if stills else []
+    figures = [*known, *(history_picture(result, x, [y]) for x, y in shown[len(known) :])]
+    text = "\n".join(
+        parts.figure(figure, f"{y} over {x}, all converged increments.")
+        for figure, (x, y) in zip(figures, shown, strict=False)
+    )
     x, y = first or (pairs[0] if pairs else ("time", result.columns()[-1]))
     colours = escape(json.dumps(COLOURS))
     part = "" if first else modelled_part(result.model)
     said = parts.note(f"{part[0].upper()}{part[1:]}.") if part else ""
-    return said + _filled("curves.html", still="\n".join(drawn), x=escape(x), y=escape(y), colours=colours)
+    return said + _filled("curves.html", still=text, x=escape(x), y=escape(y), colours=colours)
 
 
 def _table(columns: Mapping[str, NDArray[float64]]) -> str:

@@ -16,6 +16,8 @@ from umform.results.balanced import LIMIT, Balanced, balanced
 from umform.results.penetration import stage_penetrations
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from umform.results.history import History
 
 _ENERGIES = {
@@ -40,6 +42,7 @@ def write_report(
     title: str = "",
     note: str = "",
     more: Iterable[str] = (),
+    drawn: Mapping[str, Figure] | None = None,
 ) -> Path:
     """Write one self-contained page about a result.
 
@@ -57,6 +60,8 @@ def write_report(
         Name, source and limits of the material.
     more : iterable of str, optional
         Parts of the page that follow the curves.
+    drawn : mapping of str to Figure, optional
+        Pictures that have been drawn already: see :meth:`umform.report.live.Live.of`.
 
     Returns
     -------
@@ -75,7 +80,7 @@ def write_report(
         f"{result.summary()['iterations']} Newton iterations in {result.seconds:.1f} s, sparse solver {result.solver}"
     )
     title, lead = (title, f"{size}; {effort}") if title else (size, effort)
-    live = Live.of(result)
+    live = Live.of(result, drawn=drawn)
     content = _parts(result, live, deck, note, more)
     return parts.write_html(path, title, lead, content, style=style(), scripts=live.scripts)
 

@@ -9,13 +9,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from umform.plotting import COLOURS, INK, Picture, draw_shape, house_style
+from umform.plotting import COLOURS, INK, Picture, draw_shape, frame, house_style
 from umform.results.forming import EarProfile, Laid, Outline, Section
 from umform.results.shape import Shape
 
 Floats = NDArray[np.float64]
 
 _SIZE = (6.6, 4.2)
+#: Of a legend.
+_COLUMNS = 4
 _VIEW = (-70.0, -25.0)
 #: Least range of the heights of a cup in a picture, relative to the mean: waves of the mesh are no ears.
 _LEAST = 0.05
@@ -109,7 +111,7 @@ def forces_picture(way: Floats, forces: Mapping[str, Floats], x: str, y: str) ->
 def coloured(shape: Shape, name: str, label: str, limits: tuple[float, float] | None = None) -> Figure:
     """The part, coloured by a field."""
     with house_style():
-        figure = Picture(figsize=_SIZE, layout="compressed")
+        figure = Picture(figsize=_SIZE)
         drawn = draw_shape(figure.add_subplot(), shape, name, _VIEW, limits)
         _bar(figure, drawn, label)
     return figure
@@ -128,7 +130,7 @@ def gauge_picture(laid: Mapping[str, Laid], shape: Shape, unit: str = "mm") -> F
         Of length.
     """
     with house_style():
-        figure = Picture(figsize=(4.3 * len(laid) + (2.3 if len(laid) == 1 else 0.0), 3.8), layout="compressed")
+        figure = Picture(figsize=(4.3 * len(laid) + (2.3 if len(laid) == 1 else 0.0), 3.8))
         limits = (0.0, max(one.largest for one in laid.values()))
         for axes, (name, one) in zip(figure.subplots(1, len(laid), squeeze=False)[0], laid.items(), strict=True):
             values = {"distance": one.distance[shape.quads].mean(axis=1)}
@@ -150,7 +152,7 @@ def _name(along: Floats) -> str:
 
 
 def _axes(x: str, y: str, height: float = _SIZE[1]) -> tuple[Figure, Axes]:
-    figure = Picture(figsize=(_SIZE[0], height), layout="constrained")
+    figure = Picture(figsize=(_SIZE[0], height))
     axes = figure.add_subplot()
     axes.set(xlabel=x, ylabel=y)
     return figure, axes
@@ -158,10 +160,15 @@ def _axes(x: str, y: str, height: float = _SIZE[1]) -> tuple[Figure, Axes]:
 
 def _legend_below(figure: Figure) -> None:
     """A legend below the axes: it covers no curve."""
-    figure.legend(loc="outside lower center", ncols=4)
+    legend = figure.legend(loc="lower center", ncols=_COLUMNS)
+    frame(figure, bottom=0.55 + 0.2 * -(-len(legend.get_texts()) // _COLUMNS))
 
 
 def _bar(figure: Figure, drawn: object, label: str) -> None:
-    bar = figure.colorbar(drawn, ax=figure.axes, shrink=0.75, aspect=25, pad=0.02)  # type: ignore[arg-type]
+    """A bar of colours to the right of all axes, which have no labels."""
+    frame(figure, left=0.1, right=1.2, bottom=0.1)
+    width = figure.get_size_inches()[0]
+    place = figure.add_axes((1.0 - 1.05 / width, 0.14, 0.12 / width, 0.66))
+    bar = figure.colorbar(drawn, cax=place)  # type: ignore[arg-type]
     bar.set_label(label)
     bar.outline.set_visible(False)

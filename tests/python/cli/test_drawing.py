@@ -23,6 +23,19 @@ def help_texts(kind, picture):
     return int(run.stdout), picture.read_bytes()
 
 
+def test_no_command_loads_matplotlib_before_it_draws():
+    code = "import sys; from umform.cli.drawing import without_help_texts; without_help_texts(); print(*sys.modules)"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert "matplotlib" not in run.stdout
+
+
+def test_every_command_does_without_help_texts():
+    code = "import sys; from umform.cli import main; sys.argv[1:] = ['--version']\n"
+    code += "try: main()\nfinally: print(sys.meta_path[0])"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert "umform.cli.drawing" in run.stdout
+
+
 def test_a_command_draws_the_same_without_help_texts(tmp_path):
     few, quick = help_texts("command", tmp_path / "quick.png")
     many, usual = help_texts("library", tmp_path / "usual.png")

@@ -189,6 +189,17 @@ def test_check_writes_the_tools(tmp_path):
         assert getattr(heights, side)() == pytest.approx(flat, abs=1e-5)
 
 
+def test_pictures_of_a_run_are_laid_out_once_for_their_files_and_the_report(deck, tmp_path, monkeypatch):
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    laid_out, execute = [], ConstrainedLayoutEngine.execute
+    monkeypatch.setattr(ConstrainedLayoutEngine, "execute", lambda *args: (laid_out.append(1), execute(*args)))
+    answer = umform("run", deck, "--out", tmp_path / "out", "--set", "steps.0.increments=2")
+    assert answer.exit_code == 0, answer.output
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert len(laid_out) == 2 == page.count("<figure><div><svg")
+
+
 def test_new(tmp_path):
     assert "air-bending" in umform("new").output
     assert umform("new", "cantilever").output == template_file("cantilever").read_text()

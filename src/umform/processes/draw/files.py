@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
@@ -15,6 +15,9 @@ from umform.processes.draw.words import about_errors, parameters
 from umform.report.versions import versions
 from umform.results.forming.sections import columns as section_columns
 from umform.results.run_record import run_record
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _PICTURES = (
     "blank", "curve", "thinning", "major_middle", "limit_margin", "wrinkling", "punch_distance", "gauge", "limits",
@@ -28,9 +31,11 @@ _DATA = (
 _PAGE = (*(f"{name}.png" for name in _PICTURES), "report.html")
 #: Files of a part; they also mark a folder as that of a part.
 FILES = (*_DATA, *_PAGE)
+#: Dots per inch of the pictures.
+_DPI = 120
 
 
-def write_files(out: str | Path, drawn: Drawn, note: str = "") -> list[Path]:
+def write_files(out: str | Path, drawn: Drawn, note: str = "", blank: Figure | None = None) -> list[Path]:
     """Write all files of a part.
 
     Parameters
@@ -41,6 +46,8 @@ def write_files(out: str | Path, drawn: Drawn, note: str = "") -> list[Path]:
         The part.
     note : str, optional
         Source of the material data, for the report.
+    blank : Figure, optional
+        The picture of the blank, if it has been drawn.
 
     Returns
     -------
@@ -61,21 +68,22 @@ def write_files(out: str | Path, drawn: Drawn, note: str = "") -> list[Path]:
                 frame.points["punch_distance"] = drawn.distance_from_punch(frame.points["displacement"])
             drawn.released.write(here / "release.vtkhdf")
         files = stage.commit(_DATA)  # a failure of a picture must not lose the numbers
-        figures = pictures(drawn)
+        figures = pictures(drawn, blank)
         for name, figure in figures.items():
-            save(figure, here / f"{name}.png", dpi=120)
+            save(figure, here / f"{name}.png", dpi=_DPI)
         write_page(here / "report.html", drawn, figures, note)
         return [*files, *stage.commit(_PAGE)]
 
 
-def draw_blank(out: str | Path, case: Cup | UBend) -> Path:
+def draw_blank(out: str | Path, case: Cup | UBend) -> tuple[Path, Figure]:
     """Draw the mesh of the blank over the sizes that the tools ask for; before the run."""
     from umform.plotting import save
     from umform.processes.draw.pictures import blank
 
     with staging(out, (_BEFORE,)) as stage:
-        save(blank(case), stage.waiting / _BEFORE, dpi=120)
-        return stage.commit((_BEFORE,))[0]
+        figure = blank(case)
+        save(figure, stage.waiting / _BEFORE, dpi=_DPI)
+        return stage.commit((_BEFORE,))[0], figure
 
 
 def _write_tables(here: Path, drawn: Drawn) -> None:

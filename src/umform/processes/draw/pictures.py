@@ -38,9 +38,9 @@ FIELDS: Mapping[str, str] = {
 }
 
 
-def pictures(drawn: Drawn) -> dict[str, Figure]:
-    """All pictures by name, in the order of the report."""
-    made = {"blank": blank(drawn.case), "curve": curve(drawn)}
+def pictures(drawn: Drawn, before: Figure | None = None) -> dict[str, Figure]:
+    """All pictures by name, in the order of the report; ``before``: that of the blank, if it has been drawn."""
+    made = {"blank": before or blank(drawn.case), "curve": curve(drawn)}
     shape = part(drawn)
     made |= {name: coloured(shape, name, label) for name, label in FIELDS.items()}
     if drawn.released is not None:

@@ -288,7 +288,7 @@ def test_layers_by_rule_and_the_blank_before_the_run(tmp_path):
     assert sharp.stacked == 2 and before_the_run(sharp).endswith("; 2 layers")
     assert len(sharp.blank().connectivity) == 2 * len(replace(sharp, layers=1).blank().connectivity)
     for case in (CUP, U):
-        assert draw_blank(tmp_path, case).read_bytes()[1:4] == b"PNG"
+        assert draw_blank(tmp_path, case)[0].read_bytes()[1:4] == b"PNG"
 
 
 @dataclass(frozen=True, kw_only=True)

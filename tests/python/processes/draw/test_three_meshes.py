@@ -165,10 +165,10 @@ def test_the_command_runs_three_meshes_unless_told_otherwise(drawn, monkeypatch,
 
     monkeypatch.setattr("umform.processes.draw.three_meshes.extrapolated", instead("extrapolated"))
     monkeypatch.setattr("umform.processes.draw.case.draw", instead("draw"))
-    monkeypatch.setattr("umform.processes.draw.files.write_files", lambda *_: [])
-    monkeypatch.setattr("umform.processes.draw.files.draw_blank", lambda *_: ("blank.png", None))
+    monkeypatch.setattr("umform.processes.draw.files.write_files", lambda *given: called.append(given[-1]) or [])
+    monkeypatch.setattr("umform.processes.draw.files.draw_blank", lambda *_: ("blank.png", "picture"))
     out = CliRunner().invoke(app, ["draw", "u", "--material", "DC04", "--out", str(tmp_path / "u"), *options])
     assert out.exit_code == 0, out.output
-    assert called == (["extrapolated"] if runs_three else ["draw"])
+    assert called == ["extrapolated" if runs_three else "draw", "picture"]  # the blank is drawn once
     assert ("± 0.25" in out.output) is runs_three
     assert ("errors are unknown" in out.output) is not runs_three
