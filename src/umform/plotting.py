@@ -69,9 +69,7 @@ _FILES: Any = {
 }
 #: Default fields of a shape: the first available one is shown.
 _FAVOURITES = ("plastic_strain_max", "thickness_change", "displacement")
-#: Sizes of histories and shapes; from where shapes are seen: azimuth and elevation in degrees.
-_HISTORY: Any = {"figsize": (6.2, 3.8), "layout": "constrained"}
-_SHAPE: Any = {"figsize": (7.2, 3.2), "layout": "compressed"}
+#: From where shapes are seen: azimuth and elevation in degrees.
 _VIEW = (-115.0, 28.0)
 
 
@@ -123,6 +121,12 @@ def save(figure: Figure, path: str | Path, dpi: int = _DPI) -> Path:
     return path
 
 
+def _saved(figure: Figure, path: str | Path | None) -> Figure:
+    if path is not None:
+        save(figure, path)
+    return figure
+
+
 def _drawn(figure: Figure, kind: str, dpi: int) -> bytes:
     """The figure as a file without a date; a picture is drawn once."""
     known = figure.drawn if isinstance(figure, Picture) else {}
@@ -156,31 +160,26 @@ def plot_history(result: History, x: str, ys: Sequence[str], path: str | Path | 
     path : str or Path, optional
         Where to save the picture: .png, .svg or .pdf.
     """
-    with house_style():
-        figure = Figure(**_HISTORY)
-        _draw_history(figure, result, x, ys)
-    if path is not None:
-        save(figure, path)
-    return figure
+    return _saved(_history(Figure, result, x, ys), path)
 
 
-def history_picture(result: History, x: str, ys: Sequence[str]) -> Picture:
+def history_picture(result: History, x: str, ys: Sequence[str]) -> Figure:
     """The figure of :func:`plot_history` for several files."""
+    return _history(Picture, result, x, ys)
+
+
+def _history(kind: type[Figure], result: History, x: str, ys: Sequence[str]) -> Figure:
     with house_style():
-        picture = Picture(**_HISTORY)
-        _draw_history(picture, result, x, ys)
-    return picture
-
-
-def _draw_history(figure: Figure, result: History, x: str, ys: Sequence[str]) -> None:
-    axes = figure.add_subplot()
-    for name in ys:
-        axes.plot(result[x], result[name], label=name)
-    axes.set_xlabel(x)
-    if len(ys) == 1:
-        axes.set_ylabel(ys[0])
-    else:
-        axes.legend()
+        figure = kind(figsize=(6.2, 3.8), layout="constrained")
+        axes = figure.add_subplot()
+        for name in ys:
+            axes.plot(result[x], result[name], label=name)
+        axes.set_xlabel(x)
+        if len(ys) == 1:
+            axes.set_ylabel(ys[0])
+        else:
+            axes.legend()
+    return figure
 
 
 def compare_histories(
@@ -217,9 +216,7 @@ def compare_histories(
         axes.set_xlabel(x)
         axes.set_ylabel(ys[0] if len(ys) == 1 else "")
         axes.legend()
-    if path is not None:
-        save(figure, path)
-    return figure
+    return _saved(figure, path)
 
 
 def _check_column(name: str, columns: Mapping[str, Floats], run: str) -> None:
@@ -256,29 +253,24 @@ def plot_shape(
     view : tuple of float
         Azimuth and elevation of the observer in degrees; (-90, 0) looks along y and shows x and z.
     """
-    with house_style():
-        figure = Figure(**_SHAPE)
-        _draw_shape(figure, shape if isinstance(shape, Shape) else Shape.of(shape), values, view)
-    if path is not None:
-        save(figure, path)
-    return figure
+    return _saved(_shape(Figure, shape if isinstance(shape, Shape) else Shape.of(shape), values, view), path)
 
 
-def shape_picture(shape: Shape) -> Picture:
+def shape_picture(shape: Shape) -> Figure:
     """The figure of :func:`plot_shape` for several files."""
-    with house_style():
-        picture = Picture(**_SHAPE)
-        _draw_shape(picture, shape, None, _VIEW)
-    return picture
+    return _shape(Picture, shape, None, _VIEW)
 
 
-def _draw_shape(figure: Figure, shape: Shape, values: str | None, view: tuple[float, float]) -> None:
+def _shape(kind: type[Figure], shape: Shape, values: str | None, view: tuple[float, float]) -> Figure:
     values = values or next((name for name in _FAVOURITES if name in shape.values), None)
-    drawn = draw_shape(figure.add_subplot(), shape, values, view)
-    if values is not None:
-        bar = figure.colorbar(drawn, ax=figure.axes, shrink=0.7, aspect=25, pad=0.02)
-        bar.set_label(values.replace("_", " "))
-        bar.outline.set_visible(False)
+    with house_style():
+        figure = kind(figsize=(7.2, 3.2), layout="compressed")
+        drawn = draw_shape(figure.add_subplot(), shape, values, view)
+        if values is not None:
+            bar = figure.colorbar(drawn, ax=figure.axes, shrink=0.7, aspect=25, pad=0.02)
+            bar.set_label(values.replace("_", " "))
+            bar.outline.set_visible(False)
+    return figure
 
 
 def draw_shape(
