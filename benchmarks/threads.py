@@ -1,12 +1,14 @@
 """What threads bring, by the clock: one evaluation of a sheet, a whole cup, and a large sheet under a sphere.
 
     python benchmarks/threads.py sheets               # 225, 625 and 1600 elements, all points flow (two minutes)
-    python benchmarks/threads.py cups --turns 2       # whole runs of 240 and 624 elements, one thread and two in turns
+    python benchmarks/threads.py cups --turns 2       # whole runs of 240 and 768 elements, one thread and two in turns
+    python benchmarks/threads.py cups --cpu           # CPU seconds of their parts instead
     python benchmarks/threads.py dome                 # 40 000 elements of `dome.py`
 
 It needs as many free processors as threads; the load of the machine is printed. Numbers of threads take turns, and the
-shortest time of each counts. On a loaded machine look at the CPU seconds of the busier thread instead, which are
-measured beside the evaluations.
+shortest time of each counts. On a loaded machine only CPU times mean something: those of the busier thread, and an
+estimate for free processors from what runs outside of the team and from the groups of four elements in the line. It
+leaves out how long a team takes to wake up, some 20 us.
 """
 
 from __future__ import annotations
@@ -14,15 +16,19 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import json
+import math
 import os
 import subprocess
 import sys
 import time
 from typing import Any
+from unittest.mock import patch
 
 SHEETS = (15, 25, 40)
+#: Elements of a group, and numbers of threads for the estimates.
+LANES, ESTIMATED = 4, (2, 8, 16)
 #: Mesh of a cup by its number of elements.
-CUPS: dict[int, dict[str, Any]] = {240: {}, 624: {"turn": 9.0, "around": 24}}
+CUPS: dict[int, dict[str, Any]] = {240: {}, 768: {"turn": 9.0, "around": 24}}
 #: What a run says beside the seconds of its parts.
 BESIDE = ("CPU seconds", "force")
 
@@ -50,25 +56,53 @@ def evaluations(side: int, threads: list[int], repeat: int) -> dict[str, Any]:
             bits.add((evaluation.residual.tobytes(), evaluation.values.tobytes()))
     if len(bits) != 1:
         raise SystemExit("the bits differ")
+    uf.set_threads(1)
+    alone = [of_one_thread(model, u) for _ in range(repeat)]
     return {
         "elements": side**2,
         "points": model.block.points * side**2,
         "wall": {count: 1e3 * min(times) for count, times in wall.items()},
         "busy": {count: 1e3 * min(times) for count, times in busy.items()},
+        "cpu": 1e3 * min(whole for whole, _ in alone),
+        "outside": 1e3 * min(outside for _, outside in alone),
     }
+
+
+def of_one_thread(model: Any, u: Any) -> tuple[float, float]:
+    """CPU seconds of an evaluation, and of what no thread shares: all but the block of elements."""
+    with patch.object(time, "perf_counter", time.thread_time):  # the clock of `umform.timing`
+        before, start = model.timing.elements.seconds, time.thread_time()
+        model.evaluate(u)
+        whole = time.thread_time() - start
+        inside = model.timing.elements.seconds - before
+        start = time.thread_time()
+        _ = model.block.flowing  # part of the time of the elements
+        return whole, whole - inside + time.thread_time() - start
+
+
+def estimate(row: dict[str, Any], threads: int) -> float:
+    """Times as fast on free processors: a group takes as long as any other, and the last round may not be full."""
+    groups = math.ceil(row["elements"] / LANES)
+    rounds = math.ceil(groups / threads)
+    whole: float = row["cpu"] / (row["outside"] + (row["cpu"] - row["outside"]) * rounds / groups)
+    return whole
 
 
 def sheets(threads: list[int], repeat: int, only: int | None) -> None:
     """Print what one evaluation takes with each number of threads."""
     one = threads[0]
     heads = [f"{count} threads" for count in threads[1:]]
-    print("| elements | points | ms, 1 thread | " + " | ".join(f"{head} | by CPU time" for head in heads) + " |")
-    print("|---:|---:|---:|" + "---:|---:|" * len(heads))
+    columns = " | ".join(f"{head} | by CPU time" for head in heads)
+    expected = " | ".join(f"{count} threads, estimate" for count in ESTIMATED)
+    print(f"| elements | points | ms, 1 thread | {columns} | CPU ms | outside of the team | {expected} |")
+    print("|---:|---:|---:|" + "---:|---:|" * len(heads) + "---:|---:|" + "---:|" * len(ESTIMATED))
     for side in SHEETS if only is None else [round(only**0.5)]:
         row = evaluations(side, threads, repeat)
         cells = [f"{row['elements']} | {row['points']} | {row['wall'][one]:.2f}"]
         for count in threads[1:]:
             cells += [f"{row[clock][one] / row[clock][count]:.2f}" for clock in ("wall", "busy")]
+        cells += [f"{row['cpu']:.2f} | {row['outside']:.2f}"]
+        cells += [f"{estimate(row, count):.2f}" for count in ESTIMATED]
         print("| " + " | ".join(cells) + " |", flush=True)
 
 
@@ -111,7 +145,7 @@ def table(rows: dict[int, list[dict[str, Any]]]) -> str:
     best = {threads: min(runs, key=lambda row: row["whole run"]) for threads, runs in rows.items()}
     one = best[min(best)]
     words = [f"{count} threads" if count > 1 else "1 thread" for count in best]
-    lines = ["| wall seconds | " + " | ".join(words) + " | faster |", "|---|" + "---:|" * (len(best) + 1)]
+    lines = ["| seconds | " + " | ".join(words) + " | faster |", "|---|" + "---:|" * (len(best) + 1)]
     for part in one:
         if part in BESIDE:
             continue
@@ -160,24 +194,26 @@ def main() -> None:
     parser.add_argument("--threads", type=int, nargs="+", default=[1, 2])
     parser.add_argument("--turns", type=int, default=2, help="runs with each number of threads")
     parser.add_argument("--repeat", type=int, default=40, help="sheets: evaluations with each number of threads")
+    parser.add_argument("--cpu", action="store_true", help="cups, dome: CPU seconds of all threads, not the clock's")
     parser.add_argument("--inside", action="store_true", help=argparse.SUPPRESS)
     given = parser.parse_args()
     if given.inside:
         import umform as uf
 
         uf.set_threads(given.threads[0])
-        found = dome_run(given.elements, given.depth) if given.kind == "dome" else cup_run(given.elements)
+        with patch.object(time, "perf_counter", time.process_time if given.cpu else time.perf_counter):
+            found = dome_run(given.elements, given.depth) if given.kind == "dome" else cup_run(given.elements)
         print(json.dumps(found))
     elif given.kind == "sheets":
         print(f"load {os.getloadavg()[0]:.1f}, {os.cpu_count()} processors\n")
         sheets(given.threads, given.repeat, given.elements)
     elif given.kind == "dome":
         elements = given.elements or 40_000
-        words = ["dome", "--elements", str(elements), "--depth", str(given.depth)]
+        words = ["dome", "--elements", str(elements), "--depth", str(given.depth), *["--cpu"] * given.cpu]
         in_turns(f"{elements} elements", words, given.threads, given.turns, beside=True)
     else:
         for elements in [given.elements] if given.elements else CUPS:
-            words = ["cups", "--elements", str(elements)]
+            words = ["cups", "--elements", str(elements), *["--cpu"] * given.cpu]
             in_turns(f"cup of {elements} elements", words, given.threads, given.turns, beside=False)
 
 
