@@ -40,9 +40,9 @@ class Turns {
     void run(int threads, const Work& work) {
         ++round_;
         std::atomic<int> next{0};
-        const int count = size(), team = std::clamp(threads, 1, std::max(count, 1));
-        const int chunk = std::max(1, count / (shares * team));
+        const int count = size(), chunk = std::max(1, count / (shares * threads));
         FirstException exception;
+        [[maybe_unused]] const int team = threads;  // not fewer where there are fewer groups: others would be ended
 #pragma omp parallel num_threads(team) if (team > 1)
         for (int first = next.fetch_add(chunk); first < count; first = next.fetch_add(chunk))
             for (int group = first; group < std::min(first + chunk, count); ++group) {
