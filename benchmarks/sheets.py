@@ -26,11 +26,15 @@ def through(name: str) -> dict[str, Any]:
     return {"thickness_points": 5} | ({} if name in ("DISP3D", "DISP9K3D") else {"thickness_order": 1})
 
 
+def stretched(mesh: uf.Mesh, side: float) -> np.ndarray:
+    """Displacements that stretch and shear it beyond a yield stress of 160."""
+    x, y, z = mesh.points.T
+    return np.stack([4e-3 * x + 1e-3 * y, -1e-3 * y, -2e-3 * z + 1e-3 / side * x * y], axis=1).ravel()
+
+
 def sheet(name: str, law: str, cells: tuple[int, int], side: float = 100.0) -> tuple[uf.Model, np.ndarray]:
     """A square sheet of 1 mm, and displacements that stretch and shear it beyond a yield stress of 160."""
     mesh = uf.mesh.strip(length=side, width=side, thickness=1.0, cells=cells, cell=uf.elements.element(name).cell)
-    x, y, z = mesh.points.T
-    u = np.stack([4e-3 * x + 1e-3 * y, -1e-3 * y, -2e-3 * z + 1e-3 / side * x * y], axis=1)
     model = uf.Model(mesh, name, material=LAWS[law], **(through(name) if law.startswith("J2") else {}))
     model.fix("x0")
-    return model, u.ravel()
+    return model, stretched(mesh, side)

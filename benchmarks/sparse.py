@@ -32,6 +32,7 @@ CASES = {
     "strip 24x1": ((24, 1), "hex8", 50),
     "strip 48x2": ((48, 2), "hex8", 50),
     "strip 24x2, 18 nodes": ((24, 2), "hex18", 50),
+    "sheet 16x16": ((16, 16), "hex8", 200),
     "sheet 20x20": ((20, 20), "hex8", 20),
     "sheet 40x40": ((40, 40), "hex8", 10),
     "sheet 100x100": ((100, 100), "hex8", 5),
@@ -169,7 +170,7 @@ def main() -> None:
     print(f"| sheet | equations | matrix | threads | solver | {' | '.join(COLUMNS)} | fill, 1e6 |")
     print("|---|---:|---|---:|---|---:|---:|---:|---:|---:|")
     for threads in arguments.threads or ([1, 2] if paged else [1]):
-        for case in arguments.case or (LARGE if paged else list(CASES)[:5]):
+        for case in arguments.case or (LARGE if paged else list(CASES)[:6]):
             for kind in arguments.kind or KINDS[: 3 if paged else 1]:
                 best = best_of(case, kind, solvers, threads, arguments.rounds)
                 for name, took in best.items():

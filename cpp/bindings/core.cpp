@@ -1,4 +1,7 @@
 // The extension module umform._core.
+#include <algorithm>
+#include <cstdlib>
+
 #include "arrays.hpp"
 #include "umform/assembly/threads.hpp"
 
@@ -19,6 +22,9 @@ void require_instructions() {
 #endif
 }
 
+/// Threads of a process that says nothing else: a team waits for a thread that gets no processor.
+int free_processors() { return nb::cast<int>(nb::module_::import_("umform.processors").attr("free")()); }
+
 }  // namespace
 
 NB_MODULE(_core, m) {
@@ -36,7 +42,11 @@ NB_MODULE(_core, m) {
     bind_contact(m);
     bind_loads(m);
     m.def("build", [] { return UMFORM_BUILD; }, "Compiler, kind of build and instruction set of the kernels.");
-    m.def("threads", [] { return umform::thread_count().load(); }, "Number of threads that the kernels use.");
+    if (std::getenv("OMP_NUM_THREADS") == nullptr)
+        umform::thread_count() = std::min(umform::thread_count().load(), free_processors());
+    m.def(
+        "threads", [] { return umform::thread_count().load(); },
+        "Number of threads that the kernels use; by default one for each free processor, or OMP_NUM_THREADS.");
     m.def(
         "set_threads",
         [](int count) {

@@ -869,7 +869,9 @@ def build() -> str:
     """Compiler, kind of build and instruction set of the kernels."""
 
 def threads() -> int:
-    """Number of threads that the kernels use."""
+    """
+    Number of threads that the kernels use; by default one for each free processor, or OMP_NUM_THREADS.
+    """
 
 def set_threads(count: int) -> None:
     """Set the number of threads that the kernels use."""

@@ -16,6 +16,7 @@ from typing import TypeVar
 from umform import _core
 from umform.errors import InvalidValue, SolveError
 from umform.log import log_to_stderr
+from umform.processors import available
 
 Task = TypeVar("Task")
 Answer = TypeVar("Answer")
@@ -64,7 +65,7 @@ def run_all(
         If the number of processes is less than 1.
     """
     check_processes(processes)
-    count = min(processes or _processors(), len(tasks))
+    count = min(processes or available(), len(tasks))
     order = sorted(range(len(tasks)), key=lambda number: -costs[number])
     calls = {number: partial(function, tasks[number]) for number in order}
     answers: dict[int, Answer] = {}
@@ -166,13 +167,6 @@ def _died() -> SolveError:
         cause="it was killed, perhaps for want of memory",
         remedy="run again with fewer: processes=1",
     )
-
-
-def _processors() -> int:
-    """Number of processors available to this process."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def _prepare(level: int) -> None:

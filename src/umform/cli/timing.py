@@ -21,9 +21,11 @@ def show_timing(timing: Timing, title: str = "Where the time went") -> None:
     from rich.table import Table
 
     from umform import threads
+    from umform.processors import available
 
-    count = threads()
-    table = Table("part", title=f"{title}, {count} thread{'s' if count > 1 else ''}", box=box.SIMPLE_HEAD)
+    count, processors = threads(), available()
+    used = f"{count} thread{'s' if count > 1 else ''}, {processors} processor{'s' if processors > 1 else ''}"
+    table = Table("part", title=f"{title}: {used}", box=box.SIMPLE_HEAD)
     for name in ("s", "%", "calls", "ms a call"):
         table.add_column(name, justify="right")
     for name, seconds, share, calls in timing.rows():

@@ -60,6 +60,15 @@ def test_threads(run):
 
 
 @pytest.mark.skipif(not shutil.which("c++"), reason="no C++ compiler")
+def test_threads_in_an_evaluation(run, script):
+    lines, _ = run("threads", "sheets", "--elements", "16", "--repeat", "1")
+    cells = lines[-1].strip("| ").split(" | ")
+    assert cells[:2] == ["16", "768"]
+    assert len(cells) == lines[-3].count(" | ") + 1
+    estimate = script("threads").estimate
+    assert estimate({"elements": 36, "cpu": 10.0, "outside": 1.0}, 2) == pytest.approx(10.0 / (1.0 + 9.0 * 5 / 9))
+
+
 def test_operations_of_an_element_are_counted(script, tmp_path):
     """More operations where the material flows than where it does not, and as many in each element of a kind."""
     native, sheet = script("kernels").Native(tmp_path), script("sheets").sheet

@@ -15,6 +15,7 @@ from umform.deck.templates import template_file, write_template
 from umform.errors import InvalidValue, NoConvergence
 from umform.processes.bending import case as case_module
 from umform.processes.bending import showcase
+from umform.processors import available
 
 BEND = ["--stroke", "0.4", "--increment", "0.0125", "--element", "BEND8", "--layers", "1"]
 RUN = ["--mesh", "24x1", "--contact", "2", "--steps", "30", "--stroke", "2", "--no-unload"]
@@ -152,6 +153,7 @@ def test_timing_sums_up_all_runs(tmp_path):
     assert run.exit_code == 0, run.output
     table = run.stdout[run.stdout.index("Where the time went") :]
     rows = {" ".join(words[:-4]): words[-4:] for line in table.splitlines() if len(words := line.split()) > 4}
+    assert f"{umform.threads()} thread" in table and f"{available()} processor" in table
     assert rows["elements"][2] == rows["contact and pressure"][2]  # a call of each in each evaluation
     assert 2 * 30 < int(rows["factorisation"][2]) < int(rows["elements"][2])
     whole = next(line for line in table.splitlines() if line.split()[:1] == ["all"])

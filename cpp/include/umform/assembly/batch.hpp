@@ -1,11 +1,11 @@
-// Batches: elements of one colour that are worked on together, one in each lane.
+// Batches: elements of one group that are worked on together, one in each lane.
 #pragma once
 
 #include <algorithm>
 #include <array>
 
 #include "umform/algebra/lanes.hpp"
-#include "umform/assembly/connectivity.hpp"
+#include "umform/assembly/turns.hpp"
 
 namespace umform {
 
@@ -21,26 +21,18 @@ struct Batch {
     }
 };
 
-/// Batches of all elements, colour after colour, and which of them belong to each colour. A batch holds elements of one
-/// colour, so that batches of a colour share no node either, and the batches depend on the mesh only.
-struct Batches {
-    std::vector<Batch> all;
-    std::vector<std::vector<std::int32_t>> colours;
-
-    explicit Batches(const std::vector<std::vector<std::int32_t>>& colours_of_elements) {
-        for (const std::vector<std::int32_t>& elements : colours_of_elements) {
-            std::vector<std::int32_t>& of_colour = colours.emplace_back();
-            const int size = static_cast<int>(elements.size());
-            for (int first = 0; first < size; first += lane_count) {
-                Batch batch{{}, std::min(lane_count, size - first)};
-                for (int lane = 0; lane < lane_count; ++lane)
-                    batch.element[lane] = elements[std::min(first + lane, size - 1)];
-                of_colour.push_back(static_cast<std::int32_t>(all.size()));
-                all.push_back(batch);
-            }
-        }
+/// A batch of each group.
+inline std::vector<Batch> make_batches(const Turns& turns) {
+    std::vector<Batch> batches;
+    for (int group = 0; group < turns.size(); ++group) {
+        const auto elements = turns.elements(group);
+        const int count = static_cast<int>(elements.size());
+        Batch batch{{}, count};
+        for (int lane = 0; lane < lane_count; ++lane) batch.element[lane] = elements[std::min(lane, count - 1)];
+        batches.push_back(batch);
     }
-};
+    return batches;
+}
 
 /// Reads a nodal field into the lanes as mean and half difference of the faces, each by direction. eq. (2.34)
 template <int Nodes>

@@ -54,34 +54,14 @@ class FirstException {
     std::atomic<bool> stopped_{false};
 };
 
-/// Starting a team for fewer of them costs more than it brings: the work of a facet is a tenth of that of an element.
-inline constexpr int elements_worth_a_team = 32, facets_worth_a_team = 512, nodes_worth_a_team = 8192;
-
-/// Shares of a colour that each thread takes one after the other: they even out work that differs.
-inline constexpr int shares = 8;
-
-/// Calls work(element, thread) for every element, colour after colour, on so many `threads`; thread < threads.
-template <class Work>
-void for_each_by_colour(const std::vector<std::vector<std::int32_t>>& colours, int threads, const Work& work) {
-    FirstException exception;
-    [[maybe_unused]] const int team = threads;
-#pragma omp parallel num_threads(team) if (team > 1)
-    {
-        const int thread = thread_index();
-        for (const auto& colour : colours) {
-            const int count = static_cast<int>(colour.size());
-            [[maybe_unused]] const int chunk = std::max(1, count / (shares * team));
-#pragma omp for schedule(dynamic, chunk)
-            for (int k = 0; k < count; ++k) exception.guard([&] { work(colour[k], thread); });
-        }
-    }
-    exception.rethrow();
-}
+/// Starting a team for fewer of them costs more than it brings: some 20 us. A Gauss point takes .4 to 1.2 us, a facet near a tool
+/// one.
+inline constexpr int points_worth_a_team = 256, facets_worth_a_team = 128, nodes_worth_a_team = 8192;
 
 /// Calls work(first, last) for fixed ranges of 0 .. count - 1, independent of the number of threads.
 template <class Work>
 void for_each_range(int count, int threads, const Work& work) {
-    constexpr int length = 64;
+    constexpr int length = 32;
     FirstException exception;
     [[maybe_unused]] const int team = threads;
 #pragma omp parallel for num_threads(team) if (team > 1) schedule(dynamic)

@@ -1,7 +1,7 @@
 // Contact of element faces with one rigid tool, integrated over the reference area.
 #pragma once
 
-#include "umform/assembly/colours.hpp"
+#include "umform/assembly/turns.hpp"
 #include "umform/contact/block.hpp"
 #include "umform/contact/locator.hpp"
 #include "umform/contact/penalty.hpp"
@@ -17,7 +17,7 @@ class ContactBlockOf final : public ContactBlock {
     ContactBlockOf(const Connectivity& part, const std::vector<double>& X, typename FaceRule::Setting setting,
                    const std::shared_ptr<const Surface>& surface, std::shared_ptr<ContactLaw> law)
         : ContactBlock(std::move(law)), rule_(part, X, setting), locator_(part, X, rule_, surface),
-          colours_(make_colours(part)), scale_(part.size()) {
+          turns_(part, make_colours(part), facets_of_a_turn), scale_(part.size()) {
         area_ = rule_.area;
         std::vector<Quantity> quantities = law_->quantities();
         for (const Quantity& quantity : quantities) of_law_ += quantity.size;
@@ -54,8 +54,11 @@ class ContactBlockOf final : public ContactBlock {
         locator_.move(u, pose, threads,
                       [this](int e) { return keeps(e) ? std::numeric_limits<double>::infinity() : reach(e); });
         while (static_cast<int>(workspaces_.size()) < threads) workspaces_.emplace_back(per_facet());
-        for_each_by_colour(colours_, connectivity().size() < facets_worth_a_team ? 1 : threads,
-                           [&](int e, int thread) { add_facet(e, scatter, target, workspaces_[thread]); });
+        turns_.run(connectivity().size() < facets_worth_a_team ? 1 : threads,
+                   [&](int group, int thread, const auto& turn) {
+                       for (const int e : turns_.elements(group))
+                           add_facet(e, scatter, target, workspaces_[thread], turn);
+                   });
         kept.clear();
         Outcome outcome;
         for (const double scale : scale_) outcome.force_scale_squared += scale;
@@ -338,7 +341,8 @@ class ContactBlockOf final : public ContactBlock {
         }
     }
 
-    void add_facet(int e, const Scatter& scatter, const Target& target, Workspace& workspace) {
+    template <class Turn>
+    void add_facet(int e, const Scatter& scatter, const Target& target, Workspace& workspace, const Turn& turn) {
         scale_[e] = 0.0;
         if (open || locator_.far(e)) {
             if (remembers()) leave(e, history_.trial(e));
@@ -347,6 +351,7 @@ class ContactBlockOf final : public ContactBlock {
         Element element;
         if (!form(e, history_.trial(e), workspace, target.wants_tangent(), element)) return;
         for (const double value : element.f) scale_[e] += value * value;
+        turn();
         scatter_element<Nodes>(connectivity(), scatter, e, element.K.data(), element.f.data(), target, !symmetric());
     }
 
@@ -366,7 +371,7 @@ class ContactBlockOf final : public ContactBlock {
 
     FaceRule rule_;
     Locator<Nodes> locator_;
-    std::vector<std::vector<std::int32_t>> colours_;
+    Turns turns_;
     std::vector<double> scale_;
     std::vector<Workspace> workspaces_;  // one a thread
     int of_law_ = 0;                     // numbers of a point's history that are the law's

@@ -61,8 +61,9 @@ class Locator {
                 far_[e] = beyond(e, reach(e)) ? 1 : 0;
                 wanted_[e] = far_[e] == 0;
             }
+            if (surface_->is_concurrent()) locate_range(first, last);
         });
-        locate_wanted(threads);
+        if (!surface_->is_concurrent()) locate_at_once();
     }
 
     /// Locates the far facets that a reach, which has become larger, may touch.

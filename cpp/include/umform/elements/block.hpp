@@ -5,8 +5,6 @@
 #include <stdexcept>
 
 #include "umform/assembly/batch.hpp"
-#include "umform/assembly/colours.hpp"
-#include "umform/assembly/threads.hpp"
 #include "umform/elements/shell_block.hpp"
 #include "umform/elements/solid_shell.hpp"
 
@@ -23,7 +21,7 @@ class ShellBlockOf final : public ShellBlock {
                  std::vector<double> rolling = {})
         : element_(technology, surface_points, thickness, material->symmetric()), material_(std::move(material)),
           part_(std::move(part)), X_(std::move(X)), rolling_(std::move(rolling)),
-          batches_(make_colours_of_groups(part_, lane_count)) {
+          turns_(part_, make_colours_of_groups(part_, lane_count), lane_count), batches_(make_batches(turns_)) {
         const std::size_t elements = part_.size(), modes = element_.modes();
         history_ = History(part_.size(), element_.points(), material_->state_names());
         history_.initialise([this](double* state) { material_->initial(state); });
@@ -48,9 +46,9 @@ class ShellBlockOf final : public ShellBlock {
         if (target.wants_tangent())
             begin_blocks();
         else
-            followed_.resize(batches_.all.size() * element_.modes());
-        for_each_batch([&](int b, Workspace& w) {
-            const Batch& batch = batches_.all[b];
+            followed_.resize(batches_.size() * element_.modes());
+        for_each_batch(points(), [&](int b, Workspace& w, const auto& turn) {
+            const Batch& batch = batches_[b];
             const Failures failures = compute(batch, u, target.wants_tangent(), correction_, trial_of(batch), w);
             const std::size_t modes = element_.modes();
             std::vector<Lanes>& y = target.wants_tangent() ? last_.y : followed_;
@@ -58,6 +56,7 @@ class ShellBlockOf final : public ShellBlock {
             if (target.wants_tangent()) {
                 std::copy(w.shell.Kad.begin(), w.shell.Kad.end(), last_.Y.begin() + b * modes * size);
             }
+            turn();
             for (int lane = 0; lane < batch.count; ++lane) {
                 const int e = batch.element[lane];
                 failed_[e] = failures[lane];
@@ -79,8 +78,8 @@ class ShellBlockOf final : public ShellBlock {
         const int modes = element_.modes();
         const Eliminated& from = from_kept_ ? kept_ : last_;
         if (from.y.empty()) return;  // nothing has been evaluated yet
-        for_each_batch([&](int b, Workspace& w) {
-            const Batch& batch = batches_.all[b];
+        for_each_batch(1, [&](int b, Workspace& w, const auto&) {
+            const Batch& batch = batches_[b];
             gather<Nodes>(part_, batch, du, w.u);
             for (int m = 0; m < modes; ++m) {
                 const std::size_t row = static_cast<std::size_t>(b) * modes + m;
@@ -120,7 +119,7 @@ class ShellBlockOf final : public ShellBlock {
 
     /// The blocks of the evaluation that begins take the place of those of the last one.
     void begin_blocks() {
-        const std::size_t rows = batches_.all.size() * element_.modes();
+        const std::size_t rows = batches_.size() * element_.modes();
         last_.y.resize(rows);
         last_.Y.resize(rows * size);
         from_kept_ = false;
@@ -155,13 +154,14 @@ class ShellBlockOf final : public ShellBlock {
                                    {}});
     }
 
-    /// Calls work(batch, workspace) for all batches, in parallel within a colour.
+    /// Calls work(batch, workspace, turn) for all batches, which calls turn() before it adds anything at their nodes; an element
+    /// takes as long as so many points.
     template <class Work>
-    void for_each_batch(const Work& work) {
+    void for_each_batch(int as_points, const Work& work) {
         const int threads = thread_count();  // once: another thread may change it while this one works
         prepare_workspaces(threads);
-        for_each_by_colour(batches_.colours, part_.size() < elements_worth_a_team ? 1 : threads,
-                           [&](int b, int thread) { work(b, workspaces_[thread]); });
+        turns_.run(part_.size() < points_worth_a_team / as_points ? 1 : threads,
+                   [&](int b, int thread, const auto& turn) { work(b, workspaces_[thread], turn); });
     }
 
     static Batch alone(int e) {
@@ -305,7 +305,8 @@ class ShellBlockOf final : public ShellBlock {
     Connectivity part_;
     std::vector<double> X_;
     std::vector<double> rolling_;  // none, one, or one for each element
-    Batches batches_;
+    Turns turns_;
+    std::vector<Batch> batches_;
     std::vector<Workspace> workspaces_;  // one a thread
     Eliminated last_, kept_;             // of the last evaluate with a tangent, and of the converged state
     std::vector<Lanes> followed_;        // y of the last evaluate without one

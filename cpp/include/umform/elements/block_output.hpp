@@ -55,8 +55,8 @@ std::pair<int, Voigt> ShellBlockOf<Nodes>::failing_point(int e, const double* u)
 template <int Nodes>
 template <class Write>
 void ShellBlockOf<Nodes>::for_each_response(const double* u, const Write& write) {
-    for_each_batch([&](int b, Workspace& w) {
-        const Batch& batch = batches_.all[b];
+    for_each_batch(points(), [&](int b, Workspace& w, const auto&) {
+        const Batch& batch = batches_[b];
         Failures failures{};
         LaneMask good = strains(batch, u, alpha_, w);
         mark(good, Failure::Inverted, failures);
@@ -143,8 +143,8 @@ void ShellBlockOf<Nodes>::write_fields(const Batch& batch, LaneMask good, const 
 
 template <int Nodes>
 Energy ShellBlockOf<Nodes>::energy(const double* u) {
-    for_each_batch([&](int b, Workspace& w) {
-        const Batch& batch = batches_.all[b];
+    for_each_batch(points(), [&](int b, Workspace& w, const auto&) {
+        const Batch& batch = batches_[b];
         const LaneMask valid = strains(batch, u, alpha_converged_, w);
         for (int lane = 0; lane < batch.count; ++lane) {
             const int e = batch.element[lane];
@@ -176,7 +176,7 @@ void ShellBlockOf<Nodes>::check_rolling() {
     prepare_workspaces(1);
     Workspace& w = workspaces_[0];
     const std::vector<double> at_rest(X_.size()), parameters(alpha_.size());
-    for (const Batch& batch : batches_.all) {
+    for (const Batch& batch : batches_) {
         strains(batch, at_rest.data(), parameters, w);
         element_.axes(nullptr, w.shell, w.axes);
         for (const Axes<Lanes>& e : w.axes) {

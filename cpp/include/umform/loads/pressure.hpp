@@ -1,9 +1,8 @@
 // Follower pressure on element faces: its direction and area turn and stretch with the sheet.
 #pragma once
 
-#include "umform/assembly/colours.hpp"
 #include "umform/assembly/target.hpp"
-#include "umform/assembly/threads.hpp"
+#include "umform/assembly/turns.hpp"
 #include "umform/elements/kinematics.hpp"
 #include "umform/elements/quadrature.hpp"
 #include "umform/elements/topology.hpp"
@@ -29,7 +28,8 @@ class PressureBlockOf final : public PressureBlock {
     static constexpr int size = 3 * Nodes;
 
     PressureBlockOf(Connectivity part, std::vector<double> X)
-        : part_(std::move(part)), X_(std::move(X)), colours_(make_colours(part_)), scale_(part_.size()) {
+        : part_(std::move(part)), X_(std::move(X)), turns_(part_, make_colours(part_), facets_of_a_turn),
+          scale_(part_.size()) {
         const Rule rule = gauss(Nodes == 4 ? 2 : 3);
         for (int is = 0; is < rule.size(); ++is)
             for (int ir = 0; ir < rule.size(); ++ir) {
@@ -43,15 +43,18 @@ class PressureBlockOf final : public PressureBlock {
 
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
         if (target.values != nullptr) scatter.require(false, name);
-        for_each_by_colour(colours_, part_.size() < facets_worth_a_team ? 1 : thread_count().load(),
-                           [&](int e, int) { facet(e, u, scatter, target); });
+        turns_.run(part_.size() < facets_worth_a_team ? 1 : thread_count().load(),
+                   [&](int group, int, const auto& turn) {
+                       for (const int e : turns_.elements(group)) facet(e, u, scatter, target, turn);
+                   });
         Outcome outcome;
         for (const double scale : scale_) outcome.force_scale_squared += scale;
         return outcome;
     }
 
   private:
-    void facet(int e, const double* u, const Scatter& scatter, const Target& target) {
+    template <class Turn>
+    void facet(int e, const double* u, const Scatter& scatter, const Target& target, const Turn& turn) {
         std::array<double, size> X, x, f{};
         alignas(64) std::array<double, static_cast<std::size_t>(size) * size> K{};
         gather<Nodes>(part_, e, X_.data(), X.data());
@@ -81,12 +84,13 @@ class PressureBlockOf final : public PressureBlock {
         double sum = 0.0;
         for (const double value : f) sum += value * value;
         scale_[e] = sum;
+        turn();
         scatter_element<Nodes>(part_, scatter, e, K.data(), f.data(), target, !symmetric);
     }
 
     Connectivity part_;
     std::vector<double> X_;
-    std::vector<std::vector<std::int32_t>> colours_;
+    Turns turns_;
     std::vector<double> scale_;
     std::vector<FaceShape<Nodes>> shapes_;
     std::vector<double> weights_;

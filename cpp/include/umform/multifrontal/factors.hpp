@@ -54,7 +54,7 @@ class Factors {
         const OneBlasThread alone;
         const std::optional<Buffers> buffers = reserve(threads);
         schedule_.run(
-            plan_, threads,
+            plan_, schedule_.factoring(threads),
             [&](const Schedule::Unit& unit, int thread) {
                 Worker& worker = workers_[thread];
                 Room room = Room::of(arena_, pool_, schedule_.stacks, !schedule_.side(unit.root), 0);
@@ -120,11 +120,11 @@ class Factors {
 
     /// Takes all memory that is planned, or throws: before any product is made, since BLAS may not come back where none is left.
     std::optional<Buffers> reserve(int threads) {
-        const int team = schedule_.worth_a_team ? threads : 1;
+        const int team = schedule_.factoring(threads);
         storage_.grow(schedule_.end);
         arena_.reset(storage_.data() + schedule_.begin, schedule_.end - schedule_.begin);
         if (static_cast<int>(workers_.size()) < threads) workers_ = std::vector<Worker>(threads);
-        if (!schedule_.worth_a_team) return {};
+        if (team == 1 && !schedule_.is_large()) return {};
         const std::size_t more = team == 1 ? 0 : schedule_.peak, above = more > pool_.held() ? more - pool_.held() : 0;
         return std::optional<Buffers>(std::in_place, team, above);
     }

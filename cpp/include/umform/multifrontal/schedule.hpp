@@ -25,7 +25,7 @@ class Schedule {
     std::vector<std::uint8_t> depth;  // even or odd
     std::size_t stacks = 0;           // numbers in the two stacks of a unit, at most
     std::size_t peak = 0;             // numbers in stacks and updates at one time, on one thread
-    bool worth_a_team = false;
+    std::int64_t work = 0;            // multiplications of a factorisation
 
     /// Where the memory for updates begins and ends: behind the factors and, where all fronts have one ancestor, in its columns
     /// until they are assembled. What that front takes over lies behind `floor`.
@@ -34,11 +34,9 @@ class Schedule {
 
     explicit Schedule(const Plan& plan) : above(plan.fronts.size(), 0), depth(plan.fronts.size(), 0) {
         const int count = static_cast<int>(plan.fronts.size());
-        std::int64_t total = 0;
         for (const Front& front : plan.fronts)
-            if (front.parent < 0) total += front.work;
-        worth_a_team = total > kSmall;
-        const std::int64_t limit = std::max(kUnit, total / kUnits);
+            if (front.parent < 0) work += front.work;
+        const std::int64_t limit = std::max(kUnit, work / kUnits);
         std::vector<std::int32_t> first(count);
         for (int f = 0; f < count; ++f)
             first[f] =
@@ -57,18 +55,23 @@ class Schedule {
         place(plan);
     }
 
+    /// A solution takes some tens of microseconds below this, and BLAS needs no buffers.
+    bool is_large() const { return work > kLarge; }
+    /// Threads that share a factorisation, and a solution, of those that there are.
+    int factoring(int threads) const { return work > kSmall ? threads : 1; }
+    int solving(int threads) const { return is_large() ? threads : 1; }
+
     /// Side of the memory for updates from which that of a front is taken.
     bool side(int f) const { return depth[f] != 0; }
 
     /// Calls alone(unit, thread) for each unit and together(front, thread) for each front above, children first.
     template <class Alone, class Together>
-    void run(const Plan& plan, int threads, const Alone& alone, const Together& together) const {
+    void run(const Plan& plan, [[maybe_unused]] int team, const Alone& alone, const Together& together) const {
         std::vector<std::atomic<std::int32_t>> missing(plan.fronts.size());
         for (std::size_t f = 0; f < plan.fronts.size(); ++f)
             missing[f] = plan.children_start[f + 1] - plan.children_start[f];
         const int count = static_cast<int>(units.size());
         FirstException exception;
-        [[maybe_unused]] const int team = worth_a_team ? threads : 1;
 #pragma omp parallel for num_threads(team) if (team > 1) schedule(dynamic, 1)
         for (int k = 0; k < count; ++k)
             exception.guard([&] {
@@ -81,17 +84,16 @@ class Schedule {
 
     /// Calls alone(unit, thread) for each unit.
     template <class Alone>
-    void run_units(int threads, const Alone& alone) const {
+    void run_units([[maybe_unused]] int team, const Alone& alone) const {
         const int count = static_cast<int>(units.size());
         FirstException exception;
-        [[maybe_unused]] const int team = worth_a_team ? threads : 1;
 #pragma omp parallel for num_threads(team) if (team > 1) schedule(dynamic, 1)
         for (int k = 0; k < count; ++k) exception.guard([&] { alone(units[k], thread_index()); });
         exception.rethrow();
     }
 
   private:
-    static constexpr std::int64_t kSmall = 20'000'000, kUnit = 1'000'000;  // multiplications
+    static constexpr std::int64_t kSmall = 2'000'000, kLarge = 20'000'000, kUnit = 1'000'000;  // multiplications
     static constexpr std::int64_t kUnits = 48;
 
     void find_peak(const Plan& plan) {

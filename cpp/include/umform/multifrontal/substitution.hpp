@@ -17,10 +17,10 @@ class Substitution {
     static constexpr int most_columns = 16;
 
     Substitution(const Factors& factors, int columns, int threads)
-        : factors_(factors), plan_(factors.plan()), columns_(columns), threads_(threads),
+        : factors_(factors), plan_(factors.plan()), columns_(columns), threads_(factors.schedule().solving(threads)),
           memory_(factors.lend((2 * static_cast<std::size_t>(plan_.n) + plan_.rows.size()) * columns)),
           right_(memory_.data()), found_(right_ + static_cast<std::ptrdiff_t>(plan_.n) * columns),
-          carried_(found_ + static_cast<std::ptrdiff_t>(plan_.n) * columns), scratch_(threads) {}
+          carried_(found_ + static_cast<std::ptrdiff_t>(plan_.n) * columns), scratch_(threads_) {}
 
     /// Columns of b and x are `n` long, in the order of the equations.
     void run(const double* b, double* x) {
