@@ -23,8 +23,6 @@ from umform_book.calculix import totals
 
 #: Strokes at which forces are compared, the stroke that is run, and the part of the sheet that is bent on the way.
 MARKS, STROKE, BENT = (2.0, 5.0, 10.0), 10.5, (17.5, 45.0)
-#: Ways of the punch in the first increment and in one at most, in CalculiX.
-WAYS = (0.021, 0.21)
 #: Layers and lengths of the elements; what else is changed with one layer of 0.5 mm.
 MESHES = ((1, 1.0), (1, 0.5), (1, 0.25), (2, 1.0), (2, 0.5), (2, 0.25), (4, 0.5))
 CHANGES: Mapping[str, Mapping[str, Any]] = {
@@ -32,7 +30,8 @@ CHANGES: Mapping[str, Mapping[str, Any]] = {
     "3 x 3 cells": {"rule": "cells"},
     "210 increments": {"increments": 210},
 }
-THEIRS = ((2, 1.0), (2, 0.5), (4, 0.5))
+#: In CalculiX: layers, length, and the largest way of the punch in an increment, of which the first takes a fifth.
+THEIRS = ((2, 0.5, 0.21), (2, 1.0, 0.05), (2, 0.5, 0.05), (2, 0.25, 0.05))
 
 
 def mesh_of(layers: int, size: float) -> Any:
@@ -56,10 +55,10 @@ def ours(layers: int, size: float, friction: float | None, increments: int | Non
     return [float(np.interp(mark, -result["stroke"][drawn], result["punch_fz"][drawn])) for mark in MARKS]
 
 
-def theirs(layers: int, size: float, friction: float | None, seconds: float) -> list[float]:
+def theirs(layers: int, size: float, way: float, friction: float | None, seconds: float) -> list[float]:
     """The same in CalculiX; NaN beyond its end."""
     with tempfile.TemporaryDirectory() as name:
-        run_deck(Path(name), deck(mesh_of(layers, size), friction, STROKE, WAYS), seconds)
+        run_deck(Path(name), deck(mesh_of(layers, size), friction, STROKE, (way / 5.0, way)), seconds)
         time, force = totals((Path(name) / "job.dat").read_text())
     stroke = (time - 1.0) * STROKE
     return [float(np.interp(mark, stroke, -force[:, 2], right=np.nan)) for mark in MARKS]
@@ -95,9 +94,9 @@ def main() -> None:
     for label, change in CHANGES.items():
         add(f"layers 1, 0.5 mm, {label}", (ours(1, 0.5, MU, **change), ours(1, 0.5, None, **change)))
     if given.calculix > 0 and shutil.which("ccx"):
-        for layers, size in THEIRS:
-            found = [theirs(layers, size, friction, given.calculix) for friction in (MU, None)]
-            add(f"CalculiX, C3D8I, layers {layers}, {size:g} mm", (found[0], found[1]))
+        for layers, size, way in THEIRS:
+            found = [theirs(layers, size, way, friction, given.calculix) for friction in (MU, None)]
+            add(f"CalculiX, C3D8I, layers {layers}, {size:g} mm, increments of {way:g} mm", (found[0], found[1]))
     print(table(rows))
     if given.page is not None:
         record.put(given.page, "ubend-start", table(rows))
