@@ -67,7 +67,12 @@ def twice(function: Callable[..., Answer], sheet: Sheet, other: Sheet, **keys: A
 
 def _twice(kind: str, special: str, function: Callable[..., Answer], other: dict[str, Any], **keys: Any) -> Watched:
     sheet = keys.pop("sheet", Sheet())
-    return Watched(kind, special, partial(twice, function, sheet, replace(sheet, **other), **keys))
+
+    def of(sheet: Sheet) -> Callable[[], Answer]:
+        return partial(twice, function, sheet, replace(sheet, **other), **keys)
+
+    finer = None if sheet.steps is None else of(replace(sheet, steps=2 * sheet.steps))
+    return Watched(kind, special, of(sheet), finer)
 
 
 _air = _of(ready.air_bend, "air bend")
@@ -173,7 +178,7 @@ JOBS: tuple[Watched, ...] = (
     _dome("no friction, 18 nodes", friction=None, element="MI9K3DEAS", cells=(2, 4)),
     _bulge("unloaded", unload=True, steps=20),
     _bulge("in a die, arc length", die=True, arc=True, pressure=25.0),
-    _plate("ball, clamped"),
+    _plate("ball, clamped", steps=10),
     _plate(
         "on a ring under a plunger, augmented", edges="ring", tool="plunger", contact={"points": 2, "augmented": True}
     ),

@@ -59,6 +59,8 @@ class Pace(Part):
     """Fraction of the contact points that open or close."""
     iterations: Count = steps.Pace.iterations
     """Newton iterations to which the size is adapted."""
+    work: Positive = steps.Pace.work
+    """Difference of work and energies, relative to the energy, above which an increment is repeated in halves."""
 
     def build(self) -> steps.Pace:
         """The limits."""

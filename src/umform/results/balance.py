@@ -1,9 +1,10 @@
 """The balance of a run: external work against energies, resultants of the external forces.
 
 External work is stored as elastic energy, dissipated by plastic flow and friction, or stored by the penalty of contact.
-The work is the trapezoidal rule over the converged states; beyond it there is only what friction takes where it begins
-to slip. It does not use the other energies, so that the difference measures the time discretisation. Relative to the
-largest energy it falls with the square of the increment. docs/theory, 5.11
+The work is the trapezoidal rule over the converged states; beyond it there is only what happens at contact points
+within an increment, where they touch, leave, or begin to slip. It uses no energy of the sheet, so that the difference
+measures the time discretisation. Relative to the largest energy it falls with the square of the increment.
+docs/theory, 5.11
 """
 
 from __future__ import annotations
@@ -65,7 +66,7 @@ class Balance:
         Sum of their moments about the origin, relative to the same sum times the largest initial distance of a node
         from it.
     works : mapping of str to ndarray
-        Work of each tool on the sheet by its name, of "loads and supports" together, and of "friction beyond the mean",
+        Work of each tool on the sheet by its name, of "loads and supports" together, and of "contact beyond the mean",
         the part of it within increments that no mean of forces contains, since the run began. Their sum is the change
         of the external work, except that an opened tool adds the energy of its contact to that.
     """
@@ -117,8 +118,8 @@ def drift(external_work: Floats, stored: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class _Tool:
-    """Pose of a tool, force and moment of the sheet on it, sum of the magnitudes of the contact forces, and the part of
-    the work of friction that no mean of forces contains.
+    """Pose of a tool, force and moment of the sheet on it, sum of the magnitudes of the contact forces, and the work
+    that no mean of forces contains: of friction so far, of points that touched or left in the last increment.
     """
 
     point: Floats
@@ -127,19 +128,22 @@ class _Tool:
     moment: Floats  # about the point
     magnitude: float
     above_mean: float
+    of_touch: float
 
     @classmethod
     def of(cls, tool: Tool, evaluation: Evaluation, ranks: Ranks) -> _Tool:
         rotation, shift = tool.pose(evaluation.controls, evaluation.time)
         point = rotation @ tool.reference_point + shift
-        force, moment, magnitude, above = np.zeros(3), np.zeros(3), 0.0, 0.0
+        force, moment, magnitude, above, touch = np.zeros(3), np.zeros(3), 0.0, 0.0, 0.0
         for pair in tool.pairs:
             found: ContactFound = evaluation.found[pair]
             of_pair = found.resultant(point)
             force, moment = force + of_pair[0], moment + of_pair[1]
             magnitude += float(found.pressure @ found.area)
             above += found.held.work_above_mean
-        return cls(point, rotation, ranks.sum(force), ranks.sum(moment), ranks.sum(magnitude), ranks.sum(above))
+            touch += pair.work_of_touch
+        sums = [ranks.sum(part) for part in (magnitude, above, touch)]
+        return cls(point, rotation, ranks.sum(force), ranks.sum(moment), *sums)
 
     def work_since(self, before: _Tool) -> float:
         """Work of the forces that move the tool against the sheet, from an earlier state. eq. (5.32)"""
@@ -174,6 +178,25 @@ class _State:
     tools: list[_Tool]
 
 
+@dataclass(frozen=True)
+class Worked:
+    """Balance of one increment.
+
+    Attributes
+    ----------
+    difference : float
+        Magnitude of the external work less the change of the energies.
+    gained : float
+        Magnitude of the change of the energies.
+    energy : float
+        Sum of the energies at the end.
+    """
+
+    difference: float
+    gained: float
+    energy: float
+
+
 class ExternalWork:
     """External work along the converged states of a run, and the resultants in each state.
 
@@ -189,7 +212,7 @@ class ExternalWork:
     imbalances : list of tuple of float
         Relative resultants of all external forces and moments, one pair for each state. eq. (5.34)
     works : list of ndarray
-        Work of loads and supports, of friction beyond the mean, then of each tool, since the first state; one array for
+        Work of loads and supports, of contact beyond the mean, then of each tool, since the first state; one array for
         each state.
     """
 
@@ -219,6 +242,11 @@ class ExternalWork:
             self.works.append(self.works[-1] + parts)
         self._before = state
         self.imbalances.append(self._imbalance(state))
+
+    def since(self, before: ExternalWork) -> Worked:
+        """Balance of the increment from an earlier state."""
+        gained = self.energies.total - before.energies.total
+        return Worked(abs(self.value - before.value - gained), abs(gained), abs(self.energies.total))
 
     def begin_anew(self, evaluation: Evaluation) -> None:
         """Continue from the same state with loads that replace the contact forces of removed tools."""
@@ -278,9 +306,10 @@ class ExternalWork:
         return forces, sum(held, start=forces)
 
     def _works(self, before: _State, state: _State) -> list[float]:
-        """Work of loads and supports, of friction beyond the mean, of each tool. eqs. (5.31), (4.220), (5.32)"""
+        """Work of loads and supports, of contact beyond the mean, of each tool. eqs. (5.31), (5.104), (5.32)"""
         nodes = 0.5 * self.model.ranks.dot(before.forces + state.forces, state.u - before.u)
         above = sum(tool.above_mean for tool in state.tools) - sum(tool.above_mean for tool in before.tools)
+        above += sum(tool.of_touch for tool in state.tools)
         return [nodes, above, *map(_Tool.work_since, state.tools, before.tools)]
 
     def _imbalance(self, state: _State) -> tuple[float, float]:

@@ -36,7 +36,7 @@ class Balanced:
     external_work, elastic, plastic, contact, friction : float
         External work with the energies at the start, and energies, at the end.
     works : dict of str to float
-        Work of each tool, of loads and supports, and of friction beyond the mean.
+        Work of each tool, of loads and supports, and of contact beyond the mean.
     """
 
     force_imbalance: float

@@ -14,7 +14,7 @@ from umform.errors import InvalidValue
 from umform.model import Evaluation, Model
 from umform.model.frame import Frame
 from umform.results import fields
-from umform.results.balance import Balance, ExternalWork, drift
+from umform.results.balance import Balance, ExternalWork, Worked, drift
 from umform.results.volume import VolumeChange, volume_change
 from umform.solution.records import Iteration
 from umform.timing import Timing
@@ -62,6 +62,7 @@ class History:
         self.solver = ""
         self.seconds = 0.0
         self._work = ExternalWork(model)
+        self._ahead: tuple[Evaluation, ExternalWork] | None = None  # the work with a state that is not kept yet
         self._writes = model.ranks.rank == 0  # one rank writes for all
 
     def add(self, evaluation: Evaluation, iterations: list[Iteration], *, step: int = 0, frame: bool = True) -> None:
@@ -110,7 +111,11 @@ class History:
         return row
 
     def _energy_columns(self, evaluation: Evaluation) -> dict[str, float]:
-        self._work.advance(evaluation)
+        if self._ahead is not None and self._ahead[0] is evaluation:
+            self._work = self._ahead[1]
+        else:
+            self._work.advance(evaluation)
+        self._ahead = None
         energies = self._work.energies
         return {
             "external_work": self._work.value,
@@ -119,6 +124,14 @@ class History:
             "contact_energy": energies.contact,
             "friction_work": energies.friction,
         }
+
+    def worked(self, evaluation: Evaluation) -> Worked:
+        """Balance of the increment to a converged state of the model that is not in the history yet."""
+        with self.timing.output:
+            ahead = self._work.copy()
+            ahead.advance(evaluation)
+        self._ahead = evaluation, ahead
+        return ahead.since(self._work)
 
     def balance(self) -> Balance:
         """Balance of energies, forces and moments of each row of the history.
@@ -133,7 +146,7 @@ class History:
         names = ("elastic_energy", "plastic_work", "contact_energy", "friction_work")
         elastic, plastic, contact, friction = (self[name] for name in names)
         forces, moments = np.array(self._work.imbalances).T
-        workers = ("loads and supports", "friction beyond the mean", *(tool.name for tool in self.model.tools))
+        workers = ("loads and supports", "contact beyond the mean", *(tool.name for tool in self.model.tools))
         return Balance(
             step=self["step"],
             time=self["time"],

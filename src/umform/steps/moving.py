@@ -16,6 +16,7 @@ from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
 from umform.steps.move import Move
 from umform.steps.pace import Happened
+from umform.steps.saved import Saved
 from umform.steps.trail import changes
 
 log = logging.getLogger("umform.steps")
@@ -83,12 +84,18 @@ class Moving:
         x_before, active_before = model.x.copy(), run.evaluation.active
         if self._hopeless(step, 0.5 * (target - self.fraction)):
             run.habits.last_chance()
+        saved, trail, mark = self._saved(run), run.trail, run.newton.timing.attempts.mark()
         try:
             values = step.values(target, self.starts)
             time = self.start_time + target * step.time
             converged = take_increment(run, values, step.moved(), time, extrapolation)
         except Failed as failure:
             self._cut(run, step, failure, target)
+            return
+        if saved is not None and self._repeats(run, step, target, converged):
+            saved.restore(run)
+            run.trail, self.size = trail, 0.5 * (target - self.fraction)
+            run.newton.timing.attempts.take_back(mark, "difference of work and energies")
             return
         if converged.jumped:
             way = float(np.abs(model.u - x_before[: model.u.size]).max())
@@ -103,6 +110,14 @@ class Moving:
             self._adapt(step, converged, lambda: Happened.between(model, x_before, active_before, converged))
         frame = run.frames > 0 and (self.done or self._pictured(step, run.frames, before))
         run.keep(converged, step.moved(), name=f"step {run.number}", fraction=self.fraction, frame=frame)
+
+    def _saved(self, run: Run) -> Saved | None:
+        """The state before the increment, if it may be repeated although it converges."""
+        return None
+
+    def _repeats(self, run: Run, step: Move, target: float, converged: Converged) -> bool:
+        """Whether a converged increment is repeated with half the size."""
+        return False
 
     @abstractmethod
     def _target(self, step: Move) -> float:
@@ -202,6 +217,16 @@ class Pacing(Moving):
         if self.size >= rest * (1.0 - _NEAR):
             return 1.0
         return self.fraction + (0.5 * rest if self.size > 0.5 * rest else self.size)
+
+    def _saved(self, run: Run) -> Saved | None:
+        return Saved.of(run.model, run.evaluation)
+
+    def _repeats(self, run: Run, step: Move, target: float, converged: Converged) -> bool:
+        """Where works and energies differ too much; a jump has a difference whatever the size."""
+        if converged.jumped:
+            return False
+        assert step.pace is not None
+        return step.pace.repeats(target - self.fraction, run.result.worked(converged.evaluation))
 
     def _adapt(self, step: Move, converged: Converged, happened: Callable[[], Happened]) -> None:
         """Adapt the size to the pace."""

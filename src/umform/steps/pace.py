@@ -11,12 +11,15 @@ from numpy.typing import NDArray
 from umform.errors import InvalidValue
 from umform.model import Model
 from umform.model.change import strained, turned
+from umform.results.balance import Worked
 from umform.solution.records import Converged
 
 Floats = NDArray[np.float64]
 
 #: Range of the ratio of successive sizes.
 _LEAST, _MOST = 0.5, 2.0
+#: Size, relative to the first one, below which no increment is repeated because of its work.
+_SHORTEST = 0.3
 #: This number of contact points may always open or close.
 _FEW_POINTS = 8
 
@@ -39,6 +42,9 @@ class Pace:
         Contact points that open or close, relative to those in contact.
     iterations : int
         Newton iterations at which the size is kept: with half of them it may double.
+    work : float
+        Difference of the external work from the energies in an increment, relative to the energy so far, or to that of
+        the step at this rate. An increment with more is repeated with half the size. eq. (5.103)
 
     Examples
     --------
@@ -55,6 +61,7 @@ class Pace:
     strain: float = 0.02
     contact: float = 1.0
     iterations: int = 12
+    work: float = 1e-3
 
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
@@ -67,6 +74,11 @@ class Pace:
                 value=f"first = {self.first}, largest = {self.largest}",
                 remedy="first <= largest <= 1",
             )
+
+    def repeats(self, size: float, worked: Worked) -> bool:
+        """Whether an increment of this size, as a fraction of the step, is repeated with half of it. eq. (5.103)"""
+        largest = max(worked.energy, worked.gained / size)
+        return size > _SHORTEST * self.first and worked.difference > self.work * largest
 
     def factor(self, happened: Happened) -> float:
         """Ratio of the next size to that of the increment with these changes."""

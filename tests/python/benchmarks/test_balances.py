@@ -10,7 +10,7 @@ import pytest
 import umform as uf
 
 #: How many jobs the sample has.
-SAMPLE = 10
+SAMPLE = 12
 
 
 @pytest.fixture

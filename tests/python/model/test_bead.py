@@ -254,6 +254,16 @@ def test_the_work_of_a_bead_closes_the_balance():
     assert drifts[2] < 2e-5
 
 
+def test_points_that_enter_and_leave_the_band_do_the_work_of_the_lift_only():
+    """Their lift depends on the place: no energy of a gap, as points of contact have, is missing in it."""
+    model, pull, bead = drawn_strip(uplift=20.0)
+    solve(model, Move(pull, 0.5, steps=2))
+    before = bead.found
+    solve(model, Move(pull, 3.0, steps=1))
+    assert (bead.found.active != before.active).any()
+    assert bead.work_of_touch == 0.0
+
+
 def test_a_bead_goes_with_the_tool_that_is_removed():
     model, pull, bead = drawn_strip()
     solve(model, Move(pull, 0.5, steps=3))

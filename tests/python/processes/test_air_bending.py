@@ -188,6 +188,17 @@ def test_the_parts_of_a_loading_are_the_same_for_all_strokes():
     assert loading(COARSE, 0.1 * part) == [(0.1 * part, 1)]
 
 
+def test_the_pressing_of_bottoming_has_four_times_the_increments():
+    """Most of the work is done there: one increment in the air has a hundredth of it."""
+    case = replace(COARSE, die_angle=88.0, punch_angle=88.0, bottoming=True)
+    part = INCREMENTS * case.way
+    for end, count in loading(case, case.bottom_stroke + 0.1 * case.thickness)[:-1]:
+        pressed = end > case.bottom_stroke - 0.5 * case.thickness
+        assert count == (4 if pressed else 1) * INCREMENTS
+    assert loading(case, case.bottom_stroke)[-1][1] > INCREMENTS
+    assert loading(case, 2.0 * part) == loading(COARSE, 2.0 * part)
+
+
 def test_an_angle_beyond_the_tools_is_refused():
     with pytest.raises(InvalidValue, match="against a flank"):
         find_stroke(COARSE, 84.0, progress=False)

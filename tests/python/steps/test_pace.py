@@ -8,6 +8,7 @@ import pytest
 import umform as uf
 from umform.errors import InvalidValue
 from umform.model.change import strained, turned
+from umform.results.balance import Worked
 from umform.steps.pace import Happened
 
 
@@ -39,6 +40,40 @@ def test_the_narrowest_limit_rules(what, factor):
 def test_limits_that_make_no_sense_are_refused(limits):
     with pytest.raises(InvalidValue, match="pace"):
         uf.Pace(**limits)
+
+
+@pytest.mark.parametrize(
+    ("size", "worked", "again"),
+    [
+        (0.02, Worked(0.011, gained=1.0, energy=10.0), False),  # 50 in the step at this rate
+        (0.2, Worked(0.011, gained=1.0, energy=10.0), True),
+        (0.2, Worked(0.011, gained=1.0, energy=12.0), False),
+        (0.02, Worked(0.06, gained=1.0, energy=1.0), True),
+        (0.003, Worked(1.0, gained=1.0, energy=1.0), False),  # as small as increments become for this
+        (0.2, Worked(np.nan, gained=np.nan, energy=np.nan), False),
+    ],
+)
+def test_an_increment_is_repeated_if_its_works_differ(size, worked, again):
+    assert uf.Pace().repeats(size, worked) is again
+
+
+def test_repeated_increments_halve_the_drift():
+    """The whole strip yields in its first increments."""
+
+    def bent(work):
+        model, end = cantilever(uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(100.0, 1000.0)))
+        pace = uf.Pace(first=0.1, turn=20.0, strain=0.2, work=work)
+        return uf.solve(model, uf.Move(end, to=3.0, steps=pace), frames=0, progress=False)
+
+    loose, kept = bent(1.0), bent(uf.Pace.work)
+    repeated = kept.timing.attempts.causes["difference of work and energies"]
+    assert 1 <= repeated <= 4
+    assert len(kept) <= len(loose) + 2 * repeated
+    assert kept.timing.attempts.thrown > 0
+    drifts = [np.abs(run.balance().drift).max() for run in (loose, kept)]
+    assert drifts[1] < 0.5 * drifts[0]
+    assert (np.diff(kept["time"]) > 0.0).all()
+    assert kept["end"][-1] == 3.0
 
 
 def cantilever(law, cells=(10, 1)):

@@ -8,8 +8,8 @@
 
 namespace umform {
 
-/// State: plastic strain (engineering shears), eqps, and with back stresses or a falling modulus the work done on both and
-/// each back stress.
+/// State: plastic strain (engineering shears), eqps, and with back stresses, a falling modulus or a rate the work done on them,
+/// each back stress, and the overstress.
 template <class Yield>
 struct Metal {
     MetalParts parts;
@@ -18,12 +18,11 @@ struct Metal {
 
     static constexpr bool has_stages = true;
     static constexpr int surface_size = 14;  // alpha*, R, q, r
-    static constexpr int state_limit = 8 + 6 * Chaboche::largest + surface_size;
+    static constexpr int state_limit = 8 + 6 * Chaboche::largest + surface_size + 1;
 
     Metal(MetalParts metal, Yield function)
         : parts(std::move(metal)), yield(std::move(function)),
-          state_size(
-              parts.associated_only() ? 7 : 8 + 6 * parts.back_stress.count() + (two_surfaces() ? surface_size : 0)) {}
+          state_size(parts.associated_only() ? 7 : overstress_at() + (parts.rate.active() ? 1 : 0)) {}
 
     std::vector<Quantity> state_names() const {
         std::vector<Quantity> names{{"plastic_strain", 6}, {"eqps", 1}};
@@ -33,6 +32,7 @@ struct Metal {
             names.insert(
                 names.end(),
                 {{"inner_back_stress", 6}, {"bounding_growth", 1}, {"stagnation_centre", 6}, {"stagnation_radius", 1}});
+        if (parts.rate.active()) names.push_back({"overstress", 1});
         return names;
     }
     void initial(double* state) const { std::fill_n(state, state_size, 0.0); }
@@ -50,6 +50,7 @@ struct Metal {
         const Mask<Real> plastic = flows(start, none, step);
 
         std::copy_n(state, state_size, trial);
+        if (parts.rate.active()) trial[overstress_at()] = 0.0;
         PlasticFlow<Real> flow;
         Mask<Real> found = true;
         Vec<Real, 6> coupling{};
@@ -62,7 +63,7 @@ struct Metal {
                 ratio = parts.modulus(start.eqps + flow.dp);
                 coupling = yield.basis.tensor(flow.dp_by_strain, 1.0);
             }
-            commit(start, none.ratio, volume, flow, trial);
+            commit(start, none.ratio, volume, flow, state, trial);
         } else {
             flow.tangent = {};
             for (int i = 0; i < 5; ++i) {
@@ -112,6 +113,8 @@ struct Metal {
     bool two_surfaces() const { return parts.two_surfaces.active(); }
     /// Where the history of two surfaces begins.
     int surfaces_at() const { return 8 + 6 * parts.back_stress.count(); }
+    /// Where the overstress of a rate is, the last of the history.
+    int overstress_at() const { return surfaces_at() + (two_surfaces() ? surface_size : 0); }
 
     /// Whether the trial state lies outside of the yield surface; a metal with a rate needs time to flow.
     template <class Real>
@@ -165,7 +168,7 @@ struct Metal {
     /// The new history. Back stresses move along xi, which is s less their sum. eqs. (3.74), (3.82), (3.83)
     template <class Real>
     void commit(const PlasticStart<Real>& start, const YieldStress<Real>& ratio_before, Real volume,
-                const PlasticFlow<Real>& flow, Real* trial) const {
+                const PlasticFlow<Real>& flow, const Real* state, Real* trial) const {
         const Vec<Real, 6> strain = yield.basis.tensor(flow.n, 0.5);
         for (int p = 0; p < 6; ++p) trial[p] += flow.dp * strain[p];
         trial[6] += flow.dp;
@@ -204,8 +207,11 @@ struct Metal {
             trial[place + 6] = select(flow.plastic, stagnation.grown, trial[place + 6]);
             trial[place + 13] = select(flow.plastic, stagnation.radius, trial[place + 13]);
         }
-        if (parts.rate.active())
-            work += at.y.value - yield_stress(parts.hardening, start.eqps + flow.dp).value;  // eq. (3.125)
+        if (parts.rate.active()) {  // eq. (3.125)
+            Real& over = trial[overstress_at()];
+            over = select(flow.plastic, at.y.value - yield_stress(parts.hardening, start.eqps + flow.dp).value, 0.0);
+            work += 0.5 * (state[overstress_at()] + over);
+        }
         trial[7] += lost * square + work * flow.dp;
     }
 };

@@ -104,6 +104,11 @@ class Bead(Contact):
         """Whether it holds the sheet along the tool."""
         return True
 
+    @property
+    def has_potential(self) -> bool:
+        """Whether its energy follows from the pressures: the lift depends on the place. eq. (4.106)"""
+        return False
+
     def _law(self) -> _core.ContactLaw:
         return self.line.law()
 

@@ -66,6 +66,10 @@ class ContactFound(Found):
         Results at the held points.
     measure : callable
         Returns positions (n, 3), gaps (n,) and normals (n, 3) of all points at the same displacement and pose.
+    place : callable
+        Returns the positions (k, 3) of some points, by their numbers (k,), in the frame of the tool.
+    rotation : ndarray, shape (3, 3)
+        Rotation of the tool.
     area : ndarray, shape (n,)
         Reference areas of all points.
     multiplier : ndarray, shape (n,)
@@ -80,6 +84,8 @@ class ContactFound(Found):
 
     held: Any = None
     measure: Callable[[], tuple[Floats, Floats, Floats]] = field(default=lambda: (np.empty(0),) * 3, repr=False)
+    place: Callable[[NDArray[np.int64]], Floats] = field(default=lambda points: np.empty((0, 3)), repr=False)
+    rotation: Floats = field(default_factory=lambda: np.eye(3), repr=False)
     area: Floats = field(default_factory=lambda: np.empty(0), repr=False)
     multiplier: Floats = field(default_factory=lambda: np.empty(0), repr=False)
     penalty: float = 0.0
@@ -230,12 +236,45 @@ class ContactFound(Found):
         difference, total = self.pressure - self.multiplier, self.pressure + self.multiplier
         return 0.5 / self.penalty * float((difference * self.area) @ total)
 
+    def work_of_touch(self, before: ContactFound) -> float:
+        """What the mean of both ends has too little of the work of points that touch or leave in between. eq. (5.104)
+
+        Parameters
+        ----------
+        before : ContactFound
+            The converged state at the beginning.
+        """
+        points = np.flatnonzero(self.active != before.active) if self.has_potential else np.zeros(0, dtype=int)
+        if points.size == 0:
+            return 0.0
+        way = self.place(points) - before.place(points)
+        mean = 0.5 * (self._pressed(points) + before._pressed(points))
+        gained = self._potential(points) - before._potential(points)
+        return float(self.area[points] @ (gained + (mean * way).sum(axis=1)))
+
+    def _pressed(self, points: NDArray[np.int64]) -> Floats:
+        """Normal tractions of the tool on the sheet at some points in the frame of the tool, shape (k, 3)."""
+        return (self.pressure[:, None] * self.held_normal)[points] @ self.rotation
+
+    def _potential(self, points: NDArray[np.int64]) -> Floats:
+        """Energy of penalty and multipliers per area at some points. eq. (4.32)"""
+        p, multiplier = self.pressure[points], self.multiplier[points]
+        return 0.5 / self.penalty * (p - multiplier) * (p + multiplier)
+
     def work_of_stiffening(self, before: ContactFound) -> float:
-        """Work of a penalty that has changed since the last converged state; cells count it themselves. eq. (4.201)"""
+        """Work of a penalty or of multipliers that have changed since the last converged state. eqs. (4.201), (4.240)
+
+        Cells count it themselves.
+        """
         if not self.has_potential:
             return 0.0
-        softer = 1.0 / self.penalty - 1.0 / before.penalty
-        return 0.5 * softer * float((before.pressure * self.area) @ self.pressure)
+        p, p_before = self.pressure, before.pressure
+        both = np.where(self.active & before.active, self.area, 0.0)
+
+        def at(multiplier: Floats, penalty: float) -> float:
+            return 0.5 / penalty * float(both @ ((multiplier - p_before) * (multiplier - p)))
+
+        return at(self.multiplier, self.penalty) - at(before.multiplier, before.penalty)
 
 
 def moment(arms: Floats, forces: Floats) -> Floats:

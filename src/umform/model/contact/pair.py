@@ -104,8 +104,10 @@ class Contact(PairPoints):
         """Accept trial history, multipliers, penalty and results as converged."""
         self._commit()
         assert isinstance(found, ContactFound)
-        if self.penalty != self._standing_penalty and self._last is not None:
-            self.stiffening_work += found.work_of_stiffening(self._last)
+        last = self._last
+        if last is not None and (self.augmented or self.penalty != self._standing_penalty):
+            self.stiffening_work += found.work_of_stiffening(last)
+        self.work_of_touch = 0.0 if last is None or self.tool.open else found.work_of_touch(last)
         self._standing_penalty = self.penalty
         self.stand(found)
 
@@ -128,10 +130,11 @@ class Contact(PairPoints):
         self.block.revert()
 
     def state(self) -> Tree:
-        """History of the points, and the penalty if it adapts; a row for each facet, which ranks share."""
+        """History of the points, a grown penalty and the work of changes; a row for each facet, which ranks share."""
         tree: Tree = {"history": self._by_facet(self.block.state)}
         if self.adapts:
             tree["penalty"] = np.full(len(self.facets), self._standing_penalty)
+        if self.adapts or self.augmented:
             work = tree["stiffening work"] = np.zeros(len(self.facets))
             work[:1] = self.stiffening_work  # shares of all facets would not add up to the same bits
         return tree
@@ -147,6 +150,7 @@ class Contact(PairPoints):
         if self.adapts and len(tree.get("penalty", ())):
             self._standing_penalty = float(tree["penalty"][0])
             self.use_penalty(self._standing_penalty)
+        if len(tree.get("stiffening work", ())):
             self.stiffening_work = float(tree["stiffening work"].sum())
         self._last = None
 

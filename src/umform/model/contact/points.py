@@ -36,8 +36,10 @@ class PairPoints(Term):
         self.name = name
         self.tool = tool
         self._settings, self._penalty = settings, settings.penalty
-        #: Work that growing penalties have put into the contact, negative; a sum over the facets here. eq. (4.201)
+        #: Work of growing penalties and of multipliers; a sum over the facets here. eqs. (4.201), (4.240)
         self.stiffening_work = 0.0
+        #: Work of points that touched or left in the last increment, beyond the mean of both ends. eq. (5.104)
+        self.work_of_touch = 0.0
         self._standing_penalty = settings.penalty
         self._meet(mesh, mesh.face_set(faces))
         self.elsewhere = False
@@ -97,6 +99,11 @@ class PairPoints(Term):
     def adapts(self) -> bool:
         """Whether the penalty grows in a run, so that no point exceeds the allowed penetration."""
         return self._settings.largest > 0.0 and self.allowed is not None
+
+    @property
+    def has_potential(self) -> bool:
+        """Whether its energy follows from the pressures."""
+        return self.cells is None
 
     @property
     def keeps_points(self) -> bool:
@@ -238,11 +245,13 @@ class PairPoints(Term):
             held.round_off_squared,
             held=held,
             measure=measure,
+            place=partial(self._places, u, pose),
+            rotation=pose[0],
             area=self._areas,
             multiplier=multiplier,
             penalty=self.penalty,
             rubs=self.rubs,
-            has_potential=self.cells is None,
+            has_potential=self.has_potential,
         )
 
     @cached_property
@@ -258,6 +267,15 @@ class PairPoints(Term):
         self.block.set_pose(*pose)
         self.block.locate(u)
         return self.block.positions, self.block.gaps, self.block.normals
+
+    def _places(self, u: Floats, pose: Pose, points: NDArray[np.int64]) -> Floats:
+        """Positions of some points at a displacement in the frame of a tool with a pose."""
+        facets, q = np.divmod(points, self.block.per_facet)
+        nodes, N = self.facets[facets], self.block.shape_values[0, q]
+        x = (N[:, None] @ (self._mesh_points[nodes] + u.reshape(-1, 3)[nodes]))[:, 0]
+        rotation, shift = pose
+        in_tool: Floats = (x - shift) @ rotation
+        return in_tool
 
     def locate(self, u: Floats, pose: Pose) -> ContactFound:
         """Results at a displacement, with the tool in a pose; without force and tangent."""

@@ -21,6 +21,9 @@ from umform.steps.release import Release
 OPTIONS = NewtonOptions(residual=1e-6, increment=1e-4, line_search=True, extrapolate=2)
 #: Increments of one step of the loading.
 INCREMENTS = 5
+#: Increments of the pressing of bottoming, where most of the work is done, for one of the bend in the air; where it
+#: begins, in thicknesses before the bottom.
+_FINER, _PRESSED = 4, 0.5
 #: Force that counts as zero, relative to the force before unloading: an error of the angle of about 0.001 degrees.
 _ZERO_FORCE = 2e-3
 #: First increment of unloading in thicknesses.
@@ -58,7 +61,13 @@ def loading(case: AirBending, stroke: float) -> list[tuple[float, int]]:
     part = INCREMENTS * case.way
     whole = max(0, math.ceil(stroke / part - 1e-9) - 1)
     ends = [(part_end(case, number), INCREMENTS) for number in range(1, whole + 1)]
-    return [*ends, (stroke, increments(case, stroke - whole * part))]
+    steps = [*ends, (stroke, increments(case, stroke - whole * part))]
+    return [(end, _FINER * count if _presses(case, end) else count) for end, count in steps]
+
+
+def _presses(case: AirBending, stroke: float) -> bool:
+    """Whether the sheet is pressed onto the flanks at a stroke, or nearly."""
+    return case.bottoming and stroke > case.bottom_stroke - _PRESSED * case.thickness
 
 
 def part_end(case: AirBending, number: int) -> float:

@@ -81,7 +81,7 @@ class Brake:
             If the sheet cannot be bent to the stroke.
         """
         parts = loading(self.case, stroke)
-        rest = [] if parts[-1] == (part_end(self.case, len(parts)), INCREMENTS) else [parts.pop()]
+        rest = [] if parts[-1][0] == part_end(self.case, len(parts)) else [parts.pop()]
         known = min(len(parts), len(self._parts) - 1)
         if self._done != known:
             self.run.go_back(self._parts[known])
