@@ -99,9 +99,10 @@ cup: env  ## the cup of the ESAFORM benchmark 2021 on four meshes (some ten minu
 	$(SAY) 'Drawing the cup'
 	@$(BIN)/python benchmarks/esaform_cup.py --json build/cup.json --page docs/performance-increments.md $(ARGS)
 
-draws: env  ## what drawn cups and U-bends cost, with and without what makes them quick (some six minutes)
+draws: env  ## what drawn cups and U-bends cost, and what their evaluations are for (some ten minutes)
 	$(SAY) 'Drawing cups and U-bends'
 	@$(BIN)/python benchmarks/draws.py --json build/draws.json --page docs/performance-draws.md $(ARGS)
+	@$(BIN)/python benchmarks/beside.py --json build/beside.json --page docs/performance-draws.md
 
 s-rail: env  ## the S-rail of the verification book with up to 6 000 elements, three penalties (an hour)
 	$(SAY) 'Drawing the S-rail'

@@ -75,11 +75,11 @@ def measured(name: str, variant: str) -> dict[str, str]:
         "beside, %": f"{100.0 * attempts.beside:.0f}",
         "thrown away, %": f"{100.0 * attempts.share:.0f}",
         "increments": str(sum(len(run) - 1 for run in (drawn.result, drawn.released) if run is not None)),
-        "numbers": _numbers(drawn),
+        "numbers": numbers(drawn),
     }
 
 
-def _numbers(drawn: Drawn) -> str:
+def numbers(drawn: Drawn) -> str:
     """What is asked of such a part."""
     measures = {name: value for name, (value, _) in drawn.measures().items()}
     measures |= {name: limit.value for name, limit in drawn.estimates.items()}
@@ -93,6 +93,12 @@ def table(rows: list[dict[str, str]]) -> str:
     """All rows in Markdown."""
     lines = ["| " + " | ".join(rows[0]) + " |", "|---|---|" + "---:|" * (len(rows[0]) - 3) + "---|"]
     return "\n".join([*lines, *("| " + " | ".join(row.values()) + " |" for row in rows)]) + "\n"
+
+
+def put(page: Path, begin: str, end: str, text: str) -> None:
+    """Write a table between its marks in a page."""
+    head, rest = page.read_text(encoding="utf-8").split(begin)
+    page.write_text(head + begin + "\n" + text + "\n" + end + rest.split(end)[1], encoding="utf-8")
 
 
 def main() -> None:
@@ -109,11 +115,9 @@ def main() -> None:
         for variant in given.variant if name != THREE else given.variant[-1:]:
             rows.append(measured(name, variant))
             print(" | ".join(rows[-1].values()), flush=True)
-    text = table(rows)
     record.write(given.json, "draws", {f"{row['part']}, {row['']}, CPU s": float(row["CPU s"]) for row in rows})
     if given.page:
-        head, rest = given.page.read_text(encoding="utf-8").split(BEGIN)
-        given.page.write_text(head + BEGIN + "\n" + text + "\n" + END + rest.split(END)[1], encoding="utf-8")
+        put(given.page, BEGIN, END, table(rows))
 
 
 if __name__ == "__main__":

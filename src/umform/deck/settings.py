@@ -31,6 +31,8 @@ class Solution(Part):
     """Shorten increments that are too long; default: if a law has a history."""
     extrapolate: Annotated[Literal[0, 1, 2], BeforeValidator(_order)] = 1
     """Start an increment from the tangent (0), or from a line (1) or a parabola (2) through the last states."""
+    keep: bool = False
+    """Start an increment with the contact points of the last one, also where they have opened: for drawing."""
     mixed: bool | None = None
     """Geometric stiffness of the stress predicted by the last increment; default: for elastic sheets."""
     rest: Literal["auto", "off"] | Positive = "auto"

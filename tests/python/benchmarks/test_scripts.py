@@ -159,6 +159,13 @@ def test_s_rail(run):
     assert numbers[f"{name}: force"] == pytest.approx(float(lines[2].split("|")[4]), abs=0.006)
 
 
+def test_beside_counts_each_evaluation_once(run):
+    lines, numbers = run("beside", "--job", "hemisphere", benchmark="beside")
+    name, _, evaluations, beside, *purposes, _ = lines[-1].split(" | ")
+    assert numbers == {f"{name}, evaluations": float(evaluations)}
+    assert round(100.0 * sum(int(number) for number in purposes) / float(evaluations)) == int(beside)
+
+
 def test_exponents_of_the_dome_are_slopes_of_the_large_sizes(script):
     rows = [{"elements": n, "s per iteration": 3.0 * n**1.25, "peak GB": 7.0 * n} for n in (10_000, 40_000, 160_000)]
     rows.insert(0, {"elements": 1000, "s per iteration": 1e9, "peak GB": 1e9})

@@ -7,6 +7,7 @@ from umform.deck.findings import Level
 from umform.deck.templates import template, template_file, templates, write_template
 from umform.errors import InvalidValue
 from umform.processes import FreeBending, free_bending
+from umform.processes.draw.press import OPTIONS
 from umform_book.nonlinear.hinged_roofs import limit_load
 from umform_book.references import table
 
@@ -29,6 +30,11 @@ SHORT = {
 def test_the_list_is_whole():
     assert set(templates()) == set(SHORT)
     assert all(templates().values())
+
+
+@pytest.mark.parametrize("name", ["cup", "hat-rail", "square-cup"])
+def test_templates_of_drawn_parts_have_the_tolerances_of_drawing(name):
+    assert load(template_file(name)).build().options == OPTIONS
 
 
 @pytest.mark.parametrize("name", SHORT)
