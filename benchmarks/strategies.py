@@ -73,7 +73,7 @@ WORKLOADS: dict[str, Callable[[], object]] = {
     "dome, 2 500 elements, 4 increments": domes(50, 4),
     "dome, 2 500 elements, at a pace": domes(50, None),
     "dome, 10 000 elements, 10 increments": domes(100, 10),
-    "free bending, 14 runs of 300 increments": demo,
+    "demo, 14 runs of 300 increments": demo,
     "one run of the demo at a pace": one_of_the_demo(None),
     "one run of the demo, 20 increments": one_of_the_demo(20),
     "stroke for 90 degrees in air bending": lambda: find_stroke(AirBending(), 90.0, progress=False),

@@ -14,7 +14,7 @@ from umform.cli.options import option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.timing import Timed, show_timing
 from umform.cli.typed import as_typed, options_of
-from umform.processes.bending.parameters import DEMO_STEPS, RECONSTRUCTION, FreeBending
+from umform.processes.bending.parameters import RECONSTRUCTION, FreeBending
 
 if TYPE_CHECKING:
     from umform.processes.bending.showcase import Outcome
@@ -58,7 +58,7 @@ def free_bending(
     hardening: Annotated[float, option("Linear hardening modulus.", _MATERIAL)] = Default.hardening,
     penalty: Annotated[float, option("Contact pressure per penetration.", _SOLUTION)] = Default.penalty,
     stroke: Annotated[float, option("Largest displacement.", _SOLUTION)] = Default.stroke,
-    steps: Annotated[int, option("Increments up to the stroke.", _SOLUTION)] = DEMO_STEPS,
+    steps: Annotated[int, option("Increments up to the stroke.", _SOLUTION)] = Default.steps,
     unload: Annotated[bool, option("Release to zero force.", _SOLUTION)] = Default.unload,
     solver: Annotated[str, option("auto, multifrontal, banded, pardiso or superlu.", _SOLUTION)] = Default.solver,
     line_search: Annotated[

@@ -13,9 +13,6 @@ RECONSTRUCTION = (
     "dimensions. Strip, cylinder and supports were chosen so that the example shows what the paper's text describes."
 )
 
-#: Increments of the demo, whose curves are looked at: half of those of the book, where they are measured.
-DEMO_STEPS = 150
-
 #: Displacements at which the forces are compared, as fractions of the stroke: 2, 5, 10 and 15 of 15 mm.
 MARKS = (2 / 15, 5 / 15, 10 / 15, 1.0)
 

@@ -17,7 +17,7 @@ from umform.io.tables import write_csv, write_json
 from umform.pool import check_processes, run_all
 from umform.processes.bending.case import Bending, cell_of, check, failed, failure_text, free_bending
 from umform.processes.bending.deck import deck_of
-from umform.processes.bending.parameters import DEMO_STEPS, RECONSTRUCTION, FreeBending
+from umform.processes.bending.parameters import RECONSTRUCTION, FreeBending
 from umform.progress import progress_bar
 from umform.report.versions import versions
 
@@ -127,7 +127,7 @@ def demo(
     """
     from umform.processes.bending.page import write_page  # matplotlib takes time to load; the workers do without
 
-    cases = list(runs) if runs is not None else Selection().runs(FreeBending(steps=DEMO_STEPS))
+    cases = list(runs) if runs is not None else Selection().runs(FreeBending())
     if not cases:
         raise InvalidValue("there is no case to run", value=runs)
     check_processes(processes)
