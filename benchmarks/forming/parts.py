@@ -160,7 +160,7 @@ def run_flanging(keys: dict[str, Any]) -> Done:
 
 
 def draw_bulge(drawing: Drawing) -> dict[str, Any]:
-    """A clamped disc under pressure, along its path past the largest pressure to a height."""
+    """A clamped disc under pressure, along its path past the largest pressure, to a height or before it bursts."""
     return (
         _draw(drawing)
         | {
@@ -185,11 +185,14 @@ def run_bulge(keys: dict[str, Any]) -> Done:
         corners = [(0.8 * R, 9.0 * R), (0.8 * R, 0.5), (9.0 * R, 0.5)]
         _tool(model, keys, "upper", uf.Revolved(_profile(s, corners, keys["edge"])), "die")
     load = model.pressure("lower", name="pressure")
-    top = int(np.argmin(np.linalg.norm(model.mesh.points - (0.0, 0.0, 0.5 * s), axis=1)))
+    bottom, top = (
+        int(np.argmin(np.linalg.norm(model.mesh.points - (0.0, 0.0, z), axis=1))) for z in (-0.5 * s, 0.5 * s)
+    )
     high = s * keys["height"] * (0.8 if keys["die"] else 1.0) * R
 
     def reached(now: uf.Model) -> bool:
-        return bool(now.u.reshape(-1, 3)[top, 2] >= high)
+        z = (now.mesh.points + now.u.reshape(-1, 3))[:, 2]
+        return bool(z[top] >= high or z[top] - z[bottom] < 0.6 * s)
 
     # The pressure of a thin sphere of the radius of the disc, far above what the sheet bears.
     far = 20.0 * 600.0 / R
@@ -250,7 +253,7 @@ def run_stretch(keys: dict[str, Any]) -> Done:
     if keys["form"] == "ball":
         form = uf.Sphere((0.0, 0.0, low), s * R)
     elif keys["form"] == "barrel":
-        form = uf.Torus((0.0, 0.0, low), "y", 0.5 * s * R, 0.5 * s * R)
+        form = uf.Torus((0.0, 0.0, low), "y", 0.6 * s * R, 0.4 * s * R)
     block = _tool(model, keys, "lower", form, "form")
     ram, pace = model.drive(block, "z", name="stroke"), increments(keys)
     pulls = [keys["before"] * half * s, (keys["before"] + keys["after"]) * half * s]

@@ -51,6 +51,8 @@ def run_hat(keys: dict[str, Any]) -> Done:
         "pad": {"pad": 20.0 * keys["pressure"]},
     }
     size = _size(keys["turn"], min(keys["edge"], keys["nose"]), keys["reach"])
+    if keys["whole"]:  # a node lies in the middle
+        size = keys["reach"] / round(keys["reach"] / size)
     sheet = sheet_of(keys, size=size, layers=keys.get("layers", 1))
     given = {name: keys[name] for name in names} | held.get(keys["held"], {})
     return judged(sections.u_bend(sheet, **given, end=keys["end"]))
