@@ -19,8 +19,9 @@ def touch_flush_sheet(model: Model) -> None:
     """
     for press in (press for tool in model.tools for press in tool.presses):
         if not press.held and isinstance(press.way, ToolMotion):
-            press.unknown.value += _way(model, press, press.way)
-            press.way.value = press.unknown.value
+            way = _way(model, press, press.way)
+            press.unknown.value += way
+            press.way.value += way
 
 
 def _way(model: Model, press: Press, way: ToolMotion) -> float:
