@@ -82,6 +82,8 @@ Evaluations are those of residual and tangent. "Thrown away" are those of failed
 Jobs: {jumps}. The stable path ends, as in perfect plasticity it may, and the sheet jumps to the next stable state, of
 which the run warns ([attempts](attempts.md)).
 """
+#: Of all kinds, cheap ones; two of them failed where contact without forces or a rate was not foreseen.
+_DRAWS_SAMPLE = (3, 6, 17, 24, 25, 27, 30, 31, 34, 36, 42, 49, 55, 58, 59, 69, 88, 92, 140)
 _DRAWS = """# How many drawing jobs finish
 
 {count} random jobs of drawing and forming, on coarse meshes: hats, joggles and rails between drawn tools, Z and L
@@ -127,5 +129,5 @@ LOTS = {
         _BENDS_SAMPLE,
         _BENDS,
     ),
-    "draws": Rated("draws", FORMING, ("arrived", "refused"), 0.98, (), _DRAWS),
+    "draws": Rated("draws", FORMING, ("arrived", "refused"), 0.98, _DRAWS_SAMPLE, _DRAWS),
 }

@@ -10,8 +10,8 @@ import pytest
 from umform.errors import InvalidValue, NoConvergence
 from umform.results.balance import Balance
 
-#: How many jobs the sample has.
-SAMPLE = 42
+#: How many jobs the samples have.
+SAMPLE, DRAWS = 42, 19
 #: Those that jump at the end of a stable path.
 JUMPS = {104, 166}
 
@@ -34,9 +34,18 @@ def test_the_sample_arrives(robust, bends, which):
     assert (ended["jumps"] > 0) == (ended["number"] in JUMPS)
 
 
-def test_the_sample_has_jobs_of_all_kinds(bends):
-    assert len(set(bends.sample)) == SAMPLE
-    assert {bends.lot.job(number).kind for number in bends.sample} == set(bends.lot.kinds)
+@pytest.mark.parametrize("which", range(DRAWS))
+def test_the_sample_of_drawing_and_forming_arrives(robust, which):
+    draws = robust.LOTS["draws"]
+    ended = robust.outcome(draws.lot.job(draws.sample[which]))
+    assert (ended["outcome"], ended["reason"]) == ("arrived", "")
+
+
+@pytest.mark.parametrize(("name", "count"), [("bends", SAMPLE), ("draws", DRAWS)])
+def test_the_samples_have_jobs_of_all_kinds(robust, name, count):
+    rated = robust.LOTS[name]
+    assert len(set(rated.sample)) == len(rated.sample) == count
+    assert {rated.lot.job(number).kind for number in rated.sample} == set(rated.lot.kinds)
 
 
 @pytest.mark.parametrize("name", ["bends", "draws"])
