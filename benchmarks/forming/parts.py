@@ -185,14 +185,13 @@ def run_bulge(keys: dict[str, Any]) -> Done:
         corners = [(0.8 * R, 9.0 * R), (0.8 * R, 0.5), (9.0 * R, 0.5)]
         _tool(model, keys, "upper", uf.Revolved(_profile(s, corners, keys["edge"])), "die")
     load = model.pressure("lower", name="pressure")
-    bottom, top = (
-        int(np.argmin(np.linalg.norm(model.mesh.points - (0.0, 0.0, z), axis=1))) for z in (-0.5 * s, 0.5 * s)
-    )
+    half = model.mesh.connectivity.shape[1] // 2
+    lower, upper = model.mesh.connectivity[:, :half], model.mesh.connectivity[:, half:]
     high = s * keys["height"] * (0.8 if keys["die"] else 1.0) * R
 
     def reached(now: uf.Model) -> bool:
-        z = (now.mesh.points + now.u.reshape(-1, 3))[:, 2]
-        return bool(z[top] >= high or z[top] - z[bottom] < 0.6 * s)
+        x = now.mesh.points + now.u.reshape(-1, 3)
+        return bool(x[:, 2].max() >= high or np.linalg.norm(x[upper] - x[lower], axis=-1).min() < 0.6 * s)
 
     # The pressure of a thin sphere of the radius of the disc, far above what the sheet bears.
     far = 20.0 * 600.0 / R
