@@ -31,7 +31,7 @@ unexport PYTHONPATH PYTHONHOME
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
 .PHONY: help env dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification mutants lint lint-python lint-imports lint-types lint-page lint-stubs lint-format lint-cpp stubs \
-        format docs wheel bench dome robust balances ubend cup draws s-rail compare peers clean
+        format docs wheel bench dome robust robust-draws balances ubend cup draws s-rail compare peers clean
 
 help:  ## show this help
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -89,6 +89,9 @@ robust: env  ## 300 random jobs and how many finish (some 10 minutes of CPU), th
 	@$(BIN)/python benchmarks/robust.py --json build/robust.json --page docs/robust-rate.md $(ARGS)
 	@$(BIN)/python tools/performance_numbers.py
 	@$(MAKE) balances ARGS=
+
+robust-draws: env  ## 200 random jobs of drawing and forming (some 12 minutes of CPU); writes docs/robust-draws.md
+	@$(BIN)/python benchmarks/robust.py --lot draws --json build/robust.json --page docs/robust-draws.md $(ARGS)
 
 ubend: env  ## a U-bend with friction, beside CalculiX if it is there (a quarter of an hour)
 	$(SAY) 'Drawing the U-bend'

@@ -25,6 +25,7 @@ from corpus import JOBS, Watched
 from corpus.answers import Answer
 from imbalance import FORCES, largest_drift
 from umform.model.tool_controls import ToolMotion
+from umform.results.penetration import penetrations
 
 
 @dataclass(frozen=True)
@@ -139,8 +140,9 @@ def _work(result: uf.Result, control: Any) -> float:
 
 def penetration(result: uf.Result) -> float:
     """Largest penetration over the allowed one; zero where nothing is promised."""
-    pairs = [pair for pair in result.model.contacts if pair.allowed is not None]
-    return max((float(result[f"{pair.name}_penetration"].max()) / pair.allowed for pair in pairs), default=0.0)
+    promised = [pair.name for pair in result.model.contacts if pair.allowed is not None]
+    found = penetrations(result.model, result)
+    return max((found[name].reached / found[name].allowed for name in promised), default=0.0)
 
 
 def measured(answer: Answer) -> dict[str, float]:

@@ -11,6 +11,10 @@ import umform as uf
 #: Largest resultant of all external forces, and of their moments, relative to their magnitudes: what the convergence
 #: criterion of Newton's method leaves.
 FORCES = 1e-6
+#: Drift of the energies, over the largest energy, above which it must be that of coarse increments.
+ENERGIES = 0.02
+#: What a run says of a penetration and of a drift that are larger than promised.
+DEEP, DRIFTS = "the penetration of", "the external work and the energies differ"
 
 
 def largest_drift(results: Iterable[uf.Result]) -> float:

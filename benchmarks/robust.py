@@ -1,9 +1,11 @@
-"""How many of 300 random jobs arrive: bends, strips, sections of users and plates, each in a process with a time limit.
+"""How many random jobs arrive, each in a process with a time limit: 300 bends, or 200 jobs of drawing and forming.
 
     python benchmarks/robust.py --json build/robust.json --page docs/robust-rate.md
     python benchmarks/robust.py --job 117
+    python benchmarks/robust.py --lot draws --page docs/robust-draws.md
 
-A job has arrived if its steps are at their end and forces and energies balance.
+A job has arrived if its steps are at their end and all that is known of its answer is right: forces and energies
+balance, and what else a kind knows.
 """
 
 from __future__ import annotations
@@ -24,36 +26,30 @@ from typing import Any
 
 import record
 import umform as uf
-from imbalance import FORCES, largest_drift
-from jobs import COUNT, Done, Job, job
-from robust_page import drawn, failures, page, table
+from imbalance import largest_drift
+from jobs import Done, Job
+from robust_lots import LOTS, Rated
+from robust_page import failures, page, table
 from umform.errors import NoConvergence, UmformError
 from umform.timing import Timing, timings
 
 #: CPU seconds after which a job counts as one that hangs; wall seconds may be as many times more.
 LIMIT, PATIENCE = 100, 10
-#: A drift of the energies above the first number, over the largest energy, must be that of coarse increments: by
-#: increments of half the size it must fall to this part of it, or below.
-ENERGIES, FALLS = 0.02, 0.6
+#: Part to which a large drift of the energies must fall by increments of half the size.
+FALLS = 0.6
 #: What the warning of a jump says.
 JUMPED = "jumped to the next stable state"
-#: Jobs of all kinds that the ordinary tests run: the cheapest ones, cheap ones that throw much away, and two that jump
-#: at the end of a stable path.
-SAMPLE = (
-    8, 9, 22, 23, 24, 33, 46, 57, 71, 72, 77, 93, 99, 104, 112, 117, 124, 130, 133, 141, 165, 166, 167, 180, 191, 194,
-    197, 218, 224, 228, 233, 237, 244, 245, 264, 269, 270, 271, 274, 282, 292, 296,
-)  # fmt: skip
 
 
 class OutOfTime(BaseException):
     """The limit of CPU seconds is reached."""
 
 
-def outcome(number: int) -> dict[str, Any]:
+def outcome(task: Job) -> dict[str, Any]:
     """Run a job in this process and return its outcome."""
     logging.getLogger("umform").addHandler(logging.NullHandler())
     uf.set_threads(1)
-    task, start, done = job(number), time.process_time(), Done([])
+    start, done = time.process_time(), Done([])
     ended, reason = "arrived", ""
     try:
         with timings() as runs:
@@ -68,7 +64,7 @@ def outcome(number: int) -> dict[str, Any]:
         ended, reason = "out of time", "the limit of CPU seconds is reached"
     made = Timing.sum(runs).attempts
     return {
-        "number": number,
+        "number": task.number,
         "kind": task.kind,
         "outcome": ended,
         "reason": reason,
@@ -78,6 +74,7 @@ def outcome(number: int) -> dict[str, Any]:
         "evaluations": made.evaluations,
         "share thrown away": round(made.share, 3),
         "jumps": sum(JUMPED in warning for result in done.results for warning in result.warnings),
+        "warnings": [warning for result in done.results for warning in result.warnings],
         "failed attempts": dict(made.causes.most_common()),
         "drift": drift(done),
     }
@@ -93,21 +90,21 @@ def imbalance(task: Job, done: Done) -> str:
     found = []
     for result in done.results:
         force, moment = result.balance().largest_imbalances
-        found += [("forces", force, FORCES), ("moments", moment, FORCES)]
+        found += [("forces", force, done.forces), ("moments", moment, done.forces)]
     found += [(name, *pair) for name, pair in done.deviations.items()]
     coarse = drift(done)
-    if coarse > ENERGIES:
+    if coarse > done.energies:
         found.append(("energies with increments of half the size", drift(task.finer().run()), FALLS * coarse))
     return "; ".join(f"{name} off by {off:.2g}, {most:.2g} allowed" for name, off, most in found if not off <= most)
 
 
-def in_a_process(number: int, limit: int = LIMIT) -> dict[str, Any]:
+def in_a_process(rated: Rated, number: int, limit: int = LIMIT) -> dict[str, Any]:
     """Run a job in a process of its own, which may die or hang."""
     threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
-    command = [sys.executable, __file__, "--inside", str(number), "--limit", str(limit)]
+    command = [sys.executable, __file__, "--lot", rated.name, "--inside", str(number), "--limit", str(limit)]
     lost = {
         "number": number,
-        "kind": job(number).kind,
+        "kind": rated.lot.job(number).kind,
         "CPU s": float(limit),
         "evaluations": 0,
         "share thrown away": 0.0,
@@ -132,7 +129,7 @@ def in_a_process(number: int, limit: int = LIMIT) -> dict[str, Any]:
     return answer
 
 
-def inside(number: int, limit: int) -> None:
+def inside(task: Job, limit: int) -> None:
     """What the process of a job does: the answer is its last line."""
 
     def stop(signum: int, frame: object) -> None:
@@ -141,14 +138,14 @@ def inside(number: int, limit: int) -> None:
 
     signal.signal(signal.SIGXCPU, stop)
     resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 20))
-    print(json.dumps(outcome(number)))
+    print(json.dumps(outcome(task)))
 
 
-def run(numbers: Sequence[int], processes: int, limit: int) -> list[dict[str, Any]]:
+def run(rated: Rated, numbers: Sequence[int], processes: int, limit: int) -> list[dict[str, Any]]:
     """All of some jobs, so many at a time, with a line for each as it ends."""
     outcomes = []
     with ThreadPoolExecutor(processes) as pool:
-        for one in pool.map(lambda number: in_a_process(number, limit), numbers):
+        for one in pool.map(lambda number: in_a_process(rated, number, limit), numbers):
             outcomes.append(one)
             print(
                 f"{one['number']:4d}  {one['kind']:<28}{one['CPU s']:>7.1f} s  {one['outcome']}  {one['reason']}",
@@ -157,25 +154,26 @@ def run(numbers: Sequence[int], processes: int, limit: int) -> list[dict[str, An
     return outcomes
 
 
-def known(path: Path | None) -> dict[int, dict[str, Any]]:
+def known(rated: Rated, path: Path | None) -> dict[int, dict[str, Any]]:
     """What a file has of earlier runs of the same jobs, by their numbers."""
     if path is None or not path.is_file():
         return {}
-    kept = json.loads(path.read_text()).get("benchmarks", {}).get("robust", {}).get("numbers", {})
-    return {one["number"]: one for one in kept["jobs"]} if kept.get("drawn") == drawn() else {}
+    kept = json.loads(path.read_text()).get("benchmarks", {}).get(rated.benchmark, {}).get("numbers", {})
+    return {one["number"]: one for one in kept["jobs"]} if kept.get("drawn") == rated.lot.drawn else {}
 
 
-def show(number: int) -> None:
+def show(task: Job) -> None:
     """Print the random choices of one job, and its outcome."""
-    print(json.dumps(job(number).keys, indent=1))
-    print(json.dumps(outcome(number), indent=1))
+    print(json.dumps(task.keys, indent=1))
+    print(json.dumps(outcome(task), indent=1))
 
 
 def main() -> None:
     """Run the jobs, print the table and the failures, write the page."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--lot", choices=LOTS, default="bends", help="which jobs")
     parser.add_argument("--job", type=int, metavar="NUMBER", help="one job in this process, with all its numbers")
-    parser.add_argument("--jobs", type=int, nargs="*", default=range(COUNT), metavar="NUMBER",
+    parser.add_argument("--jobs", type=int, nargs="*", metavar="NUMBER",
                         help="default: all; those that are in the file of --json already stay there")  # fmt: skip
     parser.add_argument("--sample", action="store_true", help="those that the tests run")
     parser.add_argument("--processes", type=int, default=len(os.sched_getaffinity(0)))
@@ -184,20 +182,22 @@ def main() -> None:
     parser.add_argument("--inside", type=int, help=argparse.SUPPRESS)
     record.add_option(parser)
     arguments = parser.parse_args()
+    rated = LOTS[arguments.lot]
     if arguments.job is not None:
-        return show(arguments.job)
+        return show(rated.lot.job(arguments.job))
     if arguments.inside is not None:
-        return inside(arguments.inside, arguments.limit)
-    numbers = SAMPLE if arguments.sample else arguments.jobs
-    found = known(arguments.json)
-    found |= {one["number"]: one for one in run(numbers, arguments.processes, arguments.limit)}
+        return inside(rated.lot.job(arguments.inside), arguments.limit)
+    numbers = rated.sample if arguments.sample else arguments.jobs
+    numbers = range(rated.lot.count) if numbers is None else numbers
+    found = known(rated, arguments.json)
+    found |= {one["number"]: one for one in run(rated, numbers, arguments.processes, arguments.limit)}
     outcomes = [found[number] for number in sorted(found)]
-    print(f"{table(outcomes)}\n\n{failures(outcomes)}")
-    record.write(arguments.json, "robust", {"drawn": drawn(), "jobs": outcomes})
+    print(f"{table(rated, outcomes)}\n\n{failures(outcomes)}")
+    record.write(arguments.json, rated.benchmark, {"drawn": rated.lot.drawn, "jobs": outcomes})
     if arguments.page is not None:
-        if len(outcomes) < COUNT:
-            parser.error(f"the page is of all jobs, {COUNT - len(outcomes)} are missing")
-        arguments.page.write_text(page(outcomes), encoding="utf-8")
+        if len(outcomes) < rated.lot.count:
+            parser.error(f"the page is of all jobs, {rated.lot.count - len(outcomes)} are missing")
+        arguments.page.write_text(page(rated, outcomes), encoding="utf-8")
     return None
 
 

@@ -84,6 +84,13 @@ QUOTED = (
         "{2} finish; {6} of the evaluations are discarded",
         "make robust",
     ),
+    (
+        "200 random jobs of drawing and forming",
+        "robust-draws",
+        ("all", "200"),
+        "{2} finish; {6} of the evaluations are discarded",
+        "make robust-draws",
+    ),
 )
 
 

@@ -38,7 +38,7 @@ LAWS: dict[str, Callable[[float], Material]] = {
 
 
 def law(name: str, stress: float = 1.0) -> dict[str, Any]:
-    """Arguments of a model: the law, and the rolling direction if it has one."""
-    material = LAWS[name](stress)
+    """Arguments of a model: the law, or that of a sheet metal in MPa; and the rolling direction if it has one."""
+    material = LAWS[name](stress) if name in LAWS else sheet_metals.get(name).law
     rolling = {"rolling": (1.0, 0.0, 0.0)} if getattr(material, "directional", False) else {}
     return {"material": material, **rolling}

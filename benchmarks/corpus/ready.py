@@ -59,8 +59,8 @@ def bead(*, name: str = "swift", way: float = 6.0, **keys: Any) -> Answer:
 def draw(case: Cup | UBend) -> Answer:
     """The closing, the stroke and the opening of a press."""
     model, press = case.build()
-    result = uf.solve(model, press.closing(), frames=0, progress=False)
-    released = uf.solve(model, press.opening(model), frames=0, progress=False)
+    result = uf.solve(model, press.closing(), options=case.newton, frames=0, progress=False)
+    released = uf.solve(model, press.opening(model), options=case.newton, frames=0, progress=False)
     return Answer([result, released], tools=[carried(result, [tool.name for tool in model.tools])])
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 import umform as uf
-from corpus.answers import LEFT_RIGHT, Answer, carried, unlike
+from corpus.answers import LEFT_RIGHT, Answer, carried, solve, unlike
 from corpus.laws import law
 from umform.model.support import Support
 from umform.steps import Step
@@ -31,7 +31,9 @@ class Sheet:
         On all tools.
     rule : dict
         More arguments of all contacts.
-    steps : int, optional
+    layers : int
+        Elements through the thickness.
+    steps : int or Pace, optional
         Of the strokes; None: the pace that umform chooses.
     mirrored : bool
         Sheet and tools are reflected at x = 0.
@@ -45,7 +47,8 @@ class Sheet:
     size: float = 1.0
     friction: float | None = 0.1
     rule: dict[str, Any] = field(default_factory=lambda: {"points": 3})
-    steps: int | None = None
+    layers: int = 1
+    steps: int | uf.Pace | None = None
     mirrored: bool = False
     length: float = 1.0
     stress: float = 1.0
@@ -54,7 +57,7 @@ class Sheet:
         """Strip from one place to another."""
         s, cell = self.length, uf.elements.element(self.element).cell
         count = round((right - left) / self.size / (1 if cell == "hex8" else 2))
-        mesh = uf.mesh.strip(s * (right - left), s, s * self.thickness, (count, 1), cell=cell)
+        mesh = uf.mesh.strip(s * (right - left), s, s * self.thickness, (count, 1), cell=cell, layers=self.layers)
         mesh = mesh.transformed(lambda X: X + s * np.array([left, 0.0, 0.5 * self.thickness]))
         if self.mirrored:
             mesh = mesh.transformed(lambda X: X + s * np.array([-left - right, 0.0, 0.0]))
@@ -102,7 +105,7 @@ def _ended(
         opening = [uf.Free(model.tools, steps=4, **({} if gauge is None else {"on": gauge}))]
     elif end == "release":
         opening = [uf.Release(stroke)]
-    result = uf.solve(model, [*steps, *opening], frames=0, progress=False)
+    result = solve(model, [*steps, *opening])
     return result, int((result["step"] <= len(steps)).sum())
 
 
@@ -110,6 +113,11 @@ def u_bend(
     sheet: Sheet,
     *,
     stroke: float = 12.0,
+    half: float = 15.0,
+    nose: float = 4.0,
+    edge: float = 4.0,
+    clearance: float = 1.2,
+    reach: float = 36.0,
     whole: bool = False,
     holder: float | None = None,
     gap: float | None = None,
@@ -117,17 +125,17 @@ def u_bend(
     end: str = "",
 ) -> Answer:
     """A U: half of it or the whole; a holder by force or at a gap, a pad on a spring below the punch."""
-    t, s, half, edge, reach = sheet.thickness, sheet.length, 15.0, 4.0, 36.0
+    t, s = sheet.thickness, sheet.length
     model = sheet.model(-reach if whole else 0.0, reach)
     if whole:
         model.fix(sheet.at(0.0), "x")
     else:
         model.symmetry("x1" if sheet.mirrored else "x0", "x")
     gauge = model.hold_rigid(sheet.at(0.0), name="gauge") if end == "free" else None
-    die = uf.UDie(2.0 * s * (half + 1.2 * t), 60.0 * s, edge * s, edge * s)
+    die = uf.UDie(2.0 * s * (half + clearance * t), 60.0 * s, edge * s, edge * s)
     sheet.tool(model, "lower", die, "die")
     names, steps = ["die", "punch"], list[Step]()
-    punch = sheet.tool(model, "upper", sheet.box(-half, half, t, t + 80.0, edge), "punch")
+    punch = sheet.tool(model, "upper", sheet.box(-half, half, t, t + 80.0, nose), "punch")
     if holder is not None or gap is not None:
         names.append("holder")
         tool = sheet.tool(model, "upper", sheet.plane(t if gap is None else t + gap), "holder")
@@ -136,7 +144,7 @@ def u_bend(
             steps.append(uf.Move(hold, -sheet.force(holder), steps=2))
     if pad is not None:
         names.append("pad")
-        width = half - edge
+        width = half - nose
         cushion = sheet.tool(model, "lower", sheet.box(-width, width, -30.0, 0.0, 0.5), "pad")
         stiffness, preload = sheet.force(1.0) / s, sheet.force(pad)
         model.spring(cushion, "z", stiffness=stiffness, preload=preload, name="cushion")
@@ -148,18 +156,28 @@ def u_bend(
 
 
 def l_bend(
-    sheet: Sheet, *, stroke: float = 14.0, pad: float = 60.0, held: str = "force", clamped: bool = False, end: str = ""
+    sheet: Sheet,
+    *,
+    stroke: float = 14.0,
+    edge: float = 3.0,
+    nose: float = 3.0,
+    clearance: float = 1.1,
+    flange: float = 16.0,
+    pad: float = 60.0,
+    held: str = "force",
+    clamped: bool = False,
+    end: str = "",
 ) -> Answer:
     """An L: a pad holds the sheet on a block, a punch bends the flange down beside it."""
-    t, s, edge = sheet.thickness, sheet.length, 3.0
-    model = sheet.model(-22.0, 16.0)
+    t, s = sheet.thickness, sheet.length
+    model = sheet.model(-22.0, flange)
     if clamped or not sheet.friction:
         model.fix(sheet.at(-22.0), "x")
     gauge = model.hold_rigid(sheet.at(-22.0), name="gauge") if end == "free" else None
     sheet.tool(model, "lower", uf.WipingDie(edge * s, origin=(0.0, 0.0, 0.0)), "block")
     above = 0.0 if held != "gap" else 0.02 * t
     holder = sheet.tool(model, "upper", sheet.box(-60.0, -edge + 1.0, t + above, t + 30.0, 1.0), "pad")
-    punch = sheet.tool(model, "upper", sheet.box(1.1 * t, 41.0, t, t + 40.0, edge), "punch")
+    punch = sheet.tool(model, "upper", sheet.box(clearance * t, 41.0, t, t + 40.0, nose), "punch")
     steps = list[Step]()
     if held == "force":
         hold = model.press(holder, "z", name="hold")
@@ -173,21 +191,32 @@ def l_bend(
     return Answer([result], tools=[carried(result, names)] if end != "free" else [])
 
 
-def wiping(sheet: Sheet, *, stroke: float = 14.0, end: str = "") -> Answer:
+def wiping(
+    sheet: Sheet,
+    *,
+    stroke: float = 14.0,
+    edge: float = 3.0,
+    nose: float = 4.0,
+    clearance: float = 1.1,
+    flange: float = 16.0,
+    end: str = "",
+) -> Answer:
     """A flange is wiped over an edge; the sheet is clamped at its end and lies on the block without a pad."""
     t, s = sheet.thickness, sheet.length
-    model = sheet.model(-12.0, 16.0)
+    model = sheet.model(-12.0, flange)
     model.fix(sheet.at(-12.0), "xz")
-    sheet.tool(model, "lower", uf.WipingDie(3.0 * s, origin=(0.0, 0.0, 0.0)), "block")
-    punch = sheet.tool(model, "upper", sheet.box(1.1 * t, 51.0, t, t + 80.0, 4.0), "punch")
+    sheet.tool(model, "lower", uf.WipingDie(edge * s, origin=(0.0, 0.0, 0.0)), "block")
+    punch = sheet.tool(model, "upper", sheet.box(clearance * t, 51.0, t, t + 80.0, nose), "punch")
     ram = model.drive(punch, "-z", name="stroke")
     result, _ = _ended(model, [uf.Move(ram, stroke * s, steps=sheet.steps)], end, ram)
     return Answer([result])
 
 
-def z_bend(sheet: Sheet, *, offset: float = 6.0, width: float = 5.0, pad: float = 80.0, end: str = "") -> Answer:
+def z_bend(
+    sheet: Sheet, *, offset: float = 6.0, width: float = 5.0, edge: float = 2.0, pad: float = 80.0, end: str = ""
+) -> Answer:
     """A Z, or a joggle with a small offset: the left is held by a pad, the right goes down between two edges."""
-    t, s, edge = sheet.thickness, sheet.length, 2.0
+    t, s = sheet.thickness, sheet.length
     model = sheet.model(-18.0, 22.0)
     if not sheet.friction:
         model.fix(sheet.at(-18.0), "x")
@@ -205,7 +234,7 @@ def stretch_bend(
     sheet: Sheet, *, tension: float = 0.0, stroke: float = 8.0, radius: float = 12.0, end: str = ""
 ) -> Answer:
     """A strip is pulled, then a cylinder is pressed into it; both ends are clamped."""
-    s, half, radius = sheet.length, 30.0, 12.0
+    s, half = sheet.length, 30.0
     model = sheet.model(-half, half)
     pulls = [model.prescribe(sheet.at(x), "x", name) for x, name in ((-half, "left"), (half, "right"))]
     model.fix(sheet.at(-half), "z")

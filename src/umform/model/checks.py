@@ -8,20 +8,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import ModelError, RigidBodyMotion, ToolSwallowsSheet
-from umform.mesh import Mesh
+from umform.mesh import Ids, Mesh
 from umform.mesh.numbers import median
 from umform.model import forces
 from umform.model.contact import Contact, ContactFound
 from umform.model.evaluated import Evaluated
 from umform.model.evaluation import Evaluation
 from umform.model.plane_strain_check import check_plane_strain
+from umform.model.support import Support
 from umform.model.term import At
 
 Floats = NDArray[np.float64]
 
 
-def check_model(model: Evaluated) -> None:
+def check_model(model: Evaluated, gauge: Support | None = None) -> None:
     """Check nodes, supports and tools.
+
+    Parameters
+    ----------
+    model : Model
+        The model.
+    gauge : Support, optional
+        A waiting support that the first step puts in place: a part that no tool touches any more is opened on it.
 
     Raises
     ------
@@ -34,7 +42,7 @@ def check_model(model: Evaluated) -> None:
     """
     check_nodes(model.mesh)
     check_plane_strain(model)
-    check_held(model)
+    check_held(model, gauge)
 
 
 def check_nodes(mesh: Mesh) -> None:
@@ -58,7 +66,7 @@ def middle(model: Evaluated, points: Floats | None = None) -> tuple[Floats, floa
     return centre, max(ranks.max(float(np.abs(points - centre).max())), 1e-300)
 
 
-def check_held(model: Evaluated) -> None:
+def check_held(model: Evaluated, gauge: Support | None = None) -> None:
     """Reject supports that leave a rigid-body motion free, and tools that overlap the sheet too much."""
     problem = None
     try:
@@ -66,7 +74,7 @@ def check_held(model: Evaluated) -> None:
     except ModelError as error:
         touched, problem = [], error
     model.ranks.agree(problem)
-    free = free_motions(model, touched)
+    free = free_motions(model, touched, () if gauge is None else gauge.held)
     if free:
         for_good = free_in_touch(model)
         raise RigidBodyMotion(
@@ -102,7 +110,9 @@ def free_in_touch(model: Evaluated) -> list[str]:
     return free_motions(model, [*held, *_sprung(model)])
 
 
-def free_motions(model: Evaluated, touched: Sequence[tuple[Floats, Floats]] = ()) -> list[str]:
+def free_motions(
+    model: Evaluated, touched: Sequence[tuple[Floats, Floats]] = (), dofs: Sequence[int] | Ids = ()
+) -> list[str]:
     """Rigid-body motions that supports and tools leave free at the present displacement of the model, as text.
 
     Parameters
@@ -111,11 +121,14 @@ def free_motions(model: Evaluated, touched: Sequence[tuple[Floats, Floats]] = ()
         The model at ``model.u``.
     touched : sequence of (positions, normals)
         Points held by tools, and the directions in which they are held.
+    dofs : sequence of int
+        More degrees of freedom that are held.
     """
     points = model.mesh.points + model.u.reshape(-1, 3)
     centre, size = middle(model, points)
     modes = forces.rigid_body_modes(points, centre, size)
     rows = [_motion_along(x, n, centre, size) for x, n in touched]
+    rows.append(modes[:, np.asarray(dofs, dtype=int)].T)
     return [_describe_motion(motion) for motion in left_free(model, modes, rows)]
 
 

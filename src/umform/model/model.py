@@ -245,9 +245,9 @@ class Model(Standing):
         self.stop(force, at, below=below)
         press.gaps.append(other)
 
-    def check(self) -> None:
+    def check(self, gauge: Support | None = None) -> None:
         """Reject a model that cannot be solved, before the run starts, see :func:`umform.model.checks.check_model`."""
-        check_model(self)
+        check_model(self, gauge)
         check_kept_gaps(self)
 
     def mechanism(self, values: NDArray[np.float64], motion: NDArray[np.float64]) -> NDArray[np.float64] | None:

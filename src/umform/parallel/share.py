@@ -23,6 +23,7 @@ from umform.model.control import Control
 from umform.model.evaluation import Evaluation
 from umform.model.forces import rigid_body_modes
 from umform.model.frame import Frame
+from umform.model.support import Support
 from umform.model.ties import Tie
 from umform.parallel.cutting import Parcel
 from umform.parallel.exchange import Exchange
@@ -118,9 +119,9 @@ class Share(Model):
         """Gathers its arrays on the first rank and distributes them."""
         return Gathering(self)
 
-    def check(self) -> None:
+    def check(self, gauge: Support | None = None) -> None:
         """Reject a model that cannot be solved; all ranks check their nodes and contact points."""
-        check_held(self)
+        check_held(self, gauge)
 
     def node_number(self, node: int) -> int:
         """Number of a node in the whole mesh."""

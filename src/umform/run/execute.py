@@ -12,6 +12,7 @@ from umform.model import Model
 from umform.progress import Show
 from umform.results.cells import tell_of_cells
 from umform.run.checked import checked
+from umform.run.flush import touch_flush_sheet
 from umform.run.going import checkpoints_of, go_on, loop_for, ready
 from umform.run.loose import carry_loose_sheet
 from umform.run.result import Result
@@ -93,7 +94,7 @@ def solve(
         timing = new_timing()
         with timing.run:
             result = Result(model, timing)
-            run = ready(result, solver, options, frames)
+            run = ready(result, solver, options, frames, steps)
             checkpoints = checkpoints_of(run, steps, checkpoint, every, note)
             tell_of_cells(model, result)
             result.add(run.evaluation, [], frame=frames > 0)
@@ -157,7 +158,7 @@ def resume(
         timing = new_timing()
         with timing.run:
             result = Result(model, timing)
-            run = ready(result, solver, options, frames)
+            run = ready(result, solver, options, frames, steps)
             checkpoints = checkpoints_of(run, steps, path, every)
             assert checkpoints is not None
             memory = take_up(run, checkpoints)
@@ -171,9 +172,10 @@ def resume(
 
 
 def _prepared(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
-    """The steps, if they are valid for the model; weak springs support a loose sheet."""
+    """The steps, if they are valid for the model; pressed tools touch the sheet, weak springs support a loose one."""
     sequence = checked(model, steps)
     assert model is not None
+    touch_flush_sheet(model)
     carry_loose_sheet(model, sequence)
     return sequence
 

@@ -37,11 +37,12 @@ if TYPE_CHECKING:
 _LOOPS: dict[type, Any] = {Release: Releasing, Arc: Following, Free: Freeing, Close: Closing}
 
 
-def ready(result: Result, solver: str, options: NewtonOptions | None, frames: int) -> Run:
-    """Refuse an invalid model, and make the run at its first state."""
+def ready(result: Result, solver: str, options: NewtonOptions | None, frames: int, steps: Sequence[Step] = ()) -> Run:
+    """Refuse an invalid model, and make the run at its first state; a first step may hold the sheet."""
     model, timing = result.model, result.timing
     model.timing = timing
-    model.check()
+    first = steps[0] if steps else None
+    model.check(first.on if isinstance(first, Free) else None)
     evaluation = model.evaluate(model.x, tangent=False)  # history and frames need forces only
     model.begin(evaluation)
     run = Run(model, Newton(model, options, solver, timing), result, evaluation, frames=frames)

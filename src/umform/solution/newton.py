@@ -79,7 +79,9 @@ class Newton:
         """Whether the sheet is elastic, or nearly so."""
         return self.springs_back or not self._has_history
 
-    def manner(self, *, consistent: bool = False, wary: Wary = Wary.NOT, rubs: bool = False) -> Manner:
+    def manner(
+        self, *, consistent: bool = False, wary: Wary = Wary.NOT, rubs: bool = False, patient: bool = False
+    ) -> Manner:
         """Mode of the iterations, with the options of the user.
 
         Parameters
@@ -90,11 +92,13 @@ class Newton:
             When to stop because the tangent is indefinite far from equilibrium.
         rubs : bool
             Whether points may alternate between stick and slip, so that elastic sheets use a line search, too.
+        patient : bool
+            Whether more iterations are allowed.
         """
         search = self.options.line_search
         if search is None:  # in elastic sheets, whose energy is a narrow curved valley, it is too slow
             search = rubs or not self._elastic
-        return Manner(search, True, self.mixed and not consistent, wary)
+        return Manner(search, True, self.mixed and not consistent, wary, patient)
 
     def solve(
         self,
@@ -216,7 +220,7 @@ class Newton:
         system.recover(du, manner.mixed)
         u = u + du if beyond is None else u + du + beyond
         criteria, shift = Criteria(system, options.residual, options.increment), Shift(system)
-        prospects = Prospects(system)
+        prospects = Prospects(system, patient=manner.patient)
         reuse = Reuse(options, system.pattern.n, system.effort)
         pivots = reuse.remember(first.factors) if first is not None else None
         criteria.entry = first.entry if first is not None else None

@@ -98,12 +98,15 @@ class Manner:
         Whether the geometric stiffness is that of the stress predicted by the last increment. eq. (5.39)
     wary : Wary
         When to stop because the tangent is indefinite far from equilibrium.
+    patient : bool
+        Whether more iterations are allowed, since a smaller increment would need as many.
     """
 
     line_search: bool
     reuses: bool
     mixed: bool
     wary: Wary = Wary.NOT
+    patient: bool = False
 
     def searching(self, wanted: bool) -> Manner:
         """The same, with a line search if it is wanted."""

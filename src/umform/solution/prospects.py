@@ -14,12 +14,20 @@ from umform.solution.system import Evaluation, System
 
 #: A residual that is far from equilibrium, relative to the force scale.
 _FAR = 0.1
-#: A jump to the next stable state may take so many times the iterations of an increment.
-_JUMP = 4
+#: A jump to the next stable state, or contact that sorts itself out in an undeformed sheet, may take so many times the
+#: iterations of an increment.
+_LONG = 4
 
 
 class Prospects:
     """Monitors the successive iterations of one increment.
+
+    Parameters
+    ----------
+    system : System
+        What is iterated.
+    patient : bool
+        Whether more iterations are allowed from the beginning.
 
     Attributes
     ----------
@@ -27,15 +35,15 @@ class Prospects:
         Whether the iterations go down to the next stable state, however far it is. eq. (5.102)
     """
 
-    def __init__(self, system: System) -> None:
-        self._cycle = Cycle(system)
+    def __init__(self, system: System, *, patient: bool = False) -> None:
+        self._cycle, self._patient = Cycle(system), patient
         self._stall = None if system.smooth else Stall()
         self._pivots = 0
         self._downhill = self.jumps = False
 
     def most(self, iterations: int) -> int:
-        """Largest number of iterations; parameter: that of an increment without a jump."""
-        return _JUMP * iterations if self.jumps else iterations
+        """Largest number of iterations; parameter: that of a usual increment."""
+        return _LONG * iterations if self.jumps or self._patient else iterations
 
     def asks(self, residual: float, wary: Wary) -> bool:
         """Whether the stability of an unsymmetric tangent is worth the factors of its symmetric part. eq. (5.101)

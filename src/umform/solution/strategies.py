@@ -86,6 +86,11 @@ class Increment:
         return any(pair.rubs and not pair.tool.open for pair in self.model.pairs_of_tools())
 
     @property
+    def undeformed(self) -> bool:
+        """Whether tools touch a sheet without forces: which points stay is the same for any size of increment."""
+        return self.touched and not self.model.ranks.any(bool(self.model.u.any()))
+
+    @property
     def touched(self) -> bool:
         """Whether the sheet touches a tool in the converged state."""
         return self.last.touching(self.model.ranks)
@@ -99,7 +104,8 @@ class Increment:
     def along_tangent(self, *, consistent: bool = False) -> Converged:
         """The equilibrium from the increment along the tangent, corrected for rotation with a tool by friction."""
         start = self.tangent()
-        manner = self.newton.manner(consistent=consistent, wary=self.wary, rubs=self.rubs)
+        rubs, patient = self.rubs, self.undeformed
+        manner = self.newton.manner(consistent=consistent, wary=self.wary, rubs=rubs, patient=patient)
         return self.newton.solve(start, manner, self.beyond(start))
 
     def beyond(self, start: Floats | None) -> Floats | None:

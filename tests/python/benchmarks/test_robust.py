@@ -10,8 +10,8 @@ import pytest
 from umform.errors import InvalidValue, NoConvergence
 from umform.results.balance import Balance
 
-#: How many jobs the sample has.
-SAMPLE = 42
+#: How many jobs the samples have.
+SAMPLE, DRAWS = 42, 19
 #: Those that jump at the end of a stable path.
 JUMPS = {104, 166}
 
@@ -21,32 +21,51 @@ def robust(script):
     return script("robust")
 
 
+@pytest.fixture
+def bends(robust):
+    return robust.LOTS["bends"]
+
+
 @pytest.mark.parametrize("which", range(SAMPLE))
-def test_the_sample_arrives(robust, which):
-    ended = robust.outcome(robust.SAMPLE[which])
+def test_the_sample_arrives(robust, bends, which):
+    ended = robust.outcome(bends.lot.job(bends.sample[which]))
     assert (ended["outcome"], ended["reason"]) == ("arrived", "")
     assert ended["increments"] > 0
     assert (ended["jumps"] > 0) == (ended["number"] in JUMPS)
 
 
-def test_the_sample_has_jobs_of_all_kinds(robust):
-    assert len(set(robust.SAMPLE)) == SAMPLE
-    jobs = [robust.job(number) for number in robust.SAMPLE]
-    kinds = robust.page.__globals__["job"].__globals__["KINDS"]
-    assert {job.kind for job in jobs} == set(kinds)
+@pytest.mark.parametrize("which", range(DRAWS))
+def test_the_sample_of_drawing_and_forming_arrives(robust, which):
+    draws = robust.LOTS["draws"]
+    ended = robust.outcome(draws.lot.job(draws.sample[which]))
+    assert (ended["outcome"], ended["reason"]) == ("arrived", "")
 
 
-def test_a_number_is_always_the_same_job(robust):
-    for number in (0, 11, 13, 20, 23, 27):
-        assert robust.job(number) == robust.job(number)
-        assert robust.job(number).keys != robust.job(number + 30).keys
-        assert robust.job(number).kind == robust.job(number + 30).kind
+@pytest.mark.parametrize(("name", "count"), [("bends", SAMPLE), ("draws", DRAWS)])
+def test_the_samples_have_jobs_of_all_kinds(robust, name, count):
+    rated = robust.LOTS[name]
+    assert len(set(rated.sample)) == len(rated.sample) == count
+    assert {rated.lot.job(number).kind for number in rated.sample} == set(rated.lot.kinds)
 
 
-def test_finer_jobs_have_increments_of_half_the_size(robust):
-    strip, bend = robust.job(13), robust.job(0)
+@pytest.mark.parametrize("name", ["bends", "draws"])
+def test_a_number_is_always_the_same_job(robust, name):
+    lot = robust.LOTS[name].lot
+    row = len(lot.row)
+    for number in range(row):
+        job, next_one = lot.job(number), lot.job(number + row)
+        assert job == lot.job(number)
+        assert job.keys != next_one.keys
+        assert job.kind == next_one.kind
+
+
+def test_finer_jobs_have_increments_of_half_the_size(robust, bends):
+    strip, bend = bends.lot.job(13), bends.lot.job(0)
     assert strip.finer().keys["steps"] == 2 * strip.keys["steps"]
     assert bend.finer().keys["increment"] == 0.5 * bend.keys["increment"]
+    hats = [robust.LOTS["draws"].lot.job(20 * row) for row in range(10)]
+    paced = next(hat for hat in hats if "pace" in hat.keys)
+    assert paced.finer().keys["pace"] == 0.5 * paced.keys["pace"]
 
 
 @pytest.mark.parametrize(
@@ -56,12 +75,12 @@ def test_finer_jobs_have_increments_of_half_the_size(robust):
         (InvalidValue("a word"), "refused"),
     ],
 )
-def test_errors_are_told_apart(robust, monkeypatch, error, ended):
+def test_errors_are_told_apart(robust, bends, monkeypatch, error, ended):
     def failing(task):
         raise error
 
     monkeypatch.setattr(robust.Job, "run", failing)
-    found = robust.outcome(0)
+    found = robust.outcome(bends.lot.job(0))
     assert found["outcome"] == ended
     assert (error.cause or error.what) in found["reason"]
 
@@ -86,10 +105,11 @@ def result(force=0.0, drift=0.0):
     return SimpleNamespace(balance=lambda: balance)
 
 
-def test_a_run_without_balance_is_wrong(robust, monkeypatch):
-    task = robust.job(13)
+def test_a_run_without_balance_is_wrong(robust, bends, monkeypatch):
+    task = bends.lot.job(13)
     assert robust.imbalance(task, robust.Done([result()])) == ""
     assert robust.imbalance(task, robust.Done([result(force=1e-3)])) == "forces off by 0.001, 1e-06 allowed"
+    assert robust.imbalance(task, robust.Done([result(force=1e-3)], forces=0.01)) == ""
     assert robust.imbalance(task, robust.Done([], {"angle": (0.2, 0.1)})) == "angle off by 0.2, 0.1 allowed"
     assert robust.imbalance(task, robust.Done([], {"angle": (np.nan, 0.1)}))
     for finer, said in ((0.02, ""), (0.08, "energies with increments of half the size off by 0.08, 0.048 allowed")):
@@ -97,7 +117,7 @@ def test_a_run_without_balance_is_wrong(robust, monkeypatch):
         assert robust.imbalance(task, robust.Done([result(drift=0.08)])) == said
 
 
-def test_a_process_that_takes_too_long_or_dies_is_told(robust, monkeypatch, tmp_path):
+def test_a_process_that_takes_too_long_or_dies_is_told(robust, bends, monkeypatch, tmp_path):
     slow = tmp_path / "slow.py"
     slow.write_text(
         "import sys\n"
@@ -106,14 +126,14 @@ def test_a_process_that_takes_too_long_or_dies_is_told(robust, monkeypatch, tmp_
         "def forever(task):\n"
         "    while True: pass\n"
         "robust.Job.run = forever\n"
-        "robust.inside(int(sys.argv[2]), 2)\n"
+        "robust.inside(robust.LOTS['bends'].lot.job(3), 2)\n"
     )
     dying = tmp_path / "dying.py"
     dying.write_text("import os\nos.abort()\n")
     monkeypatch.setattr(robust, "__file__", str(slow))
-    assert robust.in_a_process(3)["outcome"] == "out of time"
+    assert robust.in_a_process(bends, 3)["outcome"] == "out of time"
     monkeypatch.setattr(robust, "__file__", str(dying))
-    assert robust.in_a_process(3)["outcome"] == "crash"
+    assert robust.in_a_process(bends, 3)["outcome"] == "crash"
 
 
 def outcome(number: int, ended: str = "arrived") -> dict[str, object]:
@@ -129,30 +149,46 @@ def outcome(number: int, ended: str = "arrived") -> dict[str, object]:
     }
 
 
-def test_failures_must_be_explained_and_explanations_must_be_needed(script):
+def test_failures_must_be_explained_and_explanations_must_be_needed(script, bends):
     page = script("robust_page")
     outcomes = [outcome(0), outcome(1, "no convergence")]
-    page.check(outcomes, {1: "a limit point"})
+    page.check(bends, outcomes, {1: "a limit point"})
     for known in ({}, {0: "old", 1: "a limit point"}):
         with pytest.raises(SystemExit, match=r"no explanation of the jobs \[1?\]; jobs \[0?\] arrive"):
-            page.check(outcomes, known)
+            page.check(bends, outcomes, known)
 
 
-def test_the_page_has_the_rate_and_each_failure(script, monkeypatch):
+def test_the_page_has_the_rate_and_each_failure(script, bends, monkeypatch):
     page = script("robust_page")
-    monkeypatch.setattr(page, "explanations", lambda: {1: "a limit point"})
-    text = page.page([outcome(0), outcome(1, "no convergence"), outcome(28), outcome(29)])
+    monkeypatch.setattr(page, "explanations", lambda rated: {1: "a limit point"})
+    text = page.page(bends, [outcome(0), outcome(1, "no convergence"), outcome(28), outcome(29)])
     assert "\n75.0% finish; the goal is 99.5% and no job that hangs: missed.\n" in text
     assert "| air bend | 2 | 50.0% | 2.0 | 2.0 | 20 | 50% |" in text
     assert "* **Job 1**, air bend, no convergence: a limit point" in text
     assert "\nJobs: none. The stable path ends" in text
     jumped = outcome(29) | {"jumps": 1}
-    assert "\nJobs: 29. The stable path ends" in page.page([outcome(0), outcome(1, "no convergence"), jumped])
+    assert "\nJobs: 29. The stable path ends" in page.page(bends, [outcome(0), outcome(1, "no convergence"), jumped])
 
 
-def test_explanations_are_of_the_jobs_that_are_drawn(script, monkeypatch):
-    page = script("robust_page")
-    page.explanations()
-    monkeypatch.setattr(page, "drawn", lambda: "other")
+@pytest.mark.parametrize("name", ["bends", "draws"])
+def test_explanations_are_of_the_jobs_that_are_drawn(script, robust, name):
+    page, rated = script("robust_page"), robust.LOTS[name]
+    page.explanations(rated)
+    rated.lot.__dict__["drawn"] = "other"
     with pytest.raises(SystemExit, match="drawn in another way"):
-        page.explanations()
+        page.explanations(rated)
+
+
+def test_a_refusal_of_the_check_counts_for_drawn_jobs_alone(script, robust):
+    page = script("robust_page")
+    refused = [outcome(0, "refused"), outcome(1)]
+    assert page.rate(robust.LOTS["draws"], refused) == 1.0
+    assert page.rate(robust.LOTS["bends"], refused) == 0.5
+
+
+def test_a_number_of_which_its_run_warns_is_marked(script):
+    page = script("robust_page")
+    warned = {"warnings": ["contact on_die: the penetration of 0.1 exceeds the 0.02 allowed"]}
+    assert page.marked(outcome(0) | warned)
+    assert not page.marked(outcome(0) | {"warnings": ["another"]})
+    assert not page.marked(outcome(0, "no convergence") | warned)

@@ -89,3 +89,9 @@ def test_the_symmetric_part_is_factorised_after_a_cycle_of_contact():
             break
     assert number == 3  # two states, twice
     assert prospects.shifts(2, Wary.NOT)
+
+
+def test_contact_of_an_undeformed_sheet_gets_more_iterations():
+    system = SimpleNamespace(smooth=True)
+    assert Prospects(system).most(25) == 25
+    assert Prospects(system, patient=True).most(25) == 100

@@ -25,6 +25,8 @@ _ARM = 2.0
 _FLATTEST = 50.0
 #: Largest strain at which the bending stress is evaluated.
 _LARGEST_STRAIN = 0.25
+#: Time in which a law that depends on the rate reaches the strain: that of a step. In no time it would be elastic.
+_TIME = 1.0
 
 
 @dataclass(frozen=True)
@@ -90,12 +92,12 @@ def bending_stress(material: Material, strain: float, where: str) -> float:
     E, state = np.array([[strain, 0.0, -0.5 * strain, 0.0, 0.0, 0.0]]), law.initial()[None]
     try:
         for _ in range(50):
-            S, CC, _ = law.respond(E, state)
+            S, CC, _ = law.respond(E, state, step=_TIME)
             change = -S[0, 2] / CC[0, 2, 2]
             E[0, 2] += change
             if abs(change) < 1e-6 * strain:
                 break
-        stress = float(law.respond(E, state)[0][0, 0] * (1.0 + 2.0 * strain))
+        stress = float(law.respond(E, state, step=_TIME)[0][0, 0] * (1.0 + 2.0 * strain))
     except (UmformError, ValueError, ArithmeticError):
         stress = math.nan
     if not (math.isfinite(stress) and stress > 0.0):
