@@ -188,7 +188,7 @@ def main() -> None:
     parser.add_argument("--page", type=Path, metavar="FILE", help="write the table into this page")
     record.add_option(parser)
     given = parser.parse_args()
-    logging.getLogger("umform").setLevel(logging.ERROR)
+    logging.getLogger("umform").addHandler(logging.NullHandler())
     uf.set_threads(1)
     rows = []
     for name in given.job:

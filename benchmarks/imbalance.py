@@ -14,7 +14,7 @@ FORCES = 1e-6
 #: Drift of the energies, over the largest energy, above which it must be that of coarse increments.
 ENERGIES = 0.02
 #: What a run says of a penetration and of a drift that are larger than promised.
-DEEP, DRIFTS = "the penetration of", "the external work and the energies differ"
+DEEP, DRIFTS, COARSE = "the penetration of", "the external work and the energies differ", "% of its volume, which"
 
 
 def largest_drift(results: Iterable[uf.Result]) -> float:

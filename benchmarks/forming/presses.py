@@ -91,4 +91,4 @@ _OURS = ("law", "units", "steps", "pace", "held", "pressure")
 def run(keys: dict[str, Any]) -> Done:
     """Close, draw and open."""
     given = case(keys)
-    return judged(draw(given), given.newton.residual)
+    return judged(draw(given, given.newton), given.newton.residual)

@@ -9,7 +9,7 @@ import umform as uf
 from balances import LIMITS, measured
 from corpus.answers import Answer
 from corpus.sections import Sheet
-from imbalance import DEEP, DRIFTS, ENERGIES, FORCES
+from imbalance import COARSE, DEEP, DRIFTS, ENERGIES, FORCES
 from jobs.drawing import Drawing
 from jobs.lot import Done
 from umform import sheet_metals
@@ -107,12 +107,13 @@ def sheet_of(keys: dict[str, Any], *, slender: float = 1.0, layers: int = 1, siz
 def judged(answer: Answer, residual: float = 0.0) -> Done:
     """The runs of an answer, and what of it is judged; ``residual`` is a tolerance of Newton's method above the usual.
 
-    A penetration and a drift of the energies of which the run warns are not judged: the numbers are marked.
+    Penetrations, drifts and volumes of which the run warns are not judged: the numbers are marked.
     """
     found, forces = measured(answer), max(FORCES, _OF_RESIDUAL * residual)
     most = _JUDGED | {"tools": max(_JUDGED["tools"], forces)}
     warnings = " ".join(warning for result in answer.results for warning in result.warnings)
-    if DEEP in warnings:
-        del most["penetration"]
+    for mark, name in ((DEEP, "penetration"), (COARSE, "volume of the mesh")):
+        if mark in warnings:
+            del most[name]
     deviations = {name: (found[name], limit) for name, limit in most.items() if name in found}
     return Done(answer.results, deviations, forces, math.inf if DRIFTS in warnings else ENERGIES)

@@ -12,7 +12,7 @@ _FLUSH, _OVERLAP = 1e-6, 1e-9
 
 
 def touch_flush_sheet(model: Model) -> None:
-    """Move pressed tools onto the sheet where the gap is round-off. eq. (4.240)
+    """Move pressed tools onto the sheet where the gap is round-off. eq. (4.241)
 
     Without a single point in contact nothing answers the force, and the travel is undetermined. In some units the gap
     of a tool at the height of the sheet is zero, in others the last bit of a coordinate.

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from umform.errors import NoConvergence
 from umform.progress import Show, Tick, progress_bar
 from umform.results.bottoming import warn_of_bottoming
+from umform.results.coarse import warn_of_volume
 from umform.results.drift import warn_of_drift
 from umform.results.penetration import warn_of_contact
 from umform.results.rest import tell_of_rest
@@ -100,6 +101,7 @@ def taken(
                 warn_of_contact(run.model, result)
                 warn_of_untouched(run.model, result)
                 warn_of_drift(run.model, result)
+                warn_of_volume(run.model, result)
                 tell_of_rest(run.model, result)
             _pause(run, start, checkpoints, stop, last=last)
         except BaseException as error:  # whatever ends the run, the error carries the results so far
@@ -108,6 +110,7 @@ def taken(
                 warn_of_bottoming(run.model, result, run.number, run.evaluation.found)
                 warn_of_contact(run.model, result)
                 warn_of_drift(run.model, result)
+                warn_of_volume(run.model, result)
             ended_early(run, checkpoints, error)
             error.result = result  # type: ignore[attr-defined]
             raise

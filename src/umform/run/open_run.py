@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from umform.model import Evaluation, Model
 from umform.model.state import Snapshot
 from umform.progress import Tick, silent
+from umform.results.coarse import warn_of_volume
 from umform.results.drift import warn_of_drift
 from umform.results.history import Mark as HistoryMark
 from umform.results.penetration import warn_of_contact
@@ -145,4 +146,5 @@ class OpenRun:
         warn_of_contact(self._run.model, self.result)
         warn_of_untouched(self._run.model, self.result)
         warn_of_drift(self._run.model, self.result)
+        warn_of_volume(self._run.model, self.result)
         return self.result
