@@ -190,7 +190,7 @@ def _check_ears(page: Page, found: dict[str, Made]) -> None:
     ]
     columns = ("", f"of the rim on the flange, stroke {FLANGE:g} mm", "of the height", "ears")
     page.table("cos 4θ in mm, positive for ears in and across the rolling direction", columns, rows)
-    page.text(ears({name: cosine(found[name].ears) for name in (_FINE, "isotropic", _FREE) if name in found}))
+    page.text(ears({name: cosine(found[name].ears) for name in (*_MESHES, "isotropic", _FREE) if name in found}))
 
 
 def _check_forces(page: Page, found: dict[str, Made]) -> None:
@@ -270,5 +270,5 @@ holder, and the cup tears where the holder keeps its distance. So the holder is 
 40 kN is an assumption, and a table shows the height by this force and by friction.
 """,
     run=run,
-    cost=700.0,
+    cost=240.0,
 )

@@ -19,6 +19,7 @@ from umform.steps import Close, Move
 from umform.surfaces import Extruded, Plane, Profile, Triangles, Triangulated
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
+from umform_book.drawing.cups import NEWTON
 from umform_book.drawing.rim import SYMMETRIC
 from umform_book.page import Page
 
@@ -156,7 +157,7 @@ def unevenness(mesh: Mesh, u: Floats) -> float:
 def make(page: Page, label: str, setup: Setup, stroke: float = STROKE) -> tuple[Made, Result]:
     """Close the holder and draw."""
     model, steps = model_of(setup, stroke)
-    result = page.solve(label, model, steps)
+    result = page.solve(label, model, steps, options=NEWTON)
     mesh, u = model.mesh, model.u.reshape(-1, 3)
     edge = mesh.nodes("y1")
     at = [edge[np.isclose(mesh.points[edge, 0], x, atol=1e-6 * LENGTH)] for x in (0.0, 0.5 * LENGTH, LENGTH)]
