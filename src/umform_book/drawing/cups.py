@@ -13,10 +13,10 @@ from umform.materials.j2 import Plastic
 from umform.mesh import Mesh
 from umform.processes.draw import Cup
 from umform.processes.draw.drawn import let_go, passage
+from umform.processes.draw.press import OPTIONS
 from umform.results.forming import EarProfile, LargestForce, ear_profile, forming_fields, largest_force, section
 from umform.run import Result
 from umform.sheet_metals import get
-from umform.steps import Move
 from umform_book.page import Page
 
 Floats = NDArray[np.float64]
@@ -94,6 +94,8 @@ class Made:
         return self.elements, self.ears.mean, low, high, cosine(self.ears), *forces, self.thinning, *self.wall
 
 
+#: Newton's method of `umform draw`, whose tolerances would leave imbalances above those that a page of the book allows.
+NEWTON = replace(OPTIONS, residual=1e-7, increment=1e-4)
 #: Stroke in mm at which the rim is still on the flat of the die.
 FLANGE = 20.0
 #: Columns of such a table.
@@ -105,17 +107,14 @@ COLUMNS = (
 WALL = 8.0
 
 
-def make(page: Page, label: str, case: Cup, increments: int | None = None) -> Made | None:
-    """Hold, draw, perhaps by equal increments, open; None for a run that ends before, which the page says."""
+def make(page: Page, label: str, case: Cup) -> Made | None:
+    """Hold, draw, open; None for a run that ends before, which the page says."""
     model, press = case.build()
-    closing = press.closing()
-    if increments is not None:
-        closing[-1] = Move(press.stroke, to=press.way, steps=increments)
     where = "the run ends before the end of the stroke"
     try:
-        drawn = page.solve(label, model, closing, frames=50)
+        drawn = page.solve(label, model, press.closing(), frames=50, options=NEWTON)
         where = "the press does not open"
-        page.solve(f"{label}: released", model, press.opening(model))
+        page.solve(f"{label}: released", model, press.opening(model), options=NEWTON)
     except NoConvergence as error:
         page.text(f"{label}: {where}. {error.where}; {error.cause}.")
         return None

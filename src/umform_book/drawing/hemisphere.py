@@ -14,6 +14,7 @@ from umform.model import Model
 from umform.results.forming import sheet_strains
 from umform.steps import Move
 from umform.surfaces import Profile, Revolved, Sphere
+from umform_book.drawing.cups import NEWTON
 from umform_book.drawing.membrane import Round, Sheet, Stretched, stretch
 from umform_book.friction.u_bend import STEEL
 from umform_book.page import Page
@@ -112,7 +113,8 @@ def made(page: Page, label: str, setup: Setup, friction: float, strokes: Floats 
     stroke = model.drive(punch, "-z", name="stroke")
     force, thickness, major = [], [], []
     for way in strokes:
-        result = page.solve(f"{label}, to {way:g} mm", model, Move(stroke, to=float(way), steps=setup.increments))
+        move = Move(stroke, to=float(way), steps=setup.increments)
+        result = page.solve(f"{label}, to {way:g} mm", model, move, options=NEWTON)
         strains = sheet_strains(model.mesh, model.u)
         force.append(4.0 * abs(float(result["punch_fz"][-1])))
         thickness.append(strains.thickness)

@@ -18,6 +18,7 @@ from umform.run import Result
 from umform.sheet_metals import get
 from umform.steps import Move
 from umform.surfaces import Plane, Profile, Revolved, Sphere
+from umform_book.drawing.cups import NEWTON
 from umform_book.page import Page
 
 Floats = NDArray[np.float64]
@@ -128,7 +129,7 @@ def made(page: Page, label: str, setup: Setup, stroke: float = STROKE) -> tuple[
     holder = model.tool("holder", Plane((0.0, 0.0, GAP - half), (0.0, 0.0, -1.0)))
     model.contact("upper", holder, name="under_holder", **rule)
     model.contact("upper", punch, name="under_punch", **rule)
-    result = page.solve(label, model, Move(model.drive(punch, "-z", name="stroke"), to=stroke))
+    result = page.solve(label, model, Move(model.drive(punch, "-z", name="stroke"), to=stroke), options=NEWTON)
     mesh, u = model.mesh, model.u
     outline = draw_in(mesh, u)
     angle = np.degrees(np.arctan2(outline.before[:, 1], outline.before[:, 0]))

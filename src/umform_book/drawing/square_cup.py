@@ -19,6 +19,7 @@ from umform.steps import Close, Move
 from umform.surfaces import LedAround, Plane, Profile
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
+from umform_book.drawing.cups import NEWTON
 from umform_book.drawing.rim import SYMMETRIC
 from umform_book.page import Page
 
@@ -167,7 +168,7 @@ def make(page: Page, label: str, setup: Setup, strokes: tuple[float, ...] = (STR
         move = Move(stroke, to=way)
         what = label if len(strokes) == 1 else f"{label}, to {way:g} mm"
         try:
-            result = page.solve(what, model, move if found else [close, move])
+            result = page.solve(what, model, move if found else [close, move], options=NEWTON)
         except NoConvergence as error:
             page.text(f"{what}: the run ends before. {error.where}; {error.cause}.")
             break
