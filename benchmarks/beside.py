@@ -44,7 +44,7 @@ class _Page:
     def __init__(self, options: uf.NewtonOptions) -> None:
         self.options = options
 
-    def solve(self, label: str, model: uf.Model, steps: Any) -> Any:
+    def solve(self, label: str, model: uf.Model, steps: Any, **of_the_page: Any) -> Any:
         return uf.solve(model, steps, options=self.options, frames=0, progress=False)
 
 

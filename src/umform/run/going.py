@@ -110,7 +110,6 @@ def taken(
                 warn_of_bottoming(run.model, result, run.number, run.evaluation.found)
                 warn_of_contact(run.model, result)
                 warn_of_drift(run.model, result)
-                warn_of_volume(run.model, result)
             ended_early(run, checkpoints, error)
             error.result = result  # type: ignore[attr-defined]
             raise
