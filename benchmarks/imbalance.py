@@ -13,7 +13,7 @@ import umform as uf
 FORCES = 1e-6
 #: Drift of the energies, over the largest energy, above which it must be that of coarse increments.
 ENERGIES = 0.02
-#: What a run says of a penetration and of a drift that are larger than promised.
+#: What a run says of a penetration and of a drift that are larger than promised, and of a mesh that changes its volume.
 DEEP, DRIFTS, COARSE = "the penetration of", "the external work and the energies differ", "% of its volume, which"
 
 

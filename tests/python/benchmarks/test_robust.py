@@ -171,10 +171,10 @@ def test_the_page_has_the_rate_and_each_failure(script, bends, monkeypatch):
 
 
 @pytest.mark.parametrize("name", ["bends", "draws"])
-def test_explanations_are_of_the_jobs_that_are_drawn(script, robust, name):
+def test_explanations_are_of_the_jobs_that_are_drawn(script, robust, name, monkeypatch):
     page, rated = script("robust_page"), robust.LOTS[name]
     page.explanations(rated)
-    rated.lot.__dict__["drawn"] = "other"
+    monkeypatch.setitem(vars(rated.lot), "drawn", "other")
     with pytest.raises(SystemExit, match="drawn in another way"):
         page.explanations(rated)
 
