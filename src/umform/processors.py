@@ -22,18 +22,9 @@ def free() -> int:
 
     Other processes count that ran for the last minute and run now: neither one that has just ended nor one that starts.
     """
-    busy = min(_load(), _running() - 1)
+    load, _, _, running = _words("/proc/loadavg", "0 0 0 1/1")[:4]  # mean of a minute, and threads that run now
+    busy = min(float(load), int(running.split("/")[0]) - 1)
     return max(1, min(available(), (os.cpu_count() or 1) - round(busy)))
-
-
-def _load() -> float:
-    """Mean number of running processes of the machine in the last minute."""
-    return os.getloadavg()[0] if hasattr(os, "getloadavg") else 0.0
-
-
-def _running() -> int:
-    """Number of running threads of the machine, this one among them."""
-    return int(_words("/proc/loadavg", "0 0 0 1/1 1")[3].split("/")[0])
 
 
 def _quota() -> float:

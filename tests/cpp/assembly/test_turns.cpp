@@ -30,16 +30,13 @@ void check_groups() {
             for (const std::int32_t e : turns.elements(group)) CHECK(seen.insert(e).second);
             nodes.push_back(nodes_of(part, turns, group));
             CHECK(nodes.back().size() == 4 * turns.elements(group).size());  // no node is shared within a group
-            std::set<std::int32_t> last;
+            std::set<std::int32_t> others;
             for (const std::int32_t node : nodes.back())
-                for (int other = group - 1; other >= 0; --other)
-                    if (nodes[other].contains(node)) {
-                        last.insert(other);
-                        break;
-                    }
+                for (int other = 0; other < group; ++other)
+                    if (nodes[other].contains(node)) others.insert(other);
             const auto earlier = turns.earlier(group);
             CHECK(std::vector<std::int32_t>(earlier.begin(), earlier.end())
-                  == std::vector<std::int32_t>(last.begin(), last.end()));
+                  == std::vector<std::int32_t>(others.begin(), others.end()));
         }
         CHECK(static_cast<int>(seen.size()) == part.size());
     }
@@ -65,6 +62,23 @@ void check_order() {
             for (const std::vector<int>& groups : at) CHECK(std::is_sorted(groups.begin(), groups.end()));
         }
     turns_of({4, {}}, 4).run(3, [](int, int, const auto&) { CHECK(false); });
+}
+
+/// Three elements with one common node, each a group. The second adds nothing, as facets far from a tool, and does not wait for the
+/// first; the third does.
+void check_group_that_adds_nothing() {
+    Turns turns = turns_of({2, {0, 1, 0, 2, 0, 3}}, 1);
+    CHECK(turns.size() == 3);
+    std::atomic<bool> added{false};
+    bool waited = false;
+    turns.run(2, [&](int group, int, const auto& turn) {
+        if (group == 1) return;
+        turn();
+        if (group == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        if (group == 0) added = true;
+        if (group == 2) waited = added;
+    });
+    CHECK(waited);
 }
 
 /// Times as fast as one thread, where each group takes as long as any other, and nothing else takes any time.
@@ -125,6 +139,7 @@ void check_team() {
 int main() {
     check_groups();
     check_order();
+    check_group_that_adds_nothing();
     check_that_threads_are_fed();
     check_exceptions();
     check_team();

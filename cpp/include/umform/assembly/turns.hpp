@@ -31,7 +31,7 @@ class Turns {
 
     int size() const { return static_cast<int>(first_.size()) - 1; }
     std::span<const std::int32_t> elements(int group) const { return part_of(elements_, first_, group); }
-    /// The last earlier group at each node of a group. They have waited for the ones before them.
+    /// The earlier groups at the nodes of a group: all of them, since one that adds nothing waits for no other.
     std::span<const std::int32_t> earlier(int group) const { return part_of(earlier_, first_earlier_, group); }
 
     /// Calls work(group, thread, turn) for every group, on so many `threads`; thread < threads. turn() returns when the earlier
@@ -64,14 +64,15 @@ class Turns {
 
     void find_earlier(const Connectivity& part) {
         const int nodes = part.ids.empty() ? 0 : 1 + *std::max_element(part.ids.begin(), part.ids.end());
-        std::vector<std::int32_t> last(nodes, -1);  // group at a node
+        std::vector<std::vector<std::int32_t>> at(nodes);  // groups at a node so far
         for (int group = 0; group < size(); ++group) {
             std::vector<std::int32_t> found;
             for (const std::int32_t e : elements(group))
                 for (int a = 0; a < part.nodes; ++a) {
-                    std::int32_t& here = last[part[e][a]];
-                    if (here >= 0 && here != group) found.push_back(here);
-                    here = group;
+                    std::vector<std::int32_t>& there = at[part[e][a]];
+                    for (const std::int32_t here : there)
+                        if (here != group) found.push_back(here);
+                    if (there.empty() || there.back() != group) there.push_back(group);
                 }
             std::sort(found.begin(), found.end());
             earlier_.insert(earlier_.end(), found.begin(), std::unique(found.begin(), found.end()));
