@@ -24,7 +24,7 @@ _PLAIN = ("linear", "swift", "swift", "voce", "voce", "chaboche", "hill", "perfe
 #: balances, but for the meshes here, which are coarser.
 _JUDGED = {
     **{name: LIMITS[name].most for name in ("volume of the law", "penetration", "tools", "work of tools")},
-    "volume of the mesh": 0.05,
+    "volume of the mesh": 0.03,
     "symmetry": 5e-3,
 }
 #: Largest resultant of all forces over the tolerance of the residual.
