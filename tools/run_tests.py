@@ -39,7 +39,7 @@ def main(arguments: list[str]) -> int:
 
 
 def begun(report: Path) -> set[str]:
-    """Files with a test in a report: a worker that is told to end completes those that it has."""
+    """Files with a test in a report; a worker that must end completes the files it has."""
     return {case.attrib["file"] for case in ElementTree.parse(report).iter("testcase") if "file" in case.attrib}
 
 

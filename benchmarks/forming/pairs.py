@@ -1,4 +1,4 @@
-"""Sections between a die that somebody has drawn and its counterpart: joggles, rails that are not symmetric."""
+"""Sections between a die from a drawing and its counterpart: joggles, rails that are not symmetric."""
 
 from __future__ import annotations
 

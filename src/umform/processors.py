@@ -36,8 +36,8 @@ def _quota() -> float:
 
 
 def _words(path: str, otherwise: str) -> list[str]:
-    """Words of a file of the system, or others where there is none."""
+    """Words of a file of the system, or others where it is missing or empty."""
     try:
-        return Path(path).read_text(encoding="ascii").split()
+        return Path(path).read_text(encoding="ascii").split() or otherwise.split()
     except OSError:
         return otherwise.split()

@@ -9,6 +9,8 @@ from umform.model.tool_controls import ToolMotion
 
 #: Gap that is round-off of a drawing, and the overlap in its place, relative to the thickness of the sheet.
 _FLUSH, _OVERLAP = 1e-6, 1e-9
+#: Cosine between the travel and the normal of the tool, below which the tool slides along the sheet: 60 degrees.
+_FACES = 0.5
 
 
 def touch_flush_sheet(model: Model) -> None:
@@ -37,6 +39,6 @@ def _way(model: Model, press: Press, way: ToolMotion) -> float:
         point = int(at.gap.argmin())
         nearest = min(nearest, (float(at.gap[point]), float(at.normal[point] @ way.direction)))
     gap, along = nearest
-    if not gap <= _FLUSH * model.thickness or abs(along) < 0.5:
+    if not gap <= _FLUSH * model.thickness or abs(along) < _FACES:
         return 0.0
     return (gap + _OVERLAP * model.thickness) / along
