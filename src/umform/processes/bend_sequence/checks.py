@@ -7,8 +7,8 @@ from dataclasses import asdict
 from typing import Any, Protocol
 
 from umform.errors import InvalidValue
-from umform.processes.air_bending.checks import check_angle
-from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.goal import check_angle
+from umform.processes.air_bending.spec import AirBending
 from umform.processes.rules import length
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence.parameters import Bodies
 from umform.processes.bend_sequence.sides import Strip
 from umform.surfaces import Extruded, Profile

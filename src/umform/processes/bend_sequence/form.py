@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from umform.errors import FileProblem, InvalidValue
-from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence.parameters import TOOLS, Bend, BendSequence, Bodies
 
 _Size = Annotated[float, Field(gt=0.0, le=10000.0)]

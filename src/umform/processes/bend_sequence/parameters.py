@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
-from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence.checks import check_bend, check_sequence
 
 #: Parameters of the tools that may differ between bends.

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any, Protocol
 
 from umform.errors import InvalidValue
-from umform.processes.rules import Rule, length, whole
+from umform.processes.rules import length, whole
+from umform.spec import Rule
 
 
 class Hemming(Protocol):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence.parameters import Bend, BendSequence
 from umform.processes.hemming.checks import check_hemming
 
