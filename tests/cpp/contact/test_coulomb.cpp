@@ -6,7 +6,7 @@ using namespace umform;
 
 namespace {
 
-constexpr int numbers = 21;
+constexpr int numbers = 22;
 
 Coulomb law(double mu = 0.3) {
     auto friction = std::make_shared<CoulombFriction>();
@@ -68,6 +68,7 @@ void check_states() {
     CHECK(first.held && !first.slipping);
     const double stiffness = 0.3 * first.pressure / 0.05;  // of the bound over the elastic slip that is allowed
     CHECK(stiffness > 50.0 * 0.4);
+    CHECK(held[19] == stiffness);
     CHECK_NEAR(first.tangential[0], -stiffness * 0.25 * 0.0484, 1e-3);
     check_tangent(rubbing, touched, state, false);
     // The work is that of half of the traction on the whole way along the tool, not of what follows the touch; a part is stored.
@@ -89,12 +90,23 @@ void check_states() {
     const Vec3 n = Ball(x).n,
                t_n = Carried(Pose{}, Facing({0.0, x, n, Ball(x).H, Pose{}}), first.tangential, Ball(touched).n, true)
                          .value;
-    // It begins to slip where the traction reaches the bound, and does not slip at less: that much more than the mean.
-    const double s = std::sqrt(square(slip.tangential));
+    // It begins to slip where the traction reaches the bound, which falls on the way: that much more than the mean.
+    const double s = std::sqrt(square(slip.tangential)), s_n = 0.3 * first.pressure;
+    const double mean_stiffness = 0.5 * (held[19] + after[19]);
+    CHECK_NEAR(after[21], s, 1e-14);
     Vec3 D, trial;
-    for (int k = 0; k < 3; ++k) D[k] = way[k] - n[k] * dot(n, way), trial[k] = t_n[k] - after[19] * D[k];
-    const double irreversible = (std::sqrt(square(trial)) - s) / after[19];
-    const double above = 0.5 * (s - dot(t_n, slip.tangential) / s) * irreversible;
+    for (int k = 0; k < 3; ++k) D[k] = way[k] - n[k] * dot(n, way), trial[k] = t_n[k] - mean_stiffness * D[k];
+    const double irreversible = (std::sqrt(square(trial)) - s) / mean_stiffness;
+    double low = 0.0, high = 1.0;  // where it begins, by bisection
+    for (int i = 0; i < 60; ++i) {
+        const double a = 0.5 * (low + high);
+        Vec3 t;
+        for (int k = 0; k < 3; ++k) t[k] = (1.0 - a) * t_n[k] + a * trial[k];
+        (std::sqrt(square(t)) > s_n + a * (s - s_n) ? high : low) = a;
+    }
+    const double onset = s_n + low * (s - s_n);
+    CHECK(onset > 1.01 * s && onset < 0.995 * s_n);
+    const double above = 0.5 * (onset - dot(t_n, slip.tangential) / s) * irreversible;
     CHECK(above > 0.1 * after[18]);
     const double mean = -0.5 * (dot(first.tangential, way) + dot(slip.tangential, way));
     CHECK_NEAR(after[18], held[18] + mean + above - stored, 1e-12);
@@ -111,7 +123,7 @@ void check_states() {
     // It lets go: what is left is the place, the distance slid and the work.
     double gone[numbers]{};
     CHECK(!at(rubbing, {0.30, 0.10, 2.1}, after, gone).held);
-    CHECK(gone[1] == 0.0 && gone[8] == 0.0 && gone[17] == after[17] && gone[20] == after[20]);
+    CHECK(gone[1] == 0.0 && gone[8] == 0.0 && gone[17] == after[17] && gone[20] == after[20] && gone[21] == 0.0);
     CHECK(gone[19] == 50.0 * 0.4);  // as of a place that was never held
     // Half of the traction that it had still works on the way, and what was stored is lost to it.
     CHECK_NEAR(gone[18], after[18] - 0.5 * slip.tangential[2] * 0.22 + square(slip.tangential) / (2.0 * after[19]),
@@ -170,10 +182,59 @@ void check_slides() {
     falling.at(0.04, 0.0, 5.0);
     CHECK(falling.state[20] == 0.0);
     CHECK(falling.state[19] == 60.0);  // the stiffness stays that of the largest bound
-    // A pressure that grows as it begins to slip: the elastic slip is that of the bound at the end.
-    Flat both;
-    both.at(0.0, 0.0), both.at(1.0, 0.0, 10.0);
-    CHECK_NEAR(both.work(), 3.0 * (1.0 - elastic), 1e-14);
+    // One that falls in proportion to the way, before it slips and while it does: exact, in few increments or in many.
+    for (const int increments : {1, 2, 7, 30}) {
+        Flat both;
+        both.at(0.0, 0.0, 10.0);
+        for (int i = 1; i <= increments; ++i) both.at(0.5 * i / increments, 0.0, 10.0 - 5.0 * i / increments);
+        const double onset = 3.0 / 63.0;  // where 60 x = 3 - 3 x
+        const double exact = 30.0 * onset * onset + 3.0 * (0.5 - onset) - 1.5 * (0.25 - onset * onset);
+        CHECK_NEAR(both.work(), exact - 1.5 * 1.5 / 120.0, 1e-14);
+        Flat back;
+        back.at(0.0, 0.0, 10.0), back.at(1.0, 0.0, 10.0);
+        const double there = back.work(), turn = 6.0 / 63.0;  // where 60 x - 3 = 3 - 3 x
+        for (int i = 1; i <= increments; ++i) back.at(1.0 - 0.5 * i / increments, 0.0, 10.0 - 5.0 * i / increments);
+        const double elastic_part = 30.0 * turn * turn - 3.0 * turn + (9.0 - 2.25) / 120.0;
+        const double slid = 3.0 * (0.5 - turn) - 1.5 * (0.25 - turn * turn);
+        CHECK_NEAR(back.work(), there + elastic_part + slid, 1e-13);
+    }
+}
+
+/// A pressure that grows while it sticks, or until it slips and on, or as it turns back: second order in the increment.
+void check_order() {
+    const auto work = [](double far, double turns, int increments) {
+        Flat flat;
+        flat.at(0.0, 0.0);
+        for (int i = 1; i <= increments; ++i) {
+            const double part = static_cast<double>(i) / increments;
+            flat.at(far * (turns > 0.0 ? std::sin(turns * part) : part), 0.0, 5.0 * (1.0 + part));
+        }
+        return flat.work();
+    };
+    // Exact, dt = 30 (1 + x / L) dx and s = 1.5 (1 + x / L) for a way L, which is half an elastic slip, or ten of them.
+    const auto up_to = [](double L, double x) { return 15.0 * x * x + 5.0 * x * x * x / L; };
+    const double stuck = 0.025, t = 45.0 * stuck, x = 0.5 * (std::sqrt(101.0) - 9.0) / 10.0;
+    const double sticks = up_to(stuck, stuck) - t * t / 120.0;
+    const double slips = up_to(0.5, x) + 1.5 * (0.5 - x) + 1.5 * (0.25 - x * x) - 0.075;
+    for (const int increments : {16, 32, 64}) {
+        CHECK_NEAR((work(stuck, 0.0, increments) - sticks) / (work(stuck, 0.0, 2 * increments) - sticks), 4.0, 0.01);
+        CHECK_NEAR((work(0.5, 0.0, increments) - slips) / (work(0.5, 0.0, 2 * increments) - slips), 4.0, 0.3);
+    }
+    CHECK_NEAR(work(0.5, 0.0, 8), slips, 1.2e-3 * slips);  // 3.7e-3 with the stiffness of the end
+    const double turned = work(0.3, 4.71, 1 << 14);
+    CHECK_NEAR(work(0.3, 4.71, 64), turned, 1e-4 * turned);  // 9e-4
+}
+
+/// Falling stiffness would give energy: none of it comes back, at whatever pressure a place sticks.
+void check_no_gain() {
+    for (const double pressure : {2.0, 4.9, 5.1, 20.0}) {
+        Flat flat;
+        flat.at(0.0, 0.0), flat.at(0.01, 0.0);
+        const double before = flat.work();
+        flat.at(0.012, 0.005, pressure);
+        CHECK(flat.work() >= before - 1e-16);
+        CHECK((flat.work() > before + 1e-6) == (pressure > 5.0));
+    }
 }
 
 /// The way is that in the frame of the tool: one that carries the place does no work, one that slides under it all.
@@ -373,6 +434,8 @@ int main() {
     check_frame();
     check_transport();
     check_slides();
+    check_order();
+    check_no_gain();
     check_moving_tool();
     check_multipliers();
     check_fading_slope();

@@ -301,13 +301,13 @@ def test_the_work_of_points_that_leave_the_tool_and_touch_it_closes_the_balance(
         if mover == "turning table":
             way = model.turn(table, "z", about=(0.0, -8.0, 0.0))
         far = 0.3 if mover == "turning table" else 3.0
-        steps = [Move(press, -1e-3, steps=1), Move(way, far, steps=10), Move(way, 0.3 * far, steps=10)]
+        steps = [Move(press, -1e-3, steps=1), Move(way, far, steps=20), Move(way, 0.3 * far, steps=20)]
         result = solve(model, steps, frames=0)
-        assert result["table_active"][1] > 2 and result["table_active"][11] == 0 and result["table_active"][-1] > 2
+        assert result["table_active"][1] > 2 and result["table_active"][21] == 0 and result["table_active"][-1] > 2
         assert np.abs(result.balance().drift).max() < 0.01
         works.append(result["friction_work"][-1])
     assert works[1] == pytest.approx(works[0], rel=1e-9)
-    assert works[2] == pytest.approx(works[0], rel=0.1)  # another way, of about the same length
+    assert works[2] == pytest.approx(works[0], rel=0.1)  # another way: 8 to 9 % more in short increments
 
 
 def test_multipliers_take_the_elastic_slip_and_the_creep_away():

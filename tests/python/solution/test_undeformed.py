@@ -8,7 +8,7 @@ import umform as uf
 from umform.solution.prospects import Prospects
 
 
-@pytest.mark.parametrize("gap", [0.0, 0.02])
+@pytest.mark.parametrize("gap", [0.0, 0.015])
 def test_only_the_first_increment_of_a_sheet_that_tools_touch_is_patient(gap, monkeypatch):
     patient = []
     begun = Prospects.__init__
@@ -23,6 +23,8 @@ def test_only_the_first_increment_of_a_sheet_that_tools_touch_is_patient(gap, mo
         model.symmetry(nodes, normal)
     plate = model.tool("plate", uf.Plane((0.0, 0.0, 0.5 + gap), (0.0, 0.0, -1.0)))
     model.contact("upper", plate, name="on_plate", penalty=1e4)
-    uf.solve(model, uf.Move(model.drive(plate, "-z", name="way"), 0.03, steps=3), progress=False)
+    way = uf.Move(model.drive(plate, "-z", name="way"), 0.03, steps=3)
+    along_tangents = uf.NewtonOptions(extrapolate=0)  # an extrapolated increment is not patient in any case
+    uf.solve(model, way, options=along_tangents, progress=False)
     assert patient[0] is (gap == 0.0)
     assert not any(patient[1:])

@@ -28,7 +28,8 @@ struct Bead {
     static std::vector<Quantity> quantities() {
         return {{"multiplier", 1},  // none: always zero
                 {"held", 1},       {"place", 3}, {"share", 1}, {"traction", 3},         {"lift", 3},
-                {"stored", 1},     {"slip", 1},  {"work", 1},  {"work of the lift", 1}, {"work above the mean", 1}};
+                {"stored", 1},     {"slip", 1},  {"work", 1},  {"work of the lift", 1}, {"work above the mean", 1},
+                {"bound", 1}};
     }
 
     double stiffness(const double*) const { return penalty; }
@@ -38,6 +39,7 @@ struct Bead {
     void leave(const Vec3& z, const double* state, double* trial) const {
         std::fill(trial + Held, trial + Slip, 0.0);
         trial[Slip] = state[Slip];
+        trial[Limit] = 0.0;
         put(trial + Where, z);
         add_work(state, trial, 0.0);
     }
@@ -101,9 +103,11 @@ struct Bead {
         if (held && slips) {
             const Vec3 t_n = at(state + Traction);
             const double before = std::sqrt(dot(t_n, t_n)), irreversible = slip * std::abs(wanted - share);
-            const double onset = std::abs(state[Share]) == 1.0 ? before : std::max(before, s);
+            const double a = (share - state[Share]) / (wanted - state[Share]);  // of the way, where slip begins
+            const double onset = state[Limit] + a * (s - state[Limit]);
             above = 0.5 * (onset - std::copysign(before, state[Share] * share)) * irreversible;
         }
+        trial[Limit] = s;
         add_work(state, trial, above);
         return true;
     }
@@ -120,7 +124,8 @@ struct Bead {
         Slip = 13,
         Work = 14,
         LiftWork = 15,
-        Above = 16
+        Above = 16,
+        Limit = 17
     };
 
     static Vec3 at(const double* history) { return {history[0], history[1], history[2]}; }

@@ -29,7 +29,8 @@ struct Coulomb {
                 {"slip", 1},
                 {"friction work", 1},
                 {"tangential stiffness", 1},
-                {"friction work above the mean", 1}};
+                {"friction work above the mean", 1},
+                {"bound", 1}};
     }
 
     double stiffness(const double* history) const { return std::max(penalty, history[Stiffness]); }
@@ -38,6 +39,7 @@ struct Coulomb {
     /// The point is out of contact, at z in the frame of the tool.
     void leave(const Vec3& z, const double* state, double* trial) const {
         std::fill(trial + Held, trial + Change, 0.0);
+        trial[Limit] = 0.0;
         put(trial + Where, z);
         trial[Slip] = state[Slip];
         trial[Stiffness] = ratio * penalty;
@@ -95,11 +97,13 @@ struct Coulomb {
         const Carried before(place.pose, facing, sum(held ? at(state + Traction) : Vec3{}, at(trial + Change)),
                              at(state + Normal), held);
         const Bound bound = friction->bound(facing.scale * pressure, state[Slip] + slide.length, z);
-        // Never softer than before, so that none of it gives energy back. eq. (4.174)
-        const bool stiffens = bound.value > tangential_stiffness(state) * allowed;
-        const double eps = stiffens ? bound.value / allowed : tangential_stiffness(state);
-        Vec3 t, m{};
-        for (int k = 0; k < 3; ++k) t[k] = before.value[k] - eps * slide.D[k];
+        // Never softer than before, so that none of it gives energy back; the mean over the increment. eqs. (4.174), (4.242)
+        const double eps_n = tangential_stiffness(state);
+        const bool stiffens = bound.value > eps_n * allowed;
+        const double mean = held ? 0.5 : 1.0;  // one that touches has no stiffness before
+        const double eps_end = stiffens ? bound.value / allowed : eps_n, eps = eps_n + mean * (eps_end - eps_n);
+        Vec3 trial_t, t, m{};
+        for (int k = 0; k < 3; ++k) t[k] = trial_t[k] = before.value[k] - eps * slide.D[k];
         const double size = std::sqrt(dot(t, t));
         const bool slips = size > bound.value * (1.0 + round_off);
         const double part = slips ? bound.value / size : 1.0;
@@ -109,7 +113,7 @@ struct Coulomb {
         // dt = dt_trial, or m ds + s/|t_trial| (1 - m m^T) dt_trial, at this pressure and by it. eq. (4.47)
         Vec3 d_stiff{}, by_pressure{};
         if (stiffens)
-            for (int k = 0; k < 3; ++k) d_stiff[k] = -slide.D[k] / allowed;
+            for (int k = 0; k < 3; ++k) d_stiff[k] = -mean * slide.D[k] / allowed;
         const Vec3 d_scale = facing.scale == 1.0 ? Vec3{} : product(place.H, facing.n);
         const double s_of_p = bound.by_pressure * facing.scale;
         const auto returned = [&](const Vec3& d_trial, double ds) {
@@ -136,9 +140,14 @@ struct Coulomb {
             reaction.by_pressure[i] = weight * (n[i] + by_pressure[i]);
             for (int j = 0; j < 3; ++j) reaction.K[i][j] = -weight * (pressure * place.H(i, j) + dt(i, j));
         }
-        trial[Stiffness] = eps;
-        const double irreversible = slips ? (size - bound.value) / eps : 0.0;
-        remember(place.pose, facing, z, t, slide, irreversible, state, trial);
+        trial[Stiffness] = eps_end;
+        trial[Limit] = bound.value;
+        double above = 0.0;
+        if (held && slips) {
+            const Vec3 t_n = Carried(place.pose, facing, at(state + Traction), at(state + Normal), true).value;
+            above = 0.5 * (onset(t_n, state[Limit], trial_t, bound.value) - dot(t_n, m)) * (size - bound.value) / eps;
+        }
+        remember(place.pose, facing, z, t, slide.length, above, state, trial);
     }
 
   private:
@@ -157,10 +166,9 @@ struct Coulomb {
         Slip = 17,
         Work = 18,
         Stiffness = 19,
-        Above = 20
+        Above = 20,
+        Limit = 21
     };
-    /// Held
-    static constexpr double sticking = 1.0, sliding = 2.0;
 
     double tangential_stiffness(const double* history) const {
         return history[Held] != 0.0 ? history[Stiffness] : ratio * penalty;
@@ -175,24 +183,28 @@ struct Coulomb {
         return 0.5 * (dot(t, t) - dot(lambda, lambda)) / tangential_stiffness(history);
     }
 
-    /// The new history. `irreversible` is the part of the way along the tool that is no change of the elastic slip.
-    void remember(const Pose& pose, const Facing& facing, const Vec3& z, const Vec3& t, const Slide& slide,
-                  double irreversible, const double* state, double* trial) const {
+    /// Bound at which slip begins: on the way from t_n within its bound s_n to t beyond its bound s, both of which change linearly, the
+    /// root a in [0, 1] of |t_n + a (t - t_n)| = s_n + a (s - s_n). eq. (4.220)
+    static double onset(const Vec3& t_n, double s_n, const Vec3& t, double s) {
+        const Vec3 dt{t[0] - t_n[0], t[1] - t_n[1], t[2] - t_n[2]};
+        const double ds = s - s_n, A = dot(dt, dt) - ds * ds, B = s_n * ds - dot(t_n, dt),
+                     C = s_n * s_n - dot(t_n, t_n);
+        const double root = std::sqrt(std::max(B * B + A * C, 0.0));
+        const double a = B > 0.0 ? (B + root) / A : root > B ? C / (root - B) : 0.0;
+        return s_n + std::clamp(a, 0.0, 1.0) * ds;
+    }
+
+    /// The new history.
+    void remember(const Pose& pose, const Facing& facing, const Vec3& z, const Vec3& t, double length, double above,
+                  const double* state, double* trial) const {
         const bool held = state[Held] != 0.0;
         const Carried lambda(pose, facing, sum(at(state + Tangential), at(trial + Change)), at(state + Normal), held);
-        double above = 0.0;
-        if (held && irreversible > 0.0) {
-            const Vec3 t_n = Carried(pose, facing, at(state + Traction), at(state + Normal), true).value;
-            const double before = std::sqrt(dot(t_n, t_n)), after = std::sqrt(dot(t, t));
-            const double onset = state[Held] == sliding ? before : std::max(before, after);
-            above = after > 0.0 ? 0.5 * (onset - dot(t_n, t) / after) * irreversible : 0.0;
-        }
-        trial[Held] = irreversible > 0.0 ? sliding : sticking;
+        trial[Held] = 1.0;
         put(trial + Where, z);
         put(trial + Normal, pose.turn_back(facing.n));
         put(trial + Traction, pose.turn_back(t));
         put(trial + Tangential, pose.turn_back(lambda.value));
-        trial[Slip] = state[Slip] + slide.length;
+        trial[Slip] = state[Slip] + length;
         add_work(state, trial, above);
     }
 
