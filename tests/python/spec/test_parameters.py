@@ -18,6 +18,8 @@ from umform.cli.given import Given, given_by
 from umform.errors import InvalidValue, NotFinite
 from umform.processes.air_bending.goal import Goal
 from umform.processes.air_bending.spec import AirBending
+from umform.processes.bend_sequence.spec import Bend, BendSequence, Bodies
+from umform.processes.hemming import Hemming
 from umform.spec import About, Rule, check_fields, parameters
 from umform.spec.types import Degrees, Length
 
@@ -116,7 +118,7 @@ def test_the_schema_of_pydantic_has_the_same_bounds_and_units():
         TypeAdapter(Tube).validate_python({"radius": -1.0})
 
 
-@pytest.mark.parametrize("spec", [AirBending, Goal])
+@pytest.mark.parametrize("spec", [AirBending, Bend, BendSequence, Bodies, Goal, Hemming])
 def test_each_field_of_a_process_has_a_sentence_and_each_number_a_reason(spec):
     for name, parameter in parameters(spec).items():
         assert parameter.sentence.endswith(".") and parameter.sentence[0].isupper(), name
