@@ -33,7 +33,7 @@ class Evaluated(Assembled):
         self._evaluations, self._converged_time, self._began = 0, 0.0, 0.0
 
     def too_deep(self, evaluation: Evaluation) -> dict[Contact, float]:
-        """Contacts beyond their allowed penetration that may become stiffer, and their penetration relative to it. eq. (4.200)"""
+        """Contacts beyond their allowed penetration that may become stiffer, and their share of it. eq. (4.200)"""
         shares = {}
         for contact in self.contacts:
             if contact.adapts and contact.penalty < contact.largest_penalty:

@@ -113,9 +113,7 @@ class Increment:
         """The equilibrium from the increment along the tangent, corrected for rotation with a tool by friction."""
         start = self.tangent()
         rubs, patient = self.rubs, self.undeformed
-        manner = self.newton.manner(
-            consistent=consistent, wary=self.wary, rubs=rubs, patient=patient, grows=self.grows
-        )
+        manner = self.newton.manner(consistent=consistent, wary=self.wary, rubs=rubs, patient=patient, grows=self.grows)
         return self.newton.solve(start, manner, self.beyond(start))
 
     def beyond(self, start: Floats | None) -> Floats | None:

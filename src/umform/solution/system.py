@@ -150,7 +150,7 @@ class System(Protocol):
     def recover(self, du: Floats, mixed: bool = False) -> None:
         """Update condensed parameters; the next tangent may be mixed, with the stress that the increment predicts."""
 
-    def too_deep(self, evaluation: Evaluation) -> Mapping[Any, float]:
+    def too_deep(self, evaluation: Any) -> Mapping[Any, float]:
         """Contacts whose penalty will grow, and their penetration relative to the allowed one. eq. (4.200)"""
 
     def follow(self) -> None:
