@@ -43,6 +43,8 @@ class Increment:
         Evaluation at the converged state.
     keeps : bool
         Whether an extrapolation keeps the contact points of the converged state. eq. (4.230)
+    grows : bool
+        Whether it ends near equilibrium where a penalty will grow.
     """
 
     model: Model
@@ -53,6 +55,7 @@ class Increment:
     guess: Floats | None
     last: Evaluation
     keeps: bool = True
+    grows: bool = True
 
     def accept(self, converged: Converged) -> Converged:
         """The equilibrium, unless the sheet passed through a tool, or rotated on one too far for its friction."""
@@ -101,11 +104,16 @@ class Increment:
         go = lambda: self.newton.solve(start, manner, self.beyond(start))  # noqa: E731
         return softened(self.model, self.newton, go, self.accept, manner, touched=self.touched)
 
+    def along_extrapolation(self) -> Converged:
+        """The equilibrium from the last increment, scaled."""
+        manner = self.newton.manner(wary=self.wary, grows=self.grows)
+        return self.newton.solve(self.guess, manner, keep=self.keeps and self.newton.options.keep)
+
     def along_tangent(self, *, consistent: bool = False) -> Converged:
         """The equilibrium from the increment along the tangent, corrected for rotation with a tool by friction."""
         start = self.tangent()
         rubs, patient = self.rubs, self.undeformed
-        manner = self.newton.manner(consistent=consistent, wary=self.wary, rubs=rubs, patient=patient)
+        manner = self.newton.manner(consistent=consistent, wary=self.wary, rubs=rubs, patient=patient, grows=self.grows)
         return self.newton.solve(start, manner, self.beyond(start))
 
     def beyond(self, start: Floats | None) -> Floats | None:
@@ -169,7 +177,7 @@ STRATEGIES = (
     Strategy(
         "extrapolation",
         lambda at: at.extrapolates and not at.came_round,
-        lambda at: at.newton.solve(at.guess, at.newton.manner(wary=at.wary), keep=at.keeps and at.newton.options.keep),
+        lambda at: at.along_extrapolation(),
     ),
     Strategy(
         "tangent",

@@ -150,6 +150,9 @@ class System(Protocol):
     def recover(self, du: Floats, mixed: bool = False) -> None:
         """Update condensed parameters; the next tangent may be mixed, with the stress that the increment predicts."""
 
+    def too_deep(self, evaluation: Any) -> Mapping[Any, float]:
+        """Contacts whose penalty will grow, and their penetration relative to the allowed one. eq. (4.200)"""
+
     def follow(self) -> None:
         """After an evaluation of forces only: let the next recovery use them, with the previous tangent."""
 
