@@ -23,7 +23,7 @@ from umform.steps import Move, Step
 
 Floats = NDArray[np.float64]
 
-#: Gap of a tool that carries the sheet, relative to the thickness: the run turns the sheet so far
+#: Gap of a tool that carries the sheet, relative to the thickness: the run turns the sheet so far. eq. (4.260)
 _NEAR = 0.5
 #: Cosine between the motion of a tool and its normal, below which it slides along the sheet: 60 degrees.
 _FACES = 0.5
