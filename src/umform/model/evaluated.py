@@ -179,6 +179,16 @@ class Evaluated(Assembled):
         term.evaluate(At(at.u, at.time, at.values, at.step, along, rates, scalars=at.scalars), scratch)
         return part
 
+    def resultants(self, evaluation: Evaluation) -> tuple[float, float]:
+        """Largest resultant along an axis of the residual of the unknowns, and of the forces of a tool. eq. (5.130)"""
+        ranks, r, sums = self.ranks, self.restrict(evaluation.residual), []
+        for axis in range(3):
+            shift = np.zeros_like(evaluation.x)
+            shift[axis : self.u.size : 3] = 1.0
+            sums.append(abs(ranks.dot(r, self.coefficients(shift))))
+        tools = [np.abs(tool.resultant(evaluation.found, ranks)[0]).max() for tool in self.tools]
+        return max(sums), max(map(float, tools), default=0.0)
+
     def recover(self, du: Floats, mixed: bool = False) -> None:
         """Update the enhanced parameters after ``u += du``. eq. (2.19)
 

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from umform.errors import NotFinite, SingularMatrix
 from umform.solution.bordered import Bordered
-from umform.solution.criteria import Criteria, largest
+from umform.solution.criteria import EPS, Criteria, largest
 from umform.solution.factor_reuse import Reuse
 from umform.solution.line_search import lengthened, shortened
 from umform.solution.options import Manner, NewtonOptions, Wary
@@ -61,6 +61,8 @@ class Newton:
         self.callbacks: list[Callable[[Iteration], None]] = []
         #: Whether the sheet springs back, nearly elastic, even if its laws have a history. docs/theory, 5.13
         self.springs_back = False
+        #: Relative residual at which iterations end, above the tolerance; zero: none. eq. (5.131)
+        self.settled = 0.0
 
     @property
     def solver(self) -> str:
@@ -227,9 +229,12 @@ class Newton:
         start = clock.perf_counter() if start is None else start
         recorder = Recorder(self.callbacks, system.ranks, start)
         iterations = recorder.iterations
+        if system.ranks.max(float(np.abs(du).max(initial=0.0))) <= EPS * system.extent:
+            du = self.prescribed_increment(u)  # the rest would shake a sheet without forces off its tools
         system.recover(du, manner.mixed)
         u = u + du if beyond is None else u + du + beyond
         criteria, shift = Criteria(system, options.residual, options.increment), Shift(system)
+        criteria.settled = self.settled
         prospects = Prospects(system, patient=manner.patient)
         reuse = Reuse(options, system.pattern.n, system.effort)
         pivots = reuse.remember(first.factors) if first is not None else None

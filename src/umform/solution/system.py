@@ -138,6 +138,9 @@ class System(Protocol):
     def displacement_of_supports(self, values: Mapping[Any, float]) -> Floats:
         """Displacement that supports prescribe for given values of their controls, shape (3 n,)."""
 
+    def resultants(self, evaluation: Any) -> tuple[float, float]:
+        """Largest resultant along an axis of the residual of the unknowns, and of the forces of a tool. eq. (5.130)"""
+
     def largest_entry(self, values: Floats) -> float:
         """Size of the largest entry of the tangent."""
 

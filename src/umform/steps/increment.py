@@ -148,7 +148,7 @@ def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], value
         )
         remedy = f"hold the sheet in more places, or take a thicker or a shorter one; else {remedy}"
     limit = limit_load(run, controls) if loose is None else None
-    burst = thinned(run, failure)
+    burst = thinned(run)
     if limit is not None:
         cause, remedy = limit
     elif burst is not None:
@@ -159,7 +159,7 @@ def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], value
         cause = f"{cause}; at the last converged state {'; '.join(pressed)}"
         remedy = f"{remedy}; a force that the sheet does not answer: less of it, a spring, a stop, or drive the tool"
     deep = crushed(run)
-    if deep:
+    if deep and burst is None:
         cause = f"{cause}; at the last converged state {'; '.join(deep)}"
         remedy = (
             "a smaller force: a force or pressure is probably in another unit, or that of the whole part on a piece of "

@@ -249,7 +249,7 @@ def _no_convergence(run: Run, failure: Failed, where: str, line: Line) -> NoConv
             "that jumps; else a smaller increment or grow, more iterations in NewtonOptions, more cuts"
         ),
     )
-    burst = thinned(run, failure)
+    burst = thinned(run)
     if burst is not None:
         cause, remedy = f"{cause}; {burst[0]}", burst[1]
     largest = _passed(run, line)
