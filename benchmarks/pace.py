@@ -19,7 +19,7 @@ import record
 import umform as uf
 from dome import build as dome
 from umform.processes.air_bending import brake
-from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.spec import AirBending
 from umform.processes.bending import case as bending
 from umform.processes.bending.parameters import FreeBending
 

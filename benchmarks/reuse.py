@@ -17,7 +17,7 @@ import numpy as np
 import dome
 import umform as uf
 from umform.processes.air_bending import brake
-from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.spec import AirBending
 from umform.processes.bending import case as bending
 from umform.processes.bending.parameters import FreeBending
 from umform.solution.factor_reuse import cost_of_factors

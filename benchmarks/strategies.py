@@ -14,8 +14,8 @@ import record
 import umform as uf
 from dome import build as dome
 from umform.attempts import Attempts
-from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.search import find_stroke
+from umform.processes.air_bending.spec import AirBending
 from umform.processes.bending.case import build as build_bending
 from umform.processes.bending.case import free_bending
 from umform.processes.bending.parameters import FreeBending

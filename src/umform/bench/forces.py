@@ -8,7 +8,7 @@ from typing import Any
 
 from umform.bench.wanted import Wanted
 from umform.processes.air_bending.formulas import shop_forces
-from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.spec import AirBending
 from umform.processes.hemming.formulas import flattening_forces
 
 #: Force of bottoming over that in the air: what is usual.

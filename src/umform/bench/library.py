@@ -52,7 +52,18 @@ def library() -> dict[str, Any]:
         "works": list(WORKS),
         "quantities": quantities,
         "defaults": Wanted().model_dump(),
+        "units": _units(),
     }
+
+
+def _units() -> dict[str, str]:
+    """Units of the fields of the form by their names; degrees as a sign."""
+    rows = Wanted.model_json_schema()["properties"]
+    said = {
+        name: next((arm["unit"] for arm in (row, *row.get("anyOf", ())) if "unit" in arm), "")
+        for name, row in rows.items()
+    }
+    return {name: "°" if unit == "degrees" else unit for name, unit in said.items() if unit}
 
 
 def _thicker(name: str, limit: float) -> dict[str, float]:

@@ -11,7 +11,7 @@ from umform.bench.live import Watch
 from umform.bench.live_strips import StripTold
 from umform.bench.wanted import Wanted
 from umform.io.staging import staging
-from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence import Part, bend_sequence
 from umform.processes.bend_sequence import files as part_files
 from umform.processes.hemming import Hem, Hemming, hemming

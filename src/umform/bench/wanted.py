@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+from annotated_types import Gt, Le
 from pydantic import Field, ValidationError, model_validator
 from pydantic_core import PydanticCustomError
 
@@ -12,11 +13,13 @@ from umform.bench.shelf import Shelf
 from umform.bench.wanted_strips import WantedStrip
 from umform.materials import J2, Metal
 from umform.processes.air_bending.bottoming import with_travel
-from umform.processes.air_bending.checks import check_angle
 from umform.processes.air_bending.drawn_tools import drawn_sizes
-from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.goal import check_angle
+from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence import BendSequence
 from umform.processes.hemming import Hemming
+from umform.spec import About
+from umform.spec.types import Degrees, Length, Positive, Rolling, Stress
 
 #: Meshes by name: a quick look, the default of `umform bend`, and what docs/air-bending.md says is better.
 MESHES: dict[str, dict[str, Any]] = {
@@ -28,12 +31,12 @@ MESHES: dict[str, dict[str, Any]] = {
 #: Kinds of work.
 WORKS = ("bend", "bottom", "sequence", "hem")
 
-_Degrees = Annotated[float, Field(ge=10.0, le=175.0)]
-_Radius = Annotated[float, Field(ge=0.05, le=200.0)]
+#: Parameters of `AirBending` that the form asks for by their own names.
+SIZES = ("thickness", "opening", "die_angle", "die_radius", "punch_angle", "punch_radius", "rolling")
 
 
 class Wanted(WantedStrip):
-    """A bend, or several, in mm, degrees and MPa; the bounds are those of a press brake, with room on both sides.
+    """A bend, or several, in mm, degrees and MPa.
 
     Attributes
     ----------
@@ -67,23 +70,23 @@ class Wanted(WantedStrip):
 
     work: Literal["bend", "bottom", "sequence", "hem"] = "bend"
     material: Annotated[str, Field(min_length=1, max_length=60)] = "DC04"
-    yield_stress: Annotated[float, Field(ge=20.0, le=3000.0)] | None = None
-    tensile_strength: Annotated[float, Field(ge=20.0, le=3000.0)] | None = None
-    uniform_elongation: Annotated[float, Field(ge=0.1, le=80.0)] | None = None
-    rolling: Annotated[float, Field(ge=-180.0, le=180.0)] | None = None
-    thickness: Annotated[float, Field(ge=0.1, le=40.0)] = 2.0
-    opening: Annotated[float, Field(ge=1.0, le=1000.0)] = 16.0
-    die_angle: _Degrees = 85.0
-    die_radius: _Radius = 2.0
-    punch_angle: _Degrees = 85.0
-    punch_radius: _Radius = 1.5
+    yield_stress: Stress | None = None
+    tensile_strength: Stress | None = None
+    uniform_elongation: Annotated[float, Gt(0.0), Le(80.0), About("%")] | None = None
+    rolling: Rolling | None = AirBending.rolling
+    thickness: Length = AirBending.thickness
+    opening: Length = AirBending.opening
+    die_angle: Degrees = AirBending.die_angle
+    die_radius: Length = AirBending.die_radius
+    punch_angle: Degrees = AirBending.punch_angle
+    punch_radius: Length = AirBending.punch_radius
     punch: Annotated[str, Field(min_length=1, max_length=40)] | None = None
     die: Annotated[str, Field(min_length=1, max_length=40)] | None = None
-    angle: Annotated[float, Field(ge=20.0, le=179.0)] | None = 90.0
-    stroke: Annotated[float, Field(ge=0.01, le=1000.0)] | None = None
-    press_force: Annotated[float, Field(ge=1.0, le=100000.0)] | None = None
-    travel: Annotated[float, Field(ge=-5.0, le=20.0)] | None = None
-    length: Annotated[float, Field(ge=1.0, le=20000.0)] = 1000.0
+    angle: Degrees | None = 90.0
+    stroke: Length | None = None
+    press_force: Annotated[Positive, About("kN/m")] | None = None
+    travel: Annotated[float, About("mm")] | None = None
+    length: Length = 1000.0
     whole: bool = False
     mesh: Literal["quick", "usual", "fine"] = "usual"
     budget: bool = False
@@ -140,18 +143,12 @@ class Wanted(WantedStrip):
                 drawn[f"{kind}_section"] = (shelf or Shelf(Path())).tool(kind, name)
         bottoms = self.work == "bottom"
         case = AirBending(
-            thickness=self.thickness,
-            opening=self.opening,
-            die_angle=self.die_angle,
-            die_radius=self.die_radius,
-            punch_angle=self.punch_angle,
-            punch_radius=self.punch_radius,
+            **{name: getattr(self, name) for name in SIZES},
             **drawn,
             width=self.length if self.whole and not self.of_strip else None,
             stroke=self.stroke if self.work == "bend" else None,
             bottoming=bottoms,
             material=self.law()[0],
-            rolling=self.rolling,
             **MESHES[self.mesh],
         )
         return case if not bottoms or self.travel is None else with_travel(case, self.travel)

@@ -7,9 +7,10 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence import Bend, BendSequence
 from umform.processes.hemming import Hemming
+from umform.spec.types import Degrees, Length
 
 _STRICT = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, strict=True)
 
@@ -29,8 +30,8 @@ class WantedBend(BaseModel):
 
     model_config = _STRICT
 
-    position: Annotated[float, Field(ge=0.1, le=4000.0)]
-    angle: Annotated[float, Field(ge=20.0, le=179.0)] = 90.0
+    position: Length
+    angle: Degrees = 90.0
     over: bool = False
 
 
@@ -51,15 +52,15 @@ class WantedStrip(BaseModel):
 
     model_config = _STRICT
 
-    strip_length: Annotated[float, Field(ge=1.0, le=4000.0)] = 80.0
+    strip_length: Length = 80.0
     bends: Annotated[list[WantedBend], Field(min_length=1, max_length=20)] = [
         WantedBend(position=20.0),
         WantedBend(position=60.0),
     ]
-    gap: Annotated[float, Field(ge=0.05, le=50.0)] = 1.0
-    flange: Annotated[float, Field(ge=1.0, le=500.0)] = 12.0
-    base: Annotated[float, Field(ge=1.0, le=2000.0)] = 30.0
-    first_angle: Annotated[float, Field(ge=20.0, le=70.0)] = 40.0
+    gap: Length = Hemming.gap
+    flange: Length = Hemming.flange
+    base: Length = Hemming.base
+    first_angle: Degrees = Hemming.angle
     insert: bool = True
 
     def sequence(self, sheet: AirBending) -> BendSequence:

@@ -13,6 +13,7 @@ import typer
 from umform.cli.bend_screen import show_bend
 from umform.cli.check import Force
 from umform.cli.drawn_tools import drawn_tools
+from umform.cli.given import Given, given_by
 from umform.cli.goals import check_goal, check_length, check_no_goal, check_press, strokes_of
 from umform.cli.metal import law_of
 from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
@@ -21,81 +22,49 @@ from umform.cli.sequence import run_sequence
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
 from umform.errors import UmformError
+from umform.processes.air_bending.goal import Goal, check_angle
+from umform.processes.air_bending.spec import AirBending
+from umform.spec import check_value, parameters
 
 if TYPE_CHECKING:
     from umform.model import Model
     from umform.processes.air_bending.bend import AirBend
     from umform.processes.air_bending.branches import Brake
     from umform.processes.air_bending.measures import Measures
-    from umform.processes.air_bending.parameters import AirBending
     from umform.run import Result
 
 
-_GOAL, _TOOLS = "What to do", "Tools (mm, degrees)"
+_GOAL, _TOOLS = "What to do", "Tools"
 
 
 @app.command()
+@given_by(Goal, AirBending, omit=("material", "punch_section", "die_section"))
 def bend(
     context: typer.Context,
+    given: Given,
     out: Annotated[
         str | None,
         typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/bend."),
     ] = None,
-    angle: Annotated[float | None, option("Find the stroke for this angle after springback, degrees.", _GOAL)] = None,
-    stroke: Annotated[float | None, option("Bend to this stroke in mm.", _GOAL)] = None,
     table: Annotated[str | None, option("Bending table at strokes first:last:step, such as 4:6:0.5.", _GOAL)] = None,
-    bottoming: Annotated[
-        bool, option("Press the sheet onto the flanks of the die, with --force-per-metre or --travel.", _GOAL)
-    ] = False,
-    force_per_metre: Annotated[float | None, option("Force of bottoming in kN/m.", _GOAL)] = None,
-    travel: Annotated[
-        float | None, option("Bottom to this distance beyond where tip and flanks are a thickness apart.", _GOAL)
-    ] = None,
     sequence: Annotated[
         Path | None, option("Several bends in one part: a TOML file, see docs/bending-operations.md.", _GOAL)
     ] = None,
     budget: Annotated[bool, option("Error budget: repeat with refinements and show the changes.", _GOAL)] = False,
-    opening: Annotated[float, option("Opening of the die.", _TOOLS)] = 16.0,
-    die_angle: Annotated[float, option("Angle of the die.", _TOOLS)] = 85.0,
-    die_radius: Annotated[float, option("Radius of the die shoulders.", _TOOLS)] = 2.0,
-    punch_angle: Annotated[float, option("Angle of the punch.", _TOOLS)] = 85.0,
-    punch_radius: Annotated[float, option("Radius of the punch tip.", _TOOLS)] = 1.5,
-    punch_width: Annotated[
-        float | None, option("Width of the punch above its flanks; default: without end.", _TOOLS)
-    ] = None,
     punch_dxf: Annotated[Path | None, option("DXF drawing of the punch, in place of its numbers.", _TOOLS)] = None,
     punch_layer: Annotated[str | None, option("Layer with its section; default: the whole drawing.", _TOOLS)] = None,
     die_dxf: Annotated[Path | None, option("DXF drawing of the die, in place of its numbers.", _TOOLS)] = None,
     die_layer: Annotated[str | None, option("Layer with its section; default: the whole drawing.", _TOOLS)] = None,
-    thickness: Annotated[float, option("Thickness of the sheet.", SHEET)] = 2.0,
-    width: Annotated[float | None, option("Length of the bend; default: plane strain.", SHEET)] = None,
     length: Annotated[
         float | None, option("Bend length for the total force in kN and t; the model does not change.", SHEET)
     ] = None,
     material: Material = None,
-    rolling: Annotated[
-        float | None, option("Degrees from the bend line to the rolling direction: 0 along it, 90 across.", SHEET)
-    ] = None,
     young: Young = None,
     poisson: Poisson = None,
     yield_stress: Yield = None,
     hardening_modulus: Modulus = None,
     swift: SwiftCurve = None,
     flow_curve: FlowCurve = None,
-    element: Annotated[str, option("Element of the catalogue.", SOLUTION)] = "BEND18",
-    layers: Annotated[int, option("Elements through the thickness.", SOLUTION)] = 2,
-    thickness_points: Annotated[int, option("Thickness points per layer.", SOLUTION)] = 6,
-    elements_per_thickness: Annotated[float, option("Elements per thickness along the sheet.", SOLUTION)] = 3.0,
-    width_elements: Annotated[int, option("Elements over half of the width.", SOLUTION)] = 3,
-    contact_points: Annotated[str, option("Contact points per direction and facet, or auto.", SOLUTION)] = "auto",
-    penalty: Annotated[float | None, option("Contact pressure per penetration.", SOLUTION)] = None,
-    penetration: Annotated[
-        float | None, option("Allowed penetration instead of a penalty; default thickness / 200.", SOLUTION)
-    ] = None,
-    increment: Annotated[
-        float, option("Displacement of the punch per increment, over the opening.", SOLUTION)
-    ] = 0.00625,
-    tolerance: Annotated[float, option("Tolerance of --angle in degrees.", SOLUTION)] = 0.02,
     processes: Annotated[int | None, option("Runs of the budget at a time.", SOLUTION)] = None,
     print_deck: Annotated[
         bool, typer.Option("--print-deck", help="Print the bend as a deck for `umform run`, and run nothing else.")
@@ -112,51 +81,29 @@ def bend(
     """
     from umform.io.folders import folder_for
     from umform.io.staging import staging
-    from umform.processes.air_bending.bottoming import check_force, with_travel
+    from umform.processes.air_bending.bottoming import with_travel
     from umform.processes.air_bending.branches import FRAMES, Brake
-    from umform.processes.air_bending.checks import check_angle, check_tolerance
     from umform.processes.air_bending.files import FILES, RESULTS, write_files
-    from umform.processes.air_bending.parameters import AirBending
     from umform.processes.air_bending.search import bending_table
     from umform.timing import Timing, timings
 
     print_warnings_once()
+    angle, force_per_metre, travel, tolerance = (given.pop(name) for name in parameters(Goal))
+    stroke, bottoming = given["stroke"], given["bottoming"]
     if not bottoming and sequence is None:
         check_goal(angle, stroke, table, force_per_metre, travel)
     strokes = [] if table is None else strokes_of(table)
     if strokes and angle is None and stroke is None and not bottoming:
         stroke = strokes[-1]
-    check_tolerance(tolerance)
+    check_value(Goal, "tolerance", tolerance)
     check_length(length)
     if processes is not None:
         from umform.pool import check_processes  # the import is slow
 
         check_processes(processes)
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
-    case = AirBending(
-        thickness=thickness,
-        opening=opening,
-        die_angle=die_angle,
-        die_radius=die_radius,
-        punch_angle=punch_angle,
-        punch_radius=punch_radius,
-        **drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer),
-        width=width,
-        material=law,
-        rolling=rolling,
-        element=element,
-        layers=layers,
-        thickness_points=thickness_points,
-        elements_per_thickness=elements_per_thickness,
-        width_elements=width_elements,
-        contact_points=int(contact_points) if contact_points.isdecimal() else contact_points,
-        penalty=penalty,
-        penetration=penetration,
-        increment=increment,
-        stroke=stroke,
-        bottoming=bottoming,
-        punch_width=punch_width,
-    )
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, given["thickness"])
+    tools = drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer)
+    case = AirBending(**{**given, "stroke": stroke}, **tools, material=law)
     if sequence is not None:
         check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, print_deck)
         run_sequence(sequence, case, note, out, length, tolerance=tolerance, overwrite=overwrite)
@@ -164,8 +111,7 @@ def bend(
     if bottoming:
         check_press(angle, table, budget, stroke, force_per_metre, travel)
         case = case if travel is None else with_travel(case, travel)
-        if force_per_metre is not None:
-            check_force(force_per_metre)
+        check_value(Goal, "force_per_metre", force_per_metre)
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
     if print_deck:

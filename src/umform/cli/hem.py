@@ -60,7 +60,7 @@ def hem(
     """
     from umform.io.folders import folder_for
     from umform.io.staging import staging
-    from umform.processes.air_bending.parameters import AirBending
+    from umform.processes.air_bending.spec import AirBending
     from umform.processes.hemming import Hemming, hemming
     from umform.processes.hemming.files import FILES, RESULTS, write_files
     from umform.processes.hemming.words import remarks, rows

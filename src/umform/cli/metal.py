@@ -43,7 +43,7 @@ def law_of(
     thickness: float,
 ) -> tuple[J2 | Metal, str]:
     """Law of the sheet of a thickness in mm, and a remark on it; a warning if no material is given."""
-    from umform.processes.air_bending.parameters import DC04_LIKE
+    from umform.processes.air_bending.spec import dc04_like
 
     own = [value for value in (young, poisson, yield_stress, modulus, swift, flow_curve) if value is not None]
     if name is not None:
@@ -61,7 +61,7 @@ def law_of(
         return metal.law, metal.note
     if not own:
         typer.echo(f"umform: warning: no --material: {_NO_MATERIAL}", err=True)
-        return DC04_LIKE, f"material: {_NO_MATERIAL}"
+        return dc04_like(), f"material: {_NO_MATERIAL}"
     return _own_law(young, poisson, yield_stress, modulus, swift, flow_curve), ""
 
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 #: Panels.
-SHEET, SOLUTION = "Sheet (mm, MPa)", "Solution"
+SHEET, SOLUTION = "Sheet", "Solution"
 
 
 def option(help_text: str, panel: str, *names: str) -> Any:
@@ -17,9 +17,9 @@ def option(help_text: str, panel: str, *names: str) -> Any:
 
 
 Material = Annotated[str | None, option("Name in the library of sheet metals: `umform metal list`.", SHEET)]
-Young = Annotated[float | None, option("Young's modulus.", SHEET)]
+Young = Annotated[float | None, option("Young's modulus in MPa.", SHEET)]
 Poisson = Annotated[float | None, option("Poisson's ratio.", SHEET)]
-Yield = Annotated[float | None, option("Yield stress, for linear hardening.", SHEET)]
-Modulus = Annotated[float | None, option("Hardening modulus; default 0.", SHEET)]
-SwiftCurve = Annotated[str | None, option("Swift hardening K,e0,n, such as 520,0.004,0.22.", SHEET)]
+Yield = Annotated[float | None, option("Yield stress in MPa, for linear hardening.", SHEET)]
+Modulus = Annotated[float | None, option("Hardening modulus in MPa; default 0.", SHEET)]
+SwiftCurve = Annotated[str | None, option("Swift hardening K,e0,n, such as 520,0.004,0.22, in MPa.", SHEET)]
 FlowCurve = Annotated[Path | None, option("Measured hardening: a CSV file of plastic strain and true stress.", SHEET)]

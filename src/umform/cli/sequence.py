@@ -13,7 +13,7 @@ from umform.cli.run_checks import show_checks
 from umform.cli.warnings import echo_warnings
 
 if TYPE_CHECKING:
-    from umform.processes.air_bending.parameters import AirBending
+    from umform.processes.air_bending.spec import AirBending
     from umform.processes.bend_sequence import Part
 
 

@@ -3,50 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 from numbers import Integral, Real
 from typing import Any
 
-from umform.errors import InvalidValue, NotFinite
-
-
-@dataclass(frozen=True)
-class Rule:
-    """Condition on a parameter.
-
-    Attributes
-    ----------
-    fits : callable
-        Whether a value is valid.
-    what : str
-        What is wrong otherwise.
-    cause, remedy : str
-        Likely cause, and remedy.
-    """
-
-    fits: Callable[[Any], bool]
-    what: str
-    cause: str
-    remedy: str
-
-    def optional(self) -> Rule:
-        """The same for an optional parameter, which may be None."""
-        return Rule(lambda value: value is None or self.fits(value), self.what, self.cause, self.remedy)
-
-    def check(self, name: str, value: Any) -> None:
-        """Reject an invalid value.
-
-        Raises
-        ------
-        NotFinite
-            If it is NaN or infinite.
-        InvalidValue
-            ``where`` is the name.
-        """
-        if not self.fits(value):
-            kind = NotFinite if isinstance(value, float) and not math.isfinite(value) else InvalidValue
-            raise kind(self.what, where=name, value=_shown(value), cause=self.cause, remedy=self.remedy)
+from umform.errors import InvalidValue
+from umform.spec import Rule
 
 
 def check_rules(values: Mapping[str, Any], rules: Mapping[str, Rule]) -> None:
@@ -75,16 +37,19 @@ def length(what: str, remedy: str) -> Rule:
     return Rule(positive, f"{what} must be positive and finite", "a sign, or a missing value", remedy)
 
 
-def plastic_material(what: str) -> Rule:
-    """A plastic law; ``what`` names what needs it."""
+def _is_plastic(value: Any) -> bool:
     from umform.materials.j2 import Plastic  # imported late: the command line works without NumPy until it needs a law
 
-    return Rule(
-        lambda value: isinstance(value, Plastic),
-        f"{what} needs a plastic material",
-        "an elastic law, or the name of a metal",
-        "a J2 or a Metal; umform.sheet_metals.get('DC04').law for one",
-    )
+    return isinstance(value, Plastic)
+
+
+#: A plastic law.
+PLASTIC = Rule(
+    _is_plastic,
+    "forming needs a plastic material",
+    "an elastic law, or the name of a metal",
+    "a J2 or a Metal; umform.sheet_metals.get('DC04').law for one",
+)
 
 
 def contact_points(remedy: str) -> Rule:
@@ -104,13 +69,6 @@ FRICTION = Rule(
     "a sign, or a percentage",
     "0.05 to 0.2 for lubricated sheet",
 )
-#: The rolling direction of a sheet that is bent about one line.
-ROLLING = Rule(
-    lambda value: value is None or (number(value) and abs(value) <= 180.0),
-    "the rolling direction is an angle to the bend line from -180 to 180 degrees",
-    "a vector in place of an angle",
-    "0 along the bend line, 90 across it",
-)
 
 
 def check_rolling(material: Any, rolling: float | None) -> None:
@@ -129,10 +87,3 @@ def check_rolling(material: Any, rolling: float | None) -> None:
             cause="its yield function has directions",
             remedy="rolling=90 for a bend across the rolling direction, rolling=0 for one along it",
         )
-
-
-def _shown(value: object) -> str:
-    """A value as typed by hand: a mesh as 24x1."""
-    if isinstance(value, tuple | list):
-        return "x".join(map(str, value))
-    return str(value)

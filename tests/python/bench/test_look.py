@@ -84,8 +84,9 @@ def test_angle_close_to_that_of_the_tools_is_a_warning():
 @pytest.mark.parametrize(
     ("values", "where", "kind"),
     [
-        ({"thickness": 0.0}, "thickness", "greater_than_equal"),
-        ({"thickness": 1e308}, "thickness", "less_than_equal"),
+        ({"thickness": 0.0}, "thickness", "greater_than"),
+        ({"thickness": 1e308}, "opening", "refused"),
+        ({"punch_angle": 180.0}, "punch_angle", "less_than"),
         ({"thickness": math.nan}, "thickness", "finite_number"),
         ({"opening": "16"}, "opening", "float_type"),
         ({"opening": None}, "opening", "float_type"),
@@ -95,7 +96,7 @@ def test_angle_close_to_that_of_the_tools_is_a_warning():
         ({"tensile_strength": 300.0}, "goal", "coil"),
         ({"work": "bottom"}, "goal", "bottom_goal"),
         ({"work": "sequence", "bends": []}, "bends", "too_short"),
-        ({"work": "sequence", "bends": [{"position": 40.0, "angle": 5.0}]}, "bends", "greater_than_equal"),
+        ({"work": "sequence", "bends": [{"position": 40.0, "angle": 0.0}]}, "bends", "greater_than"),
         ({"work": "sequence", "bends": [{"position": 40.0, "x": 5.0}]}, "bends", "extra_forbidden"),
         ({"work": "sequence", "strip_length": 60.0, "bends": [{"position": 3.0}]}, "bend 1 at 3", "refused"),
         ({"work": "hem", "first_angle": 40.0}, "angle", "refused"),

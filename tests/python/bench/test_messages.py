@@ -8,12 +8,18 @@ from pathlib import Path
 
 import umform
 from umform import errors
+from umform.processes.air_bending.goal import Goal
+from umform.processes.air_bending.spec import AirBending
+from umform.processes.bend_sequence.spec import Bend, BendSequence
+from umform.processes.hemming import Hemming
+from umform.spec import parameters
 
 SOURCE = Path(umform.__file__).parent
 #: Code that a form can lead to, before a run.
 ROOMS = ("bench", "processes/air_bending", "processes/bend_sequence", "processes/hemming", "sheet_metals")
 FILES = (
     "processes/rules.py",
+    "spec/types.py",
     "surfaces/dxf.py",
     "surfaces/chains.py",
     "surfaces/profile.py",
@@ -25,15 +31,15 @@ MAKERS = {
     "_unfit",
     "Rule",
     "length",
-    "angle_rule",
-    "plastic_material",
-    "_count",
+    "About",
     "unreachable",
     "_level",
     "DiskFull",
     "NoAnswer",
     "PydanticCustomError",
 }
+#: What the form asks for.
+SPECS = (AirBending, Bend, BendSequence, Goal, Hemming)
 PARTS = ("what", "cause", "remedy")
 GERMAN = json.loads(files("umform.bench").joinpath("page", "messages.de.json").read_text(encoding="utf-8"))
 #: What no form can lead to: files of curves, the Python interface, the start of the server.
@@ -73,6 +79,16 @@ def messages():
     return found
 
 
+def of_specs():
+    """What is said of the parameters: templates without their numbers."""
+    found = set()
+    for parameter in (one for spec in SPECS for one in parameters(spec).values()):
+        if parameter.kinds[0].type in (float, int):
+            texts = {f"the {parameter.noun}", parameter.must_be, parameter.remedy.removesuffix("; or leave it out")}
+            found |= {re.sub(r"(?<![\w.])-?\d[\d.e-]*(?!\w)", "{}", text) for text in texts}
+    return found | {"{} must be {}", "{}; or leave it out"}
+
+
 def _name(func):
     return func.id if isinstance(func, ast.Name) else getattr(func, "attr", "")
 
@@ -96,6 +112,11 @@ def test_all_messages_of_the_form_are_german_too():
     assert missing == {}
 
 
+def test_all_that_is_said_of_parameters_is_german_too():
+    plain = {re.sub(r"(?<![\w.])-?\d[\d.e-]*(?!\w)", "{}", text) for text in GERMAN}
+    assert of_specs() - plain == set()
+
+
 def test_translations_fill_in_what_the_messages_do():
     for english, german in GERMAN.items():
         assert german and english.count("{}") >= german.count("{}"), english
@@ -105,5 +126,5 @@ def test_translations_fill_in_what_the_messages_do():
 def test_translated_messages_are_those_of_the_code():
     code = "".join(path.read_text(encoding="utf-8") for path in SOURCE.rglob("*.py"))
     code = re.sub(r'"\s*\n\s*f?"', "", code)  # texts over several lines
-    pieces = {piece for text in GERMAN for piece in text.split("{}")}
+    pieces = {piece for text in GERMAN.keys() - of_specs() for piece in text.split("{}")}
     assert {piece for piece in pieces if json.dumps(piece)[1:-1] not in code and piece not in code} == set()

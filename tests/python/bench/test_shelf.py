@@ -13,7 +13,7 @@ from umform.bench.wanted import Wanted
 from umform.errors import InvalidValue
 from umform.processes.air_bending import air_bending
 from umform.processes.air_bending.drawn_tools import read_die
-from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.spec import AirBending
 from umform.surfaces import Profile
 
 ezdxf = pytest.importorskip("ezdxf")

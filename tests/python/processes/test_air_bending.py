@@ -204,7 +204,7 @@ def test_an_angle_beyond_the_tools_is_refused():
         find_stroke(COARSE, 84.0, progress=False)
     with pytest.raises(InvalidValue, match="180"):
         find_stroke(COARSE, 181.0, progress=False)
-    with pytest.raises(InvalidValue, match="the tolerance of an angle"):
+    with pytest.raises(InvalidValue, match="the tolerance of the angle"):
         find_stroke(COARSE, 135.0, tolerance=0.0, progress=False)
     blunt = replace(COARSE, die_angle=150.0, punch_angle=150.0, stroke=1.0)
     with pytest.raises(InvalidValue, match="against a flank") as refused:

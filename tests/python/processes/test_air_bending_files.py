@@ -24,8 +24,10 @@ from umform.processes.air_bending.budget import Budget, error_budget, refinement
 from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.files import parameters, write_files
 from umform.processes.air_bending.measures import QUANTITIES
-from umform.processes.air_bending.rules import MOST_LAYERS, MOST_POINTS
 from umform.processes.air_bending.words import summary, summary_header
+from umform.spec import parameters as parameters_of
+
+MOST_LAYERS, MOST_POINTS = (parameters_of(AirBending)[name].most for name in ("layers", "contact_points"))
 
 TINY = AirBending(stroke=1.0, elements_per_thickness=1.0, layers=1, increment=0.025)
 TYPED = ["--elements-per-thickness", "1", "--layers", "1", "--increment", "0.025"]

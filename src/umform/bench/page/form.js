@@ -10,42 +10,42 @@ import { howRead, numberField, show, unclear } from "./number_field.js";
 import { number, problemText, t } from "./texts.js";
 import { MEASURED, Tools } from "./tools.js";
 
-/** @typedef {{name: string, unit?: string, step?: number, kind?: "number" | "select" | "check" | "bends", list?: string, of?: string[]}} Field */
+/** @typedef {{name: string, step?: number, kind?: "number" | "select" | "check" | "bends", list?: string, of?: string[]}} Field */
 /** Fields by group; `of`: the kinds of work that have it. @type {Record<string, Field[]>} */
 const GROUPS = {
   "": [
     { name: "work", kind: "select" },
     { name: "material", kind: "select" },
-    { name: "thickness", unit: "mm", step: 0.1 },
-    { name: "opening", unit: "mm", step: 1, list: "openings" },
-    { name: "angle", unit: "°", step: 1, of: ["bend"] },
-    { name: "press_force", unit: "kN/m", step: 10, of: ["bottom"] },
-    { name: "travel", unit: "mm", step: 0.05, of: ["bottom"] },
-    { name: "strip_length", unit: "mm", step: 1, of: ["sequence"] },
+    { name: "thickness", step: 0.1 },
+    { name: "opening", step: 1, list: "openings" },
+    { name: "angle", step: 1, of: ["bend"] },
+    { name: "press_force", step: 10, of: ["bottom"] },
+    { name: "travel", step: 0.05, of: ["bottom"] },
+    { name: "strip_length", step: 1, of: ["sequence"] },
     { name: "bends", kind: "bends", of: ["sequence"] },
-    { name: "gap", unit: "mm", step: 0.1, of: ["hem"] },
+    { name: "gap", step: 0.1, of: ["hem"] },
     { name: "insert", kind: "check", of: ["hem"] },
-    { name: "flange", unit: "mm", step: 1, of: ["hem"] },
-    { name: "base", unit: "mm", step: 1, of: ["hem"] },
-    { name: "first_angle", unit: "°", step: 1, of: ["hem"] },
-    { name: "length", unit: "mm", step: 10 },
+    { name: "flange", step: 1, of: ["hem"] },
+    { name: "base", step: 1, of: ["hem"] },
+    { name: "first_angle", step: 1, of: ["hem"] },
+    { name: "length", step: 10 },
   ],
   tools: [
     { name: "die", kind: "select" },
     { name: "punch", kind: "select" },
-    { name: "die_angle", unit: "°", step: 1, list: "die-angles" },
-    { name: "die_radius", unit: "mm", step: 0.1 },
-    { name: "punch_angle", unit: "°", step: 1, list: "punch-angles" },
-    { name: "punch_radius", unit: "mm", step: 0.1, list: "punch-radii" },
+    { name: "die_angle", step: 1, list: "die-angles" },
+    { name: "die_radius", step: 0.1 },
+    { name: "punch_angle", step: 1, list: "punch-angles" },
+    { name: "punch_radius", step: 0.1, list: "punch-radii" },
   ],
   coil: [
-    { name: "yield_stress", unit: "MPa", step: 5 },
-    { name: "tensile_strength", unit: "MPa", step: 5 },
-    { name: "uniform_elongation", unit: "%", step: 0.5 },
-    { name: "rolling", unit: "°", step: 15 },
+    { name: "yield_stress", step: 5 },
+    { name: "tensile_strength", step: 5 },
+    { name: "uniform_elongation", step: 0.5 },
+    { name: "rolling", step: 15 },
   ],
   run: [
-    { name: "stroke", unit: "mm", step: 0.1, of: ["bend"] },
+    { name: "stroke", step: 0.1, of: ["bend"] },
     { name: "mesh", kind: "select" },
     { name: "budget", kind: "check", of: ["bend", "bottom"] },
     { name: "whole", kind: "check", of: ["bend", "bottom"] },
@@ -89,7 +89,7 @@ export class Form {
   }
 
   /** @param {Field} field */
-  row({ name, unit, step, kind = "number", list }) {
+  row({ name, step, kind = "number", list }) {
     const value = this.values[name];
     if (kind === "bends") return this.bends.build(value);
     const common = { id: `f-${name}`, "aria-describedby": `n-${name}` };
@@ -103,6 +103,7 @@ export class Form {
     } else {
       input = numberField({ ...common, list, placeholder: this.placeholder(name) }, value, (taken) => this.take(name, taken), step);
     }
+    const unit = this.library.units[name];
     const unitText = unit ? make("span", { class: "unit", "aria-hidden": "true" }, unit) : null;
     const text = make("label", { for: `f-${name}` }, t(`field.${name}`));
     const box = make("span", { class: "input" }, input, unitText);

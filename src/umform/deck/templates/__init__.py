@@ -106,7 +106,7 @@ def deck_of(case: FreeBending | AirBending) -> str:
         :func:`umform.processes.air_bending.air_bending`.
     """
     from umform.processes.air_bending import deck as air_bending
-    from umform.processes.air_bending.parameters import AirBending
+    from umform.processes.air_bending.spec import AirBending
     from umform.processes.bending import deck as free_bending
 
     return air_bending.deck_of(case) if isinstance(case, AirBending) else free_bending.deck_of(case)

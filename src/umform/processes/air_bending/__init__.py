@@ -4,10 +4,30 @@
 angles for several strokes; `AirBending` holds the parameters.
 """
 
-from umform.processes.air_bending.bend import AirBend
-from umform.processes.air_bending.case import air_bending
-from umform.processes.air_bending.measures import Measures
-from umform.processes.air_bending.parameters import AirBending
-from umform.processes.air_bending.search import Found, bending_table, find_stroke
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from umform.first_use import at_first_use
+
+if TYPE_CHECKING:
+    from umform.processes.air_bending.bend import AirBend
+    from umform.processes.air_bending.case import air_bending
+    from umform.processes.air_bending.measures import Measures
+    from umform.processes.air_bending.search import Found, bending_table, find_stroke
+    from umform.processes.air_bending.spec import AirBending
 
 __all__ = ["AirBend", "AirBending", "Found", "Measures", "air_bending", "bending_table", "find_stroke"]
+
+_HOME = {
+    "AirBend": "bend",
+    "AirBending": "spec",
+    "Found": "search",
+    "Measures": "measures",
+    "air_bending": "case",
+    "bending_table": "search",
+    "find_stroke": "search",
+}
+
+# The command line reads the parameters without the run.
+__getattr__ = at_first_use(__name__, _HOME)

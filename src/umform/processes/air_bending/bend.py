@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from umform.processes.air_bending.brake import force_per_width, loading
 from umform.processes.air_bending.measures import Measures, measure
-from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.section import Section
+from umform.processes.air_bending.spec import AirBending
 from umform.run import Result
 
 Floats = NDArray[np.float64]

@@ -9,24 +9,14 @@ from umform.errors import InvalidValue, SolveError
 from umform.processes.air_bending.bend import Loaded
 from umform.processes.air_bending.brake import part_end
 from umform.processes.air_bending.branches import FRAMES, Brake
-from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.goal import Goal
 from umform.processes.air_bending.search import Found
-from umform.processes.rules import length
+from umform.processes.air_bending.spec import AirBending
 from umform.progress import Tick, progress_bar
+from umform.spec import check_value
 
 #: Relative tolerance of the force, and number of trials.
 _TOLERANCE, _MOST_TRIALS = 0.005, 30
-_FORCE = length("the force of bottoming", "in kN/m: 3 to 5 times that of air bending")
-
-
-def check_force(force_per_metre: float) -> None:
-    """Refuse a force that is not positive.
-
-    Raises
-    ------
-    InvalidValue
-    """
-    _FORCE.check("force_per_metre", force_per_metre)
 
 
 def press_to_force(
@@ -72,7 +62,7 @@ def press_to_force(
         If the sheet cannot be pressed to this force.
     """
     force = force_per_metre
-    check_force(force)
+    check_value(Goal, "force_per_metre", force)
     if not case.bottoming:
         raise InvalidValue(
             "these tools are to bend in the air",

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from umform.model import Model
 from umform.model.contact import ContactPoints
 from umform.model.control import Control
-from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.sheet import half_sheet
+from umform.processes.air_bending.spec import AirBending
 from umform.solution.options import NewtonOptions
 from umform.steps.release import Release
 

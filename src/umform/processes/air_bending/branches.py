@@ -21,8 +21,8 @@ from umform.processes.air_bending.brake import (
     unloading,
 )
 from umform.processes.air_bending.measures import Measures
-from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.section import Section
+from umform.processes.air_bending.spec import AirBending
 from umform.progress import Tick, silent
 from umform.run.open_run import Mark, OpenRun
 from umform.steps import Move

@@ -10,11 +10,11 @@ from umform.elements import element
 from umform.pool import run_all
 from umform.processes.air_bending.brake import build
 from umform.processes.air_bending.branches import Brake
-from umform.processes.air_bending.checks import needed_stroke
+from umform.processes.air_bending.goal import needed_stroke
 from umform.processes.air_bending.measures import Measures
-from umform.processes.air_bending.parameters import AirBending
-from umform.processes.air_bending.rules import MOST_LAYERS, MOST_POINTS, RULES
+from umform.processes.air_bending.spec import AirBending
 from umform.progress import progress_bar
+from umform.spec import parameters
 
 #: Element of the reference stack for the layers, and its points through the thickness of each element.
 _STACK, _STACK_POINTS = element("EAS3DEAS", thickness_order=2, tie_E33=True), 4
@@ -62,23 +62,25 @@ def refinements(case: AirBending) -> dict[str, AirBending]:
 
 def _refined(case: AirBending, name: str, values: dict[str, float]) -> dict[str, AirBending]:
     """The case with the first valid one of some values of a parameter."""
-    label = next(label for label, value in values.items() if RULES[name].fits(value))
+    label = next(label for label, value in values.items() if parameters(AirBending)[name].fits(value))
     changed: dict[str, Any] = {name: values[label]}
     return {label: replace(case, **changed)}
 
 
 def _layers(case: AirBending) -> dict[str, AirBending]:
     """The case as a stack of as many layers as allowed, on the same lines of nodes along the sheet."""
-    if case.layers == MOST_LAYERS:
+    limits = parameters(AirBending)
+    most = limits["layers"].most
+    if case.layers == most:
         return {"layers-1": replace(case, layers=case.layers - 1)}
     finer = 2.0 if element(case.element).cell == "hex18" else 1.0  # their mid-side nodes become corner nodes
     along = finer * case.elements_per_thickness
     stack = replace(
         case,
         element=_STACK,
-        layers=MOST_LAYERS,
+        layers=most,
         thickness_points=_STACK_POINTS,
-        elements_per_thickness=along if RULES["elements_per_thickness"].fits(along) else case.elements_per_thickness,
+        elements_per_thickness=along if limits["elements_per_thickness"].fits(along) else case.elements_per_thickness,
         width_elements=max(2, case.width_elements),  # a single element over the width would collapse
     )
     return {"stack": stack}
@@ -88,10 +90,11 @@ def _contacts(case: AirBending) -> dict[str, AirBending]:
     """The case with other contact points, and with a larger penalty."""
     contacts = build(case)[0].contacts
     points = [int(contact.points) for contact in contacts]
-    if min(points) < MOST_POINTS:
-        cases = {"c-pts+2": replace(case, contact_points=min(MOST_POINTS, max(points) + 2))}
+    most = parameters(AirBending)["contact_points"].most
+    if min(points) < most:
+        cases = {"c-pts+2": replace(case, contact_points=min(most, max(points) + 2))}
     else:
-        cases = {"c-pts-2": replace(case, contact_points=MOST_POINTS - 2)}
+        cases = {"c-pts-2": replace(case, contact_points=most - 2)}
     if case.penalty is not None:
         return cases | {"penalty*2": replace(case, penalty=2.0 * case.penalty)}
     allowed = contacts[0].allowed

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from umform.processes.air_bending.bend import AirBend
 from umform.processes.air_bending.branches import FRAMES, Brake
-from umform.processes.air_bending.checks import needed_stroke
-from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.goal import needed_stroke
+from umform.processes.air_bending.spec import AirBending
 from umform.progress import progress_bar
 
 

@@ -17,8 +17,8 @@ from umform.processes.air_bending.bend import AirBend
 from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.formulas import shop_forces, strength
 from umform.processes.air_bending.measures import Measures
-from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.remarks import coarse_mesh
+from umform.processes.air_bending.spec import AirBending
 from umform.processes.air_bending.words import columns
 from umform.report.versions import versions
 from umform.results.run_record import run_record

@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 
 from umform.materials import J2, Metal, Table
-from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.spec import AirBending
 from umform.sheet_metals import tension_test
 
 #: Factors in use for F = factor Rm t² / V.

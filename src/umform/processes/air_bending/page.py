@@ -12,8 +12,8 @@ from umform.elements import element
 from umform.processes.air_bending.bend import AirBend
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.measures import Measures
-from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.remarks import remarks, tools_text
+from umform.processes.air_bending.spec import AirBending
 from umform.processes.air_bending.words import summary, summary_header, table_header, table_rows
 from umform.report import parts
 from umform.report.live import Live, style

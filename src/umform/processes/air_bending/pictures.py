@@ -16,8 +16,8 @@ from umform.plotting import COLOURS, Picture, house_style
 from umform.processes.air_bending.bend import AirBend
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.measures import Measures
-from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.section import Section
+from umform.processes.air_bending.spec import AirBending
 
 Floats = NDArray[np.float64]
 

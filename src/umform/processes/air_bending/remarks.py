@@ -6,7 +6,7 @@ from dataclasses import fields
 
 from umform.processes.air_bending.formulas import shop_forces, uniform_strain
 from umform.processes.air_bending.measures import Measures
-from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.spec import AirBending
 
 #: Deviation of the computed force from the workshop formula that is explained.
 _APART = 0.15

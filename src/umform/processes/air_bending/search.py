@@ -10,10 +10,11 @@ from umform.errors import InvalidValue, SolveError
 from umform.processes.air_bending.bend import AirBend, Loaded
 from umform.processes.air_bending.brake import INCREMENTS
 from umform.processes.air_bending.branches import FRAMES, Brake
-from umform.processes.air_bending.checks import check_angle, check_tolerance, unreachable
+from umform.processes.air_bending.goal import Goal, check_angle, unreachable
 from umform.processes.air_bending.measures import Measures
-from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.spec import AirBending
 from umform.progress import Tick, progress_bar, silent
+from umform.spec import check_value
 
 _MOST_TRIALS = 10
 
@@ -89,7 +90,7 @@ def find_stroke(
         If the sheet cannot be bent so far.
     """
     check_angle(case, angle)
-    check_tolerance(tolerance)
+    check_value(Goal, "tolerance", tolerance)
     with progress_bar(progress) as tick:
         brake = brake or Brake(case, solver, max(1, frames))
         state, measures, trials = bent_to_angle(brake, angle, tolerance, tick)

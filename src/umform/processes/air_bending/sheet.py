@@ -10,7 +10,7 @@ from umform import mesh
 from umform.elements import element as catalogue_element
 from umform.mesh import Mesh
 from umform.mesh.mesh import Floats
-from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.spec import AirBending
 
 #: How fast elements grow outside of the fine zones: by this part of the way.
 _GROWTH = 0.3

@@ -11,9 +11,9 @@ from umform import mesh
 from umform.elements import element as catalogue_element
 from umform.mesh import Mesh
 from umform.mesh.mesh import Floats
-from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.sheet import lines_along
-from umform.processes.bend_sequence.parameters import BendSequence
+from umform.processes.air_bending.spec import AirBending
+from umform.processes.bend_sequence.spec import BendSequence
 
 #: Smallest distance of two lines relative to the smaller adjacent element.
 _NEAR = 0.5

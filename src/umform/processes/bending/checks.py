@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from umform.errors import InvalidValue
-from umform.processes.rules import Rule, check_rules, length, number, positive, whole
+from umform.processes.rules import check_rules, length, number, positive, whole
+from umform.spec import Rule
 
 
 def _two_counts(value: Any) -> bool:

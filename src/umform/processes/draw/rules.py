@@ -11,7 +11,8 @@ from umform.errors import InvalidValue
 from umform.materials import Material
 from umform.materials.j2 import Plastic
 from umform.model.through_thickness import completed, points_through
-from umform.processes.rules import FRICTION, Rule, contact_points, length, number, plastic_material, positive, whole
+from umform.processes.rules import FRICTION, PLASTIC, contact_points, length, number, positive, whole
+from umform.spec import Rule
 
 #: Clearances beside the punch in thicknesses: less is a wrong number rather than ironing, more leaves the sheet loose.
 _TIGHTEST, _LOOSEST = 0.9, 20.0
@@ -29,7 +30,7 @@ COMMON: dict[str, Rule] = {
         "metres in place of millimetres, or a sign",
         "in mm, such as 1",
     ),
-    "material": plastic_material("drawing"),
+    "material": PLASTIC,
     "punch_edge": length("the radius of the edge of the punch", "in mm, such as 5"),
     "die_edge": length("the radius of the edge of the die", "in mm, such as 10"),
     "holder_force": Rule(

@@ -8,24 +8,22 @@ from typing import Any, Protocol
 from umform.errors import InvalidValue
 from umform.processes.rules import (
     FRICTION,
-    ROLLING,
-    Rule,
+    PLASTIC,
     check_rolling,
     check_rules,
     contact_points,
     length,
     number,
-    plastic_material,
     positive,
 )
+from umform.spec import Rule
 
 #: Range of the radii in thicknesses: sharper ones crush the sheet, larger ones are no bead.
 _SHARPEST, _ROUNDEST = 1.0, 200.0
 
 RULES: dict[str, Rule] = {
     "thickness": length("the thickness of the sheet", "in mm, such as 0.8"),
-    "material": plastic_material("a draw bead"),
-    "rolling": ROLLING,
+    "material": PLASTIC,
     "radius": length("the radius of the bead", "in mm, such as 5.5"),
     "height": length("the height of the bead", "in mm, such as 6"),
     "groove_radius": length("the radius of the edges of the groove", "in mm, such as 5"),

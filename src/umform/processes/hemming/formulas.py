@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from umform.processes.air_bending.formulas import strength
-from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.spec import AirBending
 
 #: Factors of Rm t²/(t + gap): over an insert, which is clamped at the end, and open. Those of the table of hems in
 #: docs/bending-operations.md are 1.6 to 2 and 0.5; a stainless steel has 2.3.

@@ -1,0 +1,78 @@
+"""Options that are read off Specs: name, type, default, help and panel of each field."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Collection
+from dataclasses import MISSING
+from typing import Annotated, Any, get_type_hints
+
+from umform.cli.options import option
+from umform.spec import Parameter, parameters
+
+#: Values by the names of fields, as a command gets them.
+Given = dict[str, Any]
+
+
+def given_by(*specs: type, omit: Collection[str] = (), **defaults: Any) -> Callable[[Callable[..., Any]], Any]:
+    """Give a command the options of all fields of Specs; its parameter ``given`` gets their values by name.
+
+    Parameters
+    ----------
+    *specs : type
+        Dataclasses with ``groups``: the panel of the options from each named field on.
+    omit : collection of str
+        Fields that the command takes in another way.
+    **defaults : object
+        Defaults of this command where they differ.
+    """
+
+    def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
+        own = inspect.signature(command)
+        options = [one for spec in specs for one in _options(spec, omit, defaults)]
+        names = [one.name for one in options]
+
+        def run(**values: Any) -> Any:
+            return command(given={name: values.pop(name) for name in names}, **values)
+
+        hints = get_type_hints(command, include_extras=True)
+        before = [one.replace(annotation=hints[one.name]) for one in own.parameters.values() if one.name != "given"]
+        at = list(own.parameters).index("given")
+        run.__name__, run.__doc__, run.__module__ = command.__name__, command.__doc__, command.__module__
+        shown = [*before[:at], *options, *before[at:]]
+        run.__signature__ = inspect.Signature(shown, return_annotation=None)  # type: ignore[attr-defined]
+        run.__annotations__ = {one.name: one.annotation for one in shown}
+        return run
+
+    return decorate
+
+
+def _options(spec: type, omit: Collection[str], defaults: dict[str, Any]) -> list[inspect.Parameter]:
+    found, panel = [], ""
+    groups: dict[str, str] = spec.groups  # type: ignore[attr-defined]
+    for name, parameter in parameters(spec).items():
+        panel = groups.get(name, panel)
+        if name not in omit:
+            default = defaults.get(name, parameter.default)
+            hint = Annotated[_hint(parameter), _info(parameter, panel)]  # type: ignore[valid-type]
+            no_default = inspect.Parameter.empty if default is MISSING else default
+            kind = inspect.Parameter.POSITIONAL_OR_KEYWORD
+            found.append(inspect.Parameter(name, kind, default=no_default, annotation=hint))
+    return found
+
+
+def _hint(parameter: Parameter) -> Any:
+    types = {kind.type for kind in parameter.kinds}
+    plain = next(iter(types)) if len(types) == 1 else str
+    return plain | None if parameter.optional else plain
+
+
+def _info(parameter: Parameter, panel: str) -> Any:
+    info = option(parameter.text, panel)
+    if {int, str} <= {kind.type for kind in parameter.kinds}:
+        info.parser, info.metavar = _number_or_word, "<int|word>"
+    return info
+
+
+def _number_or_word(text: str) -> int | str:
+    return int(text) if text.isdecimal() else text

@@ -1,0 +1,358 @@
+"""Air bending: its parameters, the tools and limits that follow from them, and what does not fit together."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, fields
+from functools import cached_property
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+
+from annotated_types import Ge, Gt, Le
+
+from umform.errors import InvalidValue
+from umform.processes.rules import PLASTIC, check_rolling
+from umform.spec import About, check_fields
+from umform.spec.types import ContactPoints, Degrees, Length, Positive, Rolling
+
+if TYPE_CHECKING:
+    from umform.elements.rolling import Vector
+    from umform.elements.technology import Element
+    from umform.materials import J2, Metal
+    from umform.processes.air_bending.drawn_tools import DrawnDie, DrawnPunch
+    from umform.surfaces import Extruded, Punch, VDie
+
+
+#: Range of opening over thickness for air bending; press brakes use 5 to 16.
+_NARROWEST, _WIDEST = 1.0, 500.0
+#: Penalty times thickness over E beyond which Newton's method converges slowly.
+_STIFFEST = 1e3
+
+
+def dc04_like() -> J2:
+    """Like DC04 across the rolling direction in shape and level; a curve of your own material is better."""
+    from umform.materials import J2, Swift
+
+    return J2(E=210e3, nu=0.3, hardening=Swift(strength=520.0, offset=0.004, exponent=0.22))
+
+
+@dataclass(frozen=True)
+class AirBending:
+    r"""Air bending of a sheet in a V-die, in mm, N and MPa. ::
+
+          |     |
+          | \ / |  punch_angle, punch_radius
+    =======  v  =======  sheet: thickness, width
+    -----.       .-----  die_radius
+          \     /
+           \   /     die_angle
+             v
+         |<----->|  opening
+    """
+
+    groups: ClassVar = {
+        "thickness": "Sheet",
+        "opening": "Tools",
+        "width": "Sheet",
+        "stroke": "What to do",
+        "punch_width": "Tools",
+        "element": "Solution",
+    }
+    """Group of the parameters from each of these on."""
+
+    thickness: Length = 2.0
+    """Thickness of the sheet."""
+    opening: Length = 16.0
+    """Opening of the die: distance of the lines where its flanks, drawn on as planes, meet its top."""
+    die_angle: Degrees = 85.0
+    """Angle between the flanks of the die."""
+    die_radius: Length = 2.0
+    """Radius of the shoulders of the die."""
+    punch_angle: Degrees = 85.0
+    """Angle between the flanks of the punch."""
+    punch_radius: Length = 1.5
+    """Radius of the tip of the punch."""
+    punch_section: DrawnPunch | None = None
+    """Drawn punch; ``punch_angle`` and ``punch_radius`` are then those of the drawing."""
+    die_section: DrawnDie | None = None
+    """Drawn die; ``opening``, ``die_angle`` and ``die_radius`` are then those of the drawing."""
+    width: Length | None = None
+    """Length of the bend; without it plane strain, a sheet so wide that nothing moves along the bend."""
+    material: Annotated[J2 | Metal, PLASTIC] = field(default_factory=dc04_like)
+    """Law of the sheet."""
+    rolling: Rolling | None = None
+    """Angle from the bend line to the rolling direction; a law with directions needs it."""
+    stroke: Length | None = None
+    """Way of the punch from where it touches the sheet; a search or a table does not need it."""
+    bottoming: bool = False
+    """Whether the punch may press the sheet onto the flanks of the die."""
+    punch_width: Length | None = None
+    """Width of the body of the punch above its flanks; without it they have no end."""
+    element: str | Element = "BEND18"
+    """Element of the catalogue, or one of your own."""
+    layers: Annotated[int, Ge(1), Le(8)] = 2
+    """Elements stacked through the thickness."""
+    thickness_points: Annotated[int, Ge(2), Le(15)] = 6
+    """Points through the thickness of each layer."""
+    elements_per_thickness: Annotated[float, Gt(0.0), Le(100.0), About(cause="the number of all elements instead")] = (
+        3.0
+    )
+    """Elements along the sheet per thickness, in the bend and where the shoulder touches; in dies wider than 16
+    thicknesses, on 1/16 of the opening."""
+    width_elements: Annotated[int, Ge(1), Le(1000)] = 3
+    """Elements over half of the width; without a width there is one."""
+    contact_points: ContactPoints | Literal["auto"] = "auto"
+    """Contact points per direction and facet; auto: as many as the contact of each tool needs, eq. (4.31)."""
+    penalty: Positive | None = None
+    """Contact pressure per penetration; without it, it follows from the allowed penetration, eq. (4.29)."""
+    penetration: Length | None = None
+    """Allowed penetration, in place of a penalty; without it, 1/200 of the thickness."""
+    increment: Annotated[float, Ge(1e-5), Le(0.05), About(cause="a length in mm instead of a part of the opening")] = (
+        0.00625
+    )
+    """Way of the punch in one increment, over the opening."""
+
+    def __post_init__(self) -> None:
+        from umform.processes.air_bending.drawn_tools import check_one_sided, drawn_sizes
+
+        for name, value in drawn_sizes(self.punch_section, self.die_section).items():
+            object.__setattr__(self, name, value)
+        check_fields(self)
+        _check_consistency(self)
+        if self.punch_section is not None:
+            check_one_sided(self.punch_section, self.half_length)
+
+    def record(self) -> dict[str, Any]:
+        """All parameters by name."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    @cached_property
+    def die(self) -> VDie | Extruded:
+        """The die; its top is z = 0."""
+        from umform.surfaces import Extruded, VDie
+
+        if self.die_section is not None:
+            return Extruded(self.die_section.profile)
+        return VDie(self.opening, self.die_angle, self.die_radius)
+
+    @cached_property
+    def punch(self) -> Punch | Extruded:
+        """The punch, touching the sheet at z = thickness."""
+        from umform.surfaces import Extruded, Punch
+
+        if self.punch_section is not None:
+            return Extruded(self.punch_section.profile, origin=(0.0, 0.0, self.thickness))
+        return Punch(self.punch_radius, self.punch_angle, self.punch_width, origin=(0.0, 0.0, self.thickness))
+
+    @property
+    def rolling_direction(self) -> Vector | None:
+        """Unit vector of the rolling direction; the bend line is y."""
+        from umform.elements.rolling import rolling_at
+
+        return None if self.rolling is None else rolling_at(self.rolling)
+
+    @property
+    def plane_strain(self) -> bool | None:
+        """Option of the element; None for a sheet of finite width, and for one that shears along the bend."""
+        own = not isinstance(self.element, str)
+        shears = getattr(self.material, "directional", False) and self.rolling not in (0.0, 90.0)
+        return None if self.width is not None or shears or own else True
+
+    @property
+    def way(self) -> float:
+        """Way of the punch in one increment, in mm."""
+        return self.increment * self.opening
+
+    @property
+    def shoulder(self) -> float:
+        """Distance of the axis of the shoulder from the middle: where the sheet rests at first."""
+        from umform.surfaces import VDie
+
+        return 0.5 * VDie(self.opening, self.die_angle, self.die_radius).tangent_width
+
+    @property
+    def steepest(self) -> float:
+        """Slope of a leg in degrees at which it lies against a flank of punch or die: the end of air bending."""
+        return 0.5 * (180.0 - max(self.die_angle, self.punch_angle))
+
+    def free_length(self, slope: float) -> float:
+        """Straight length of a leg between punch tip and shoulder if the sheet is wrapped around the tip, thin lines.
+
+        Parameters
+        ----------
+        slope : float
+            Slope of the leg in degrees.
+        """
+        a = math.radians(slope)
+        return (self.shoulder - self._radii * math.sin(a)) / math.cos(a)
+
+    def rigid_stroke(self, slope: float) -> float:
+        """Stroke at a slope of the leg in degrees, for a sheet that is wrapped around the tip: an upper bound."""
+        a = math.radians(slope)
+        return self.free_length(slope) * math.sin(a) + self._radii * (1.0 - math.cos(a))
+
+    @property
+    def largest_stroke(self) -> float:
+        """Stroke at which a sheet wrapped around the tip lies against a flank, or on the bottom of a drawn die."""
+        return min(self.rigid_stroke(self.steepest), self.depth)
+
+    @property
+    def depth(self) -> float:
+        """Depth of the die in its middle."""
+        if self.die_section is not None:
+            return self.die_section.depth
+        return 0.5 * self.opening / math.tan(math.radians(0.5 * self.die_angle))
+
+    @property
+    def bottom_stroke(self) -> float:
+        """Stroke at which tip and flanks of the angle of the die are one thickness from the die. eq. (5.90)"""
+        flank = math.radians(90.0 - 0.5 * self.die_angle)
+        tip = (self.punch_radius + self.thickness) / math.cos(flank) - 0.5 * self.opening * math.tan(flank)
+        return self.thickness + self.punch_radius - tip
+
+    @property
+    def stroke_limit(self) -> float:
+        """The largest stroke that is taken: the end of air bending, or half a thickness beyond the bottom."""
+        return self.bottom_stroke + 0.5 * self.thickness if self.bottoming else self.largest_stroke
+
+    @property
+    def reach(self) -> float:
+        """Length of half of the mid-surface from the middle to the shoulder, the largest that air bending needs."""
+        a = math.radians(self.steepest)
+        return max(self.shoulder, (self.punch_radius + 0.5 * self.thickness) * a + self.free_length(self.steepest))
+
+    @property
+    def half_length(self) -> float:
+        """Half of the length of the sheet: it ends three thicknesses beyond the shoulder."""
+        return self.reach + 3.0 * self.thickness
+
+    @property
+    def _radii(self) -> float:
+        """Distance of the axes of tip and shoulder, measured across a leg."""
+        return self.punch_radius + self.thickness + self.die_radius
+
+
+def _check_consistency(case: AirBending) -> None:
+    """Refuse tools that leave no room for the sheet, and strokes beyond the end of air bending.
+
+    Raises
+    ------
+    InvalidValue
+        ``where`` is the parameter that is most likely wrong.
+    """
+    _check_penalty(case)
+    _check_proportions(case)
+    _check_room(case)
+    _check_rolling(case)
+    _check_bottoming(case)
+    if case.stroke is not None and not case.bottoming and case.stroke > case.largest_stroke:
+        raise _unfit(
+            case,
+            "stroke",
+            "the stroke goes beyond air bending: the sheet would be pressed against a flank",
+            f"with these tools a leg lies against a flank at {case.largest_stroke:.4g} at the latest",
+            "a smaller stroke, sharper angles of punch and die, or bottoming=True",
+        )
+
+
+def _check_penalty(case: AirBending) -> None:
+    """Refuse a penalty together with the allowed penetration."""
+    if case.penalty is not None and case.penetration is not None:
+        raise _unfit(
+            case,
+            "penetration",
+            "the penalty follows from the penetration that is allowed",
+            "both are given",
+            "leave one of them out",
+        )
+
+
+def _check_bottoming(case: AirBending) -> None:
+    """Refuse tools that cannot bottom, and strokes that squeeze the sheet by more than half of its thickness."""
+    if not case.bottoming:
+        return
+    if case.punch_angle > case.die_angle:
+        raise _unfit(
+            case,
+            "punch_angle",
+            "a punch cannot press the sheet onto the flanks of a sharper die",
+            f"the flanks of the die have {case.die_angle:g} degrees: the punch meets its shoulders first",
+            "an angle of the punch up to that of the die; 88 and 88, or 90 and 90 are usual",
+        )
+    if case.stroke is not None and case.stroke > case.stroke_limit:
+        raise _unfit(
+            case,
+            "stroke",
+            "the stroke squeezes the sheet by more than half of its thickness",
+            f"half a thickness beyond the bottom is {case.stroke_limit:.4g}",
+            "a smaller stroke, or a force",
+        )
+
+
+def _check_rolling(case: AirBending) -> None:
+    """Refuse an anisotropic law without rolling direction, and one that breaks the symmetry of a half width."""
+    check_rolling(case.material, case.rolling)
+    anisotropic = getattr(case.material, "directional", False)
+    if anisotropic and case.width is not None and (case.rolling or 0.0) % 90.0 != 0.0:
+        raise _unfit(
+            case,
+            "rolling",
+            "with a width, the rolling direction must be along or across the bend line",
+            "a quarter of the sheet is modelled, and a sheet that is bent at another angle has no such symmetry",
+            "rolling=0 or rolling=90, or no width: plane strain takes all angles",
+        )
+
+
+def _unfit(case: AirBending, name: str, what: str, cause: str, remedy: str) -> InvalidValue:
+    """Error for a parameter that does not agree with the others."""
+    return InvalidValue(what, where=name, value=getattr(case, name), cause=cause, remedy=remedy)
+
+
+def _check_proportions(case: AirBending) -> None:
+    """Refuse an opening and a penalty of an unlikely order of magnitude."""
+    if not _NARROWEST <= case.opening / case.thickness <= _WIDEST:
+        raise _unfit(
+            case,
+            "opening",
+            "the opening of the die does not fit the thickness of the sheet",
+            f"it is {case.opening / case.thickness:.3g} thicknesses; another unit, or the two exchanged",
+            f"{_NARROWEST:g} to {_WIDEST:g} thicknesses; press brakes take 5 to 16",
+        )
+    if case.penalty is not None and case.penalty > _STIFFEST * case.material.E / case.thickness:
+        raise _unfit(
+            case,
+            "penalty",
+            "the penalty is so stiff that the run would creep",
+            f"it is {case.penalty * case.thickness / case.material.E:.3g} times E / thickness",
+            "omit it: it follows from the penetration that is allowed",
+        )
+
+
+def _check_room(case: AirBending) -> None:
+    """Refuse a tip that is wider than the die, shoulders without flanks, and a sheet that would be drawn in."""
+    tip = 2.0 * case.punch_radius * math.cos(math.radians(0.5 * case.punch_angle))
+    if tip >= case.opening:
+        raise _unfit(
+            case,
+            "punch_radius",
+            "the tip of the punch is wider than the opening of the die",
+            f"the tip is round on a width of {tip:.4g}, the opening is {case.opening:.4g}",
+            "a smaller punch_radius, or a wider opening",
+        )
+    flank = 0.5 * case.opening / math.sin(math.radians(0.5 * case.die_angle))  # from the top to the apex of the V
+    setback = case.die_radius * math.tan(math.radians(0.25 * (180.0 - case.die_angle)))
+    if setback >= flank:
+        raise _unfit(
+            case,
+            "die_radius",
+            "the shoulders of the die are rounder than its flanks are long",
+            f"each takes {setback:.4g} of a flank of {flank:.4g}",
+            "a smaller die_radius, or a wider opening",
+        )
+    if case.free_length(case.steepest) <= 0.0:
+        raise _unfit(
+            case,
+            "opening",
+            "the sheet does not find room between punch and shoulders: it would be drawn, not bent",
+            f"bent to {180.0 - 2.0 * case.steepest:.4g} degrees around the tip, a leg is longer than the flank",
+            "an opening of 6 to 12 thicknesses, or smaller radii",
+        )

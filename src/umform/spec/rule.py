@@ -1,0 +1,92 @@
+"""Refusal of invalid parameters, and conditions that a type and bounds do not express."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from umform.errors import InvalidValue, NotFinite
+from umform.spec.parameter import parameters
+
+
+@dataclass(frozen=True)
+class Rule:
+    """Condition on a parameter; as metadata of a type it is checked after type and bounds.
+
+    Attributes
+    ----------
+    fits : callable
+        Whether a value is valid.
+    what : str
+        What is wrong otherwise.
+    cause, remedy : str
+        Likely cause, and remedy.
+    """
+
+    fits: Callable[[Any], bool]
+    what: str
+    cause: str
+    remedy: str
+
+    def optional(self) -> Rule:
+        """The same for an optional parameter, which may be None."""
+        return Rule(lambda value: value is None or self.fits(value), self.what, self.cause, self.remedy)
+
+    def check(self, name: str, value: Any) -> None:
+        """Reject an invalid value.
+
+        Raises
+        ------
+        NotFinite
+            If it is NaN or infinite.
+        InvalidValue
+            ``where`` is the name.
+        """
+        if not self.fits(value):
+            raise _error(self.what, name, value, self.cause, self.remedy)
+
+
+def check_fields(spec: Any) -> None:
+    """Reject invalid values of a Spec, one by one.
+
+    Raises
+    ------
+    NotFinite, InvalidValue
+        ``where`` is the name of the field.
+    """
+    kind: type = type(spec)
+    for name in parameters(kind):
+        check_value(kind, name, getattr(spec, name))
+
+
+def check_value(spec: type, name: str, value: Any) -> None:
+    """Reject an invalid value of one field of a Spec.
+
+    Raises
+    ------
+    NotFinite, InvalidValue
+        ``where`` is the name of the field.
+    """
+    parameter = parameters(spec)[name]
+    if value is None and parameter.optional:
+        return
+    if not any(kind.fits(value) for kind in parameter.kinds):
+        subject = name if bool in (kind.type for kind in parameter.kinds) else f"the {parameter.noun}"
+        what = f"{subject} must be {parameter.must_be}"
+        raise _error(what, name, value, parameter.about.cause, parameter.remedy)
+    for rule in parameter.rules:
+        rule.check(name, value)
+
+
+def _error(what: str, name: str, value: Any, cause: str, remedy: str) -> InvalidValue:
+    kind = NotFinite if isinstance(value, float) and not math.isfinite(value) else InvalidValue
+    return kind(what, where=name, value=_shown(value), cause=cause, remedy=remedy)
+
+
+def _shown(value: object) -> str:
+    """A value as typed by hand: a mesh as 24x1."""
+    if isinstance(value, tuple | list):
+        return "x".join(map(str, value))
+    return str(value)

@@ -1,0 +1,36 @@
+"""Usual types of parameters: bounds, units and likely mistakes."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from annotated_types import Ge, Gt, Le, Lt
+
+from umform.spec.parameter import About
+
+_MISSING = "a sign, or a missing value"
+
+#: A length in mm.
+Length = Annotated[float, Gt(0.0), About("mm", cause=_MISSING)]
+#: A stress in MPa.
+Stress = Annotated[float, Gt(0.0), About("MPa", cause=_MISSING)]
+#: Another positive number.
+Positive = Annotated[float, Gt(0.0), About(cause=_MISSING)]
+#: An angle between two straight lines.
+Degrees = Annotated[
+    float, Gt(0.0), Lt(180.0), About("degrees", cause="radians, a sign, or the angle of bending instead")
+]
+#: The rolling direction of a sheet that is bent about one line.
+Rolling = Annotated[
+    float,
+    Ge(-180.0),
+    Le(180.0),
+    About("degrees", cause="a vector in place of an angle", remedy="0 along the bend line, 90 across it"),
+]
+#: Contact points per direction of a facet.
+ContactPoints = Annotated[
+    int,
+    Ge(1),
+    Le(10),
+    About(cause="all points of a facet instead of those of one direction", remedy="auto, or such as 5"),
+]

@@ -1,0 +1,143 @@
+"""Specs: what a field declares is what every front end says and checks."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, Literal
+
+import pytest
+import typer
+from annotated_types import Ge, Le
+from pydantic import TypeAdapter, ValidationError
+from typer.testing import CliRunner
+
+from umform.bench.wanted import SIZES, Wanted
+from umform.cli.given import Given, given_by
+from umform.errors import InvalidValue, NotFinite
+from umform.processes.air_bending.goal import Goal
+from umform.processes.air_bending.spec import AirBending
+from umform.processes.bend_sequence.spec import Bend, BendSequence, Bodies
+from umform.processes.hemming import Hemming
+from umform.spec import About, Rule, check_fields, parameters
+from umform.spec.types import Degrees, Length
+
+
+@dataclass(frozen=True)
+class Tube:
+    """A tube."""
+
+    groups: ClassVar = {"radius": "Tube", "points": "Solution"}
+
+    radius: Length = 20.0
+    """Radius of the tube, to its middle."""
+    wall: Length | None = None
+    """Thickness of the wall; without it, a tenth
+    of the radius."""
+    bend: Degrees = 90.0
+    """Angle of the bend."""
+    points: Annotated[int, Ge(1), Le(10)] | Literal["auto"] = "auto"
+    """Contact points: of a facet."""
+    part: Annotated[float, Rule(lambda value: value != 0.5, "not half of it", "a half", "another part")] = 1.0
+    """Part that is modelled."""
+    hollow: bool = True
+    """Whether it is hollow."""
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+
+@pytest.mark.parametrize(
+    ("values", "text", "remedy"),
+    [
+        ({"radius": 0.0}, "the radius of the tube must be positive and finite", "in mm, such as 20"),
+        ({"radius": "20"}, "the radius of the tube must be positive and finite", "in mm, such as 20"),
+        ({"radius": True}, "the radius of the tube must be positive and finite", "in mm, such as 20"),
+        ({"wall": -1.0}, "the thickness of the wall must be positive and finite", "in mm; or leave it out"),
+        ({"bend": 180.0}, "the angle of the bend must be a number between 0 and 180", "in degrees, such as 90"),
+        ({"points": 11}, "the contact points must be a whole number from 1 to 10 or auto", "a whole number"),
+        ({"points": 2.5}, "the contact points must be a whole number from 1 to 10 or auto", "a whole number"),
+        ({"points": "all"}, "the contact points must be a whole number from 1 to 10 or auto", "a whole number"),
+        ({"part": 0.5}, "not half of it", "another part"),
+        ({"hollow": 1}, "hollow must be true or false", "true or false"),
+    ],
+)
+def test_an_invalid_value_is_refused_in_the_words_of_its_field(values, text, remedy):
+    with pytest.raises(InvalidValue) as refusal:
+        Tube(**values)
+    assert refusal.value.what == text
+    assert refusal.value.remedy.startswith(remedy) and refusal.value.where == next(iter(values))
+
+
+def test_a_number_that_is_not_finite_is_refused_as_such():
+    with pytest.raises(NotFinite):
+        Tube(radius=math.nan)
+
+
+def test_valid_values_are_accepted():
+    assert Tube(points=3, wall=2, bend=179.9).points == 3
+
+
+def test_units_stand_behind_the_first_clause():
+    texts = {name: parameter.text for name, parameter in parameters(Tube).items()}
+    assert texts["radius"] == "Radius of the tube in mm, to its middle."
+    assert texts["wall"] == "Thickness of the wall in mm; without it, a tenth of the radius."
+    assert texts["points"] == "Contact points: of a facet."
+
+
+def test_a_command_has_an_option_for_each_field():
+    app, got = typer.Typer(), {}
+
+    @app.command()
+    @given_by(Tube, omit=["part"], radius=30.0)
+    def tube(given: Given, out: str = "here") -> None:
+        """Bend a tube."""
+        got.update(given, out=out)
+
+    shown = CliRunner().invoke(app, ["--help"], env={"COLUMNS": "200"}).output
+    for text in ("Bend a tube.", "Thickness of the wall in mm;", "[default: 30.0]", "─ Tube ─", "─ Solution ─"):
+        assert text in shown
+    assert "--part" not in shown and "--given" not in shown
+    assert CliRunner().invoke(app, ["--points", "4", "--wall", "2.5", "--no-hollow"]).exit_code == 0
+    assert got == {"radius": 30.0, "wall": 2.5, "bend": 90.0, "points": 4, "hollow": False, "out": "here"}
+    assert Tube(**{name: got[name] for name in ("radius", "wall", "points")}).points == 4
+
+
+def test_the_schema_of_pydantic_has_the_same_bounds_and_units():
+    schema = TypeAdapter(Tube).json_schema()["properties"]
+    assert schema["radius"] == {
+        "exclusiveMinimum": 0.0,
+        "type": "number",
+        "unit": "mm",
+        "default": 20.0,
+        "title": "Radius",
+    }
+    assert json.loads(json.dumps(schema["bend"]))["exclusiveMaximum"] == 180.0
+    with pytest.raises(ValidationError, match="greater than 0"):
+        TypeAdapter(Tube).validate_python({"radius": -1.0})
+
+
+@pytest.mark.parametrize("spec", [AirBending, Bend, BendSequence, Bodies, Goal, Hemming])
+def test_each_field_of_a_process_has_a_sentence_and_each_number_a_reason(spec):
+    for name, parameter in parameters(spec).items():
+        assert parameter.sentence.endswith(".") and parameter.sentence[0].isupper(), name
+        if parameter.kinds[0].type is float:
+            assert parameter.about.unit or name in ("elements_per_thickness", "increment", "penalty"), name
+
+
+def test_the_form_of_the_bench_has_the_defaults_and_bounds_of_the_process():
+    for name in SIZES:
+        assert Wanted.model_fields[name].default == parameters(AirBending)[name].default
+        with pytest.raises(ValidationError):
+            Wanted.model_validate({name: 1e9 if name == "rolling" else -1.0})
+
+
+def test_the_outer_description_covers_the_inner_one():
+    @dataclass(frozen=True)
+    class Own:
+        length: Annotated[Length, About(remedy="as on the drawing")] = 1.0
+        """Length."""
+
+    about = parameters(Own)["length"].about
+    assert (about.unit, about.remedy) == ("mm", "as on the drawing")
