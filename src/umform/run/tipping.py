@@ -15,8 +15,8 @@ from umform.model.contact import Contact
 from umform.model.control import Control
 from umform.model.dead_load import Load
 from umform.model.forces import rigid_body_modes
-from umform.model.nodal_term import NodalTerm
 from umform.model.pressure import Pressure
+from umform.model.rest import Rest
 from umform.model.tool import Pose, Tool
 from umform.model.tool_controls import ToolForce, ToolWay
 from umform.steps import Move, Step
@@ -82,29 +82,38 @@ def tipping(model: Model, steps: Sequence[Step]) -> Tipping | None:
         if not isinstance(step, Move) or not all(isinstance(one, ToolWay | ToolForce) for one in step.moved()):
             return None
         before = [values[control] for control in step.moved()]
-        begun = dict(zip(step.moved(), step.values(_BEGIN, before), strict=True))
+        begun, ended = (dict(zip(step.moved(), step.values(part, before), strict=True)) for part in (_BEGIN, 1.0))
         poses = [(tool, tool.pose(values, model.time), _next_pose(model, tool, values, begun)) for tool in model.tools]
         moved = {tool for tool, pose, then in poses if not all(map(np.array_equal, pose, then))}
         for tool, pose, then in poses:
             found = None
-            if tool in moved and (tool not in anywhere or tool.presses):
+            if tool in moved and (tool not in anywhere or tool.presses) and _arrives(model, tool, pose, values | ended):
                 found = _unbalanced(model, free, (tool, pose, then), poses, anywhere | moved)
             if found is not None:
                 return Tipping(number, tool.name, *found)
         anywhere |= moved
-        values |= dict(zip(step.moved(), step.values(1.0, before), strict=True))
+        values |= ended
     return None
 
 
 def _free(model: Model) -> Floats:
     """Rigid-body motions (k, 6) that supports and springs leave free; none if loads or unknown terms act."""
-    unknown = [term for term in model.others if not isinstance(term, NodalTerm)]
+    unknown = [term for term in model.others if not isinstance(term, Rest)]
     if unknown or any(isinstance(control, Load | Pressure) for control in model.controls):
         return np.empty((0, 6))
     points = model.mesh.points + model.u.reshape(-1, 3)
     centre, size = middle(model, points)
     rows = [motion_along(x, n, centre, size) for x, n in sprung(model)]
     return left_free(model, rigid_body_modes(points, centre, size), rows)
+
+
+def _arrives(model: Model, tool: Tool, pose: Pose, values: Mapping[Control, float]) -> bool:
+    """Whether a tool reaches the sheet, as it lies now, by the end of a step; one with a force does."""
+    if tool.presses or not tool.pairs or tool.open:
+        return True
+    points = _Points.of(model, tool, pose)
+    along = np.einsum("ij,ij->i", _way(points, pose, tool.pose(values, model.time)), points.n)
+    return bool((along >= points.gap).any())
 
 
 def _next_pose(model: Model, tool: Tool, values: Mapping[Control, float], begun: Mapping[Control, float]) -> Pose:
@@ -185,10 +194,15 @@ def _unbalanced(
 
 def _pushed(points: _Points, pose: Pose, then: Pose) -> NDArray[np.bool_]:
     """Which points a tool pushes along its normal on the way from one pose to another one."""
-    (Q, c), (R, d) = pose, then
-    way = (points.x - c) @ Q @ R.T + d - points.x
+    way = _way(points, pose, then)
     pushed: NDArray[np.bool_] = np.einsum("ij,ij->i", way, points.n) > _FACES * np.linalg.norm(way, axis=1)
     return pushed
+
+
+def _way(points: _Points, pose: Pose, then: Pose) -> Floats:
+    """Ways (m, 3) of points that move with a tool from one pose to another one."""
+    (Q, c), (R, d) = pose, then
+    return (points.x - c) @ Q @ R.T + d - points.x
 
 
 def _balances(pushes: Floats, bears: Floats) -> bool:

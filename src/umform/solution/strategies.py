@@ -271,6 +271,7 @@ def _settled(increment: Increment, failures: Mapping[str, Failed]) -> Converged 
         return None
     newton = increment.newton
     newton.settled = _AGAIN * least
+    increment.model.prepare()
     try:
         with newton.timing.attempts.trying("settled contact"):
             converged = increment.accept(best.attempt(increment))

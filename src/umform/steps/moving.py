@@ -116,10 +116,13 @@ class Moving:
                 f"hardening): the sheet jumped to the next stable state, by up to {way:.3g}; the way between is dynamic"
             )
         if converged.missed:
+            tolerance = run.newton.options.residual
+            above = f"{MISSED} {converged.missed:.2g} of the forces is above the tolerance {tolerance:.2g}"
             run.result.warn(
-                f"step {run.number}, time {time:.4f}: {MISSED} {converged.missed:.2g} of the forces is above the "
-                f"tolerance {run.newton.options.residual:.2g}: Newton's method comes no nearer under these tools, nor "
-                "do smaller increments; more contact points, or a softer penalty"
+                f"step {run.number}, time {time:.4f}: "
+                f"{above if converged.missed > tolerance else 'the last correction is above its tolerance'}: Newton's "
+                "method comes no nearer under these tools, nor do smaller increments; more contact points, or a softer "
+                "penalty"
             )
         before, self.last_size, self.fraction = self.fraction, target - self.fraction, target
         self.count, self.tried, self.leaps = self.count + 1, 0.0, False

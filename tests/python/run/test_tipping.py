@@ -19,16 +19,19 @@ def sheet(
     """A sheet from x = 0 to 20, of thickness 1, on a block up to x = 10; a round punch goes down at ``push``, or is
     ``pressed`` along an axis by a force.
 
-    ``more``: the gap of a pad above the block, the travel of that pad, a force on it.
+    ``more``: the gap of a pad above the block, the travel of that pad, a force on it; the gap of the punch, and the
+    travel of the punch before the pad comes.
     """
     model = uf.Model(uf.mesh.strip(20.0, 1.0, 1.0, (20, 1)), material=uf.SVK(E=1000.0, nu=0.0))
     model.fix(np.arange(len(model.mesh.points)), "y")
     if friction is None:
         model.fix("x0_lower", "x")
     model.contact("lower", uf.Box((0.0, 0.0, -5.5), (20.0, 50.0, 10.0), 0.5), name="block", friction=friction)
-    punch = model.tool("punch", uf.Cylinder((push, 0.0, 2.52), "y", 2.0))
+    punch = model.tool("punch", uf.Cylinder((push, 0.0, 2.52 + more.get("gap", 0.0)), "y", 2.0))
     model.contact("upper", punch, name="on_punch", friction=friction)
     steps = list[Step]()
+    if "before" in more:
+        steps.append(uf.Move(model.drive(punch, "-z", name="stroke"), more["before"]))
     if "pad" in more:
         pad = model.tool("pad", uf.Box((0.0, 0.0, 5.5 + more["pad"]), (16.0, 50.0, 10.0), 0.5))
         model.contact("upper", pad, name="on_pad", friction=friction)
@@ -38,7 +41,16 @@ def sheet(
             steps.append(uf.Move(model.press(pad, "z", name="hold"), more["force"]))
     if pressed is not None:
         return model, [uf.Move(model.press(punch, pressed[0], name="hold"), pressed[1])]
-    return model, [*steps, uf.Move(model.drive(punch, "-z", name="stroke"), 1.0)]
+    stroke = steps[0].control if "before" in more else model.drive(punch, "-z", name="stroke")
+    return model, [*steps, uf.Move(stroke, 1.0)]
+
+
+class Upwards(uf.model.NodalTerm):
+    """A constant force."""
+
+    def respond(self, u, history, at):
+        """Forces on the ground, their derivatives, and the history."""
+        return np.tile([0.0, 0.0, -1.0], (len(u), 1)), np.zeros((len(u), 3, 3)), history
 
 
 def test_a_push_over_the_block_is_carried():
@@ -59,6 +71,12 @@ def test_a_pad_that_is_near_or_comes_carries(more):
     assert tipping(*sheet(15.0, **more)) is None
 
 
+def test_a_punch_that_ends_its_step_above_the_sheet_pushes_nothing():
+    assert tipping(*sheet(15.0, gap=5.0)) is None
+    assert tipping(*sheet(15.0, gap=0.9)).tool == "punch"
+    assert tipping(*sheet(15.0, gap=0.9, before=0.8, pad=3.0, travel=3.0)) is None
+
+
 def test_a_pad_that_stays_away_does_not():
     assert set(tipping(*sheet(15.0, pad=0.6)).carriers) == {"block"}
 
@@ -69,7 +87,7 @@ def test_forces_push_like_travels_and_only_along_normals():
     assert tipping(*sheet(15.0, pressed=("x", 1.0))) is None
 
 
-@pytest.mark.parametrize("what", ["support", "clamp", "springs", "load", "away", "release first"])
+@pytest.mark.parametrize("what", ["support", "clamp", "springs", "load", "forces of the user", "away", "release first"])
 def test_what_may_balance_the_push_is_no_tipping(what):
     model, steps = sheet(15.0)
     if what == "support":
@@ -80,6 +98,8 @@ def test_what_may_balance_the_push_is_no_tipping(what):
         model.rest(1.0)
     elif what == "load":
         model.pressure("lower")
+    elif what == "forces of the user":
+        model.add(Upwards("upwards", model.mesh.nodes("x1_upper")))
     elif what == "away":
         steps = [uf.Move(steps[0].control, -1.0)]
     else:

@@ -23,7 +23,8 @@ def increment(last: bool, touched: bool):
     attempts = SimpleNamespace(trying=lambda name: nullcontext(), causes=Counter())
     habits = SimpleNamespace(learn=lambda **what: None, learn_of_cut=lambda what: None, last=last)
     newton = SimpleNamespace(timing=SimpleNamespace(attempts=attempts), settled=0.0)
-    return SimpleNamespace(newton=newton, habits=habits, touched=touched, accept=lambda found: found)
+    model = SimpleNamespace(prepare=lambda: None)
+    return SimpleNamespace(model=model, newton=newton, habits=habits, touched=touched, accept=lambda found: found)
 
 
 def attempt(*records: Iteration):
