@@ -13,8 +13,12 @@ import umform as uf
 FORCES = 1e-6
 #: Drift of the energies, over the largest energy, above which it must be that of coarse increments.
 ENERGIES = 0.02
-#: What a run says of a penetration and of a drift that are larger than promised, and of a mesh that changes its volume.
+#: What a run says of a penetration and of a drift that are larger than promised, of a mesh that changes its volume,
+#: and of a residual above its tolerance.
 DEEP, DRIFTS, COARSE = "the penetration of", "the external work and the energies differ", "% of its volume, which"
+MISSED = "of the forces is above the tolerance"
+#: Largest resultant where a run says so: that of the drawing processes, whose tolerance limits such a residual.
+MISSED_FORCES = 1e-2
 
 
 def largest_drift(results: Iterable[uf.Result]) -> float:

@@ -26,7 +26,7 @@ from typing import Any
 
 import record
 import umform as uf
-from imbalance import largest_drift
+from imbalance import MISSED, MISSED_FORCES, largest_drift
 from jobs import Done, Job
 from robust_lots import LOTS, Rated
 from robust_page import failures, page, table
@@ -90,7 +90,8 @@ def imbalance(task: Job, done: Done) -> str:
     found = []
     for result in done.results:
         force, moment = result.balance().largest_imbalances
-        found += [("forces", force, done.forces), ("moments", moment, done.forces)]
+        most = max(done.forces, MISSED_FORCES) if any(MISSED in text for text in result.warnings) else done.forces
+        found += [("forces", force, most), ("moments", moment, most)]
     found += [(name, *pair) for name, pair in done.deviations.items()]
     coarse = drift(done)
     if coarse > done.energies:

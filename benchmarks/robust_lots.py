@@ -100,8 +100,9 @@ A job has finished if all its steps are complete and its answer is right, or if 
 Right means: forces, moments and energies balance, tools that carry each other have the same force, the work of each
 tool adds up, plastic flow keeps the volume, penetrations are those allowed, symmetric jobs have symmetric answers.
 Limits are those of [what balances](balances.md); coarse meshes may miss symmetry by 0.5 %; cups and U-bends of the
-processes may leave resultants of 1 %, ten times the tolerance of their residual. A run that warns of a penetration, a
-drift of the energies or the volume of its mesh has marked its numbers and counts as finished: {marked} jobs.
+processes may leave resultants of 1 %, ten times the tolerance of their residual, as may runs that warn of a residual
+above the tolerance. A run that warns of a penetration, a drift of the energies, the volume of its mesh or a residual
+has marked its numbers and counts as finished: {marked} jobs.
 
 {rate:.1%} finish; the goal is {goal:.1%} and no job that hangs or ends with a wrong number: {verdict}. All take
 {seconds:.0f} CPU seconds.

@@ -7,7 +7,7 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from imbalance import COARSE, DEEP, DRIFTS
+from imbalance import COARSE, DEEP, DRIFTS, MISSED
 from robust_lots import Rated
 
 #: Outcomes that no lot may have.
@@ -57,7 +57,7 @@ def rate(rated: Rated, outcomes: _Outcomes) -> float:
 def marked(one: Mapping[str, Any]) -> bool:
     """Whether a job arrived with a number of which its run warns."""
     return one["outcome"] == "arrived" and any(
-        mark in text for text in one.get("warnings", ()) for mark in (COARSE, DEEP, DRIFTS)
+        mark in text for text in one.get("warnings", ()) for mark in (COARSE, DEEP, DRIFTS, MISSED)
     )
 
 

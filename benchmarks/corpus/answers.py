@@ -44,7 +44,7 @@ class Answer:
 
 def solve(model: uf.Model, steps: Sequence[Step] | Step, **options: Any) -> uf.Result:
     """Refuse what `umform check` refuses, and run."""
-    accept(of_model(model))
+    accept(of_model(model, [steps] if isinstance(steps, Step) else steps))
     return uf.solve(model, steps, frames=0, progress=False, **options)
 
 

@@ -17,7 +17,7 @@ from umform.processes.draw.u_bend import UBend
 from umform.processes.draw_bead.case import build
 from umform.processes.draw_bead.spec import DrawBead
 from umform.processes.hemming import Hemming, hemming
-from umform.processes.hemming.parameters import ACUTE
+from umform.processes.hemming.spec import ACUTE
 from umform.steps import Step
 
 _COARSE: dict[str, Any] = {"elements_per_thickness": 1.0, "layers": 1}

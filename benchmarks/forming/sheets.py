@@ -9,7 +9,7 @@ import umform as uf
 from balances import LIMITS, measured
 from corpus.answers import Answer
 from corpus.sections import Sheet
-from imbalance import COARSE, DEEP, DRIFTS, ENERGIES, FORCES
+from imbalance import COARSE, DEEP, DRIFTS, ENERGIES, FORCES, MISSED, MISSED_FORCES
 from jobs.drawing import Drawing
 from jobs.lot import Done
 from umform import sheet_metals
@@ -107,11 +107,12 @@ def sheet_of(keys: dict[str, Any], *, slender: float = 1.0, layers: int = 1, siz
 def judged(answer: Answer, residual: float = 0.0) -> Done:
     """The runs of an answer, and what of it is judged; ``residual`` is a tolerance of Newton's method above the usual.
 
-    Penetrations, drifts and volumes of which the run warns are not judged: the numbers are marked.
+    Penetrations, drifts and volumes of which the run warns are not judged: the numbers are marked. A residual of which
+    it warns may leave the resultants of the drawing processes.
     """
-    found, forces = measured(answer), max(FORCES, _OF_RESIDUAL * residual)
-    most = _JUDGED | {"tools": max(_JUDGED["tools"], forces)}
     warnings = " ".join(warning for result in answer.results for warning in result.warnings)
+    found, forces = measured(answer), max(FORCES, _OF_RESIDUAL * residual, MISSED_FORCES if MISSED in warnings else 0.0)
+    most = _JUDGED | {"tools": max(_JUDGED["tools"], forces)}
     for mark, name in ((DEEP, "penetration"), (COARSE, "volume of the mesh")):
         if mark in warnings:
             del most[name]

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_matrix, triu
 
 from umform.errors import SolveError
 from umform.model import Evaluation, Model
 from umform.solvers import make_solver
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_matrix
 
 Floats = NDArray[np.float64]
 
 
 def stiffness(model: Model, evaluation: Evaluation) -> csr_matrix:
     """Tangent over the unknowns of the pattern, both triangles."""
+    from scipy.sparse import csr_matrix, triu  # a solution needs none of it
+
     pattern = model.pattern
     K = csr_matrix((evaluation.values, pattern.indices, pattern.indptr), shape=(pattern.n, pattern.n))
     return K + triu(K, 1).T if pattern.symmetric else K

@@ -18,7 +18,7 @@ from umform.processes.air_bending.formulas import INNER_RADIUS, shop_forces, str
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence.collisions import die_body, punch_body
 from umform.processes.bend_sequence.foreseen import foreseen_collisions
-from umform.processes.bend_sequence.parameters import Bodies
+from umform.processes.bend_sequence.spec import Bodies
 
 #: Openings over the thickness that are usual on a press brake.
 _NARROW, _WIDE = 5.0, 16.0

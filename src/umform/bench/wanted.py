@@ -31,6 +31,8 @@ MESHES: dict[str, dict[str, Any]] = {
 #: Kinds of work.
 WORKS = ("bend", "bottom", "sequence", "hem")
 
+#: A longer sheet is no part of a press brake, and would take the memory of the server, in mm.
+_LONGEST = 20000.0
 #: Parameters of `AirBending` that the form asks for by their own names.
 SIZES = ("thickness", "opening", "die_angle", "die_radius", "punch_angle", "punch_radius", "rolling")
 
@@ -75,7 +77,7 @@ class Wanted(WantedStrip):
     uniform_elongation: Annotated[float, Gt(0.0), Le(80.0), About("%")] | None = None
     rolling: Rolling | None = AirBending.rolling
     thickness: Length = AirBending.thickness
-    opening: Length = AirBending.opening
+    opening: Annotated[Length, Le(_LONGEST)] = AirBending.opening
     die_angle: Degrees = AirBending.die_angle
     die_radius: Length = AirBending.die_radius
     punch_angle: Degrees = AirBending.punch_angle
@@ -86,7 +88,7 @@ class Wanted(WantedStrip):
     stroke: Length | None = None
     press_force: Annotated[Positive, About("kN/m")] | None = None
     travel: Annotated[float, About("mm")] | None = None
-    length: Length = 1000.0
+    length: Annotated[Length, Le(_LONGEST)] = 1000.0
     whole: bool = False
     mesh: Literal["quick", "usual", "fine"] = "usual"
     budget: bool = False

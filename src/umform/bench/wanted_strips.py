@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Annotated
 
+from annotated_types import Le
 from pydantic import BaseModel, ConfigDict, Field
 
 from umform.processes.air_bending.spec import AirBending
@@ -12,6 +13,8 @@ from umform.processes.bend_sequence import Bend, BendSequence
 from umform.processes.hemming import Hemming
 from umform.spec.types import Degrees, Length
 
+#: A longer strip is no part of a press brake, and would take the memory of the server, in mm.
+_LONGEST = 4000.0
 _STRICT = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, strict=True)
 
 
@@ -52,14 +55,14 @@ class WantedStrip(BaseModel):
 
     model_config = _STRICT
 
-    strip_length: Length = 80.0
+    strip_length: Annotated[Length, Le(_LONGEST)] = 80.0
     bends: Annotated[list[WantedBend], Field(min_length=1, max_length=20)] = [
         WantedBend(position=20.0),
         WantedBend(position=60.0),
     ]
     gap: Length = Hemming.gap
-    flange: Length = Hemming.flange
-    base: Length = Hemming.base
+    flange: Annotated[Length, Le(_LONGEST)] = Hemming.flange
+    base: Annotated[Length, Le(_LONGEST)] = Hemming.base
     first_angle: Degrees = Hemming.angle
     insert: bool = True
 

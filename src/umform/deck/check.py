@@ -62,7 +62,7 @@ def before_run(deck: Deck, problem: Problem) -> Iterator[Finding]:
             yield ok("deck", note)
         place = partial(out_of_the_sheet, deck.contents)
         millimetres = isinstance(deck.contents.material, FromLibrary)
-        yield from of_model(problem.model, millimetres=millimetres, place=place)
+        yield from of_model(problem.model, problem.steps, millimetres=millimetres, place=place)
         yield from metal_of_thickness(deck, problem)
         yield from resolution(deck, problem)
         yield from clearances(deck, problem)

@@ -38,12 +38,15 @@ class Finding:
         Finding.
     remedy : str
         Remedy.
+    cause : str
+        Likely cause of an error.
     """
 
     level: Level
     about: str
     text: str
     remedy: str = ""
+    cause: str = "another unit, or a typing error"
 
 
 def ok(about: str, text: str) -> Finding:
@@ -88,7 +91,7 @@ def accept(findings: Iterable[Finding], *, force: bool = False) -> list[str]:
             Implausible(
                 finding.text,
                 where=finding.about,
-                cause="another unit, or a typing error",
+                cause=finding.cause,
                 remedy=f"{finding.remedy}; --force runs it all the same",
             )
             for finding in errors

@@ -1,19 +1,22 @@
-"""Plausibility checks of any model: mesh, gaps, units and r-values; they need no deck."""
+"""Plausibility checks of any model: mesh, gaps, units, r-values, sheets that tip; they need no deck."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.deck.findings import Finding, error, ok, warning
+from umform.deck.findings import Finding, Level, error, ok, warning
 from umform.deck.r_values import r_values
 from umform.deck.sizes import sheet_length
 from umform.deck.units import units
+from umform.errors import ModelError
 from umform.mesh.quality import jacobians
 from umform.model import Model
 from umform.model.contact.encounter import sheet_thickness
+from umform.run.tipping import tipping
+from umform.steps import Step
 
 #: (name of a contact, shift of its tool) -> the key that does it.
 Placing = Callable[[str, NDArray[np.float64]], str]
@@ -25,13 +28,17 @@ _OVERLAP, _DEEP = 0.02, 0.2
 _DISTORTED = 0.2
 
 
-def of_model(model: Model, *, millimetres: bool = False, place: Placing | None = None) -> Iterator[Finding]:
-    """Mesh, gaps, units and r-values of any model.
+def of_model(
+    model: Model, steps: Sequence[Step] = (), *, millimetres: bool = False, place: Placing | None = None
+) -> Iterator[Finding]:
+    """Mesh, gaps, units and r-values of any model, and whether its steps tip the sheet over.
 
     Parameters
     ----------
     model : Model
         The model, which is unchanged.
+    steps : sequence of Step
+        Steps of the run.
     millimetres : bool
         Units are known to be mm, N and MPa.
     place : callable, optional
@@ -41,6 +48,7 @@ def of_model(model: Model, *, millimetres: bool = False, place: Placing | None =
     yield from gaps(model, place)
     yield from units(model, millimetres=millimetres)
     yield from r_values(model)
+    yield from tips(model, steps)
 
 
 def mesh(model: Model) -> Finding:
@@ -83,3 +91,25 @@ def gaps(model: Model, place: Placing | None = None) -> Iterator[Finding]:
             yield warning(about, f"{text}: farther away than the sheet is long", remedy)
         else:
             yield ok(about, text)
+
+
+def tips(model: Model, steps: Sequence[Step]) -> Iterator[Finding]:
+    """A tool that pushes the sheet where nothing balances it. eq. (4.261)"""
+    try:
+        found = tipping(model, steps)
+    except ModelError:  # the check of supports reports the details
+        return
+    if found is None:
+        return
+    carriers = " and ".join(f"{name} at {_at(x)}" for name, x in found.carriers.items()) or "no tool"
+    text = (
+        f"in step {found.step} it pushes the sheet at {_at(found.place)}; apart from supports only {carriers} carries "
+        "it: nothing balances the push, and the sheet tips over"
+    )
+    remedy = "lay the sheet where tools balance the push, tilted for instance; or a pad, a holder or a support"
+    cause = "the sheet lies loosely on one side of the tool"
+    yield Finding(Level.ERROR, f"tool {found.tool}", text, remedy, cause)
+
+
+def _at(x: NDArray[np.float64]) -> str:
+    return f"({', '.join(f'{value:.4g}' for value in x + 0.0)})"

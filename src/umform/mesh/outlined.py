@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import ctypes
 import math
+import signal
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from itertools import pairwise
@@ -140,7 +142,8 @@ def _gmsh() -> Iterator[Any]:
             cause=str(error),
             remedy="pip install 'umform[mesh]'; or disc, ring, strip, which need no extra",
         ) from error
-    gmsh.initialize(["gmsh", "-v", "0", "-noenv"], readConfigFiles=False, interruptible=False)
+    with _kept_handler():
+        gmsh.initialize(["gmsh", "-v", "0", "-noenv"], readConfigFiles=False, interruptible=False)
     try:
         for name, value in {
             "General.Terminal": 0,
@@ -156,6 +159,23 @@ def _gmsh() -> Iterator[Any]:
         yield gmsh
     finally:
         gmsh.finalize()
+
+
+@contextmanager
+def _kept_handler() -> Iterator[None]:
+    """Keep the handler of SIGPIPE: Python ignores it, gmsh does not, and any pipe that closes would end the process."""
+    number = getattr(signal, "SIGPIPE", None)  # Windows has none
+    if number is None:
+        yield
+        return
+    get, put = ctypes.pythonapi.PyOS_getsig, ctypes.pythonapi.PyOS_setsig  # unlike `signal`, from any thread
+    get.restype = put.restype = ctypes.c_void_p
+    put.argtypes = [ctypes.c_int, ctypes.c_void_p]
+    before = get(int(number))
+    try:
+        yield
+    finally:
+        put(int(number), before)
 
 
 def _loop(gmsh: Any, curve: Closed) -> tuple[int, list[list[int]]]:

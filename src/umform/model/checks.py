@@ -70,7 +70,7 @@ def check_held(model: Evaluated, gauge: Support | None = None) -> None:
     """Reject supports that leave a rigid-body motion free, and tools that overlap the sheet too much."""
     problem = None
     try:
-        touched = [*_touching(model), *_sprung(model)]
+        touched = [*_touching(model), *sprung(model)]
     except ModelError as error:
         touched, problem = [], error
     model.ranks.agree(problem)
@@ -96,7 +96,7 @@ def free_now(model: Evaluated) -> list[str]:
     ToolSwallowsSheet
         If a tool overlaps the sheet by more than half of its thickness.
     """
-    return free_motions(model, [*_touching(model), *_sprung(model)])
+    return free_motions(model, [*_touching(model), *sprung(model)])
 
 
 def free_in_touch(model: Evaluated) -> list[str]:
@@ -107,7 +107,7 @@ def free_in_touch(model: Evaluated) -> list[str]:
         at = pair.locate(model.u, pair.pose)
         known = np.isfinite(at.normal).all(axis=1)
         held += _directions(pair, at.x[known], at.normal[known])
-    return free_motions(model, [*held, *_sprung(model)])
+    return free_motions(model, [*held, *sprung(model)])
 
 
 def free_motions(
@@ -127,7 +127,7 @@ def free_motions(
     points = model.mesh.points + model.u.reshape(-1, 3)
     centre, size = middle(model, points)
     modes = forces.rigid_body_modes(points, centre, size)
-    rows = [_motion_along(x, n, centre, size) for x, n in touched]
+    rows = [motion_along(x, n, centre, size) for x, n in touched]
     rows.append(modes[:, np.asarray(dofs, dtype=int)].T)
     return [_describe_motion(motion) for motion in left_free(model, modes, rows)]
 
@@ -148,11 +148,11 @@ def diagnosis(model: Evaluated) -> tuple[str, str] | None:
 
     Used after a failed increment; None if supports hold the sheet.
     """
-    without = free_motions(model, list(_sprung(model)))
+    without = free_motions(model, list(sprung(model)))
     if not without:
         return None
     try:
-        free = free_motions(model, [*_in_touch(model), *_sprung(model)])
+        free = free_motions(model, [*_in_touch(model), *sprung(model)])
     except ModelError:
         free = without
     hold = "hold it there with fix(), symmetry() or hinge() (three points hold a sheet), or take the step in reverse"
@@ -183,7 +183,7 @@ def _in_touch(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
             yield from _held_by(contact, contact.locate(model.u, contact.pose))
 
 
-def _sprung(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
+def sprung(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
     """Positions of the nodes that terms hold at the present state, foundations for instance, and the directions."""
     x = model.mesh.points + model.u.reshape(-1, 3)
     at = At(model.u, model.time, {control: control.value for control in model.controls})
@@ -237,7 +237,7 @@ def _directions(contact: Contact, x: Floats, normals: Floats) -> list[tuple[Floa
     return [(x, np.broadcast_to(direction, x.shape)) for direction in np.eye(3)]
 
 
-def _motion_along(x: Floats, n: Floats, centre: Floats, size: float) -> Floats:
+def motion_along(x: Floats, n: Floats, centre: Floats, size: float) -> Floats:
     """Normal velocity of contact points in the six rigid-body modes: rows of the constraint matrix."""
     arm = (x - centre) / size
     return np.concatenate([n, np.cross(arm, n)], axis=1)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from umform.errors import UmformError
 from umform.mesh import Mesh
 from umform.model.assembled import Assembled
+from umform.model.contact.pair import Contact
 from umform.model.control import Control
 from umform.model.evaluation import Evaluation, first_failure
 from umform.model.term import At, Border, Global, Into, Term
@@ -30,6 +31,15 @@ class Evaluated(Assembled):
     def __init__(self, mesh: Mesh) -> None:
         super().__init__(mesh)
         self._evaluations, self._converged_time, self._began = 0, 0.0, 0.0
+
+    def too_deep(self, evaluation: Evaluation) -> dict[Contact, float]:
+        """Contacts beyond their allowed penetration that may become stiffer, and their share of it. eq. (4.200)"""
+        shares = {}
+        for contact in self.contacts:
+            if contact.adapts and contact.penalty < contact.largest_penalty:
+                assert contact.allowed is not None
+                shares[contact] = contact.deepest(evaluation.found[contact], self.ranks) / contact.allowed
+        return {contact: share for contact, share in shares.items() if share > 1.0}
 
     def evaluate(
         self,
@@ -168,6 +178,16 @@ class Evaluated(Assembled):
         scratch = Into(forces, None, part, into.scatters, into.positions, into.ranks, into.border)
         term.evaluate(At(at.u, at.time, at.values, at.step, along, rates, scalars=at.scalars), scratch)
         return part
+
+    def resultants(self, evaluation: Evaluation) -> tuple[float, float]:
+        """Largest resultant along an axis of the residual of the unknowns, and of the forces of a tool. eq. (5.130)"""
+        ranks, r, sums = self.ranks, self.restrict(evaluation.residual), []
+        for axis in range(3):
+            shift = np.zeros_like(evaluation.x)
+            shift[axis : self.u.size : 3] = 1.0
+            sums.append(abs(ranks.dot(r, self.coefficients(shift))))
+        tools = [np.abs(tool.resultant(evaluation.found, ranks)[0]).max() for tool in self.tools]
+        return max(sums), max(map(float, tools), default=0.0)
 
     def recover(self, du: Floats, mixed: bool = False) -> None:
         """Update the enhanced parameters after ``u += du``. eq. (2.19)

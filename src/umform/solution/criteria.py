@@ -17,7 +17,14 @@ from umform.solution.system import Evaluation, System
 
 Floats = NDArray[np.float64]
 
-_EPS = float(np.finfo(float).eps)
+EPS = float(np.finfo(float).eps)
+
+#: Largest resultant of the residual, relative to the forces of the tools, over the tolerance of its norm; the least
+#: such limit; and the part of the force scale below which the forces of tools are no reference. eq. (5.130)
+_RESULTANT, _LEAST_RESULTANT, _OF_SCALE = 10.0, 1e-6, 0.01
+#: Largest residual, and largest increment, of a state above the tolerance that is accepted where no increment is small
+#: enough: the tolerances of drawing. eq. (5.131)
+SETTLED_RESIDUAL, SETTLED_INCREMENT = 1e-3, 1e-2
 
 
 class Criteria:
@@ -34,6 +41,8 @@ class Criteria:
     def __init__(self, system: System, residual: float, increment: float) -> None:
         self._system, self._residual, self._increment = system, residual, increment
         self._granted = self._at_floor = 0
+        #: Residual, relative to the forces, at which iterations end, above the tolerance; zero: none. eq. (5.131)
+        self.settled = 0.0
         #: Largest entry of the tangent, for evaluations without one.
         self.entry: float | None = None
 
@@ -62,26 +71,36 @@ class Criteria:
         scale = evaluation.force_scale or 1.0
         small = norm <= max(self._residual * scale, floor) and increment <= self._increment
         small = small or (solved and self._nothing_left(norm, displacement * max(1.0, increment), evaluation))
+        if small and norm > floor:
+            small = self._balanced(evaluation, scale)
         self._at_floor = self._at_floor + 1 if norm <= floor else 0
         if (small and (not moved or self._granted >= 2)) or self._at_floor >= 2:
+            return True
+        if solved and norm <= self.settled * scale and increment <= SETTLED_INCREMENT:
             return True
         self._granted += small
         return False
 
+    def _balanced(self, evaluation: Evaluation, scale: float) -> bool:
+        """Whether the resultant of the residual is small beside the forces of the tools. eq. (5.130)"""
+        resultant, tools = self._system.resultants(evaluation)
+        limit = max(_RESULTANT * self._residual, _LEAST_RESULTANT)
+        return tools == 0.0 or resultant <= limit * max(tools, _OF_SCALE * scale)
+
     def floor(self, displacement: float, evaluation: Evaluation) -> float:
         """Residual due to round-off of the largest displacement and of the gaps. eqs. (5.10), (5.36)"""
-        return math.hypot(self._round_off(evaluation, displacement), _EPS * evaluation.round_off)
+        return math.hypot(self._round_off(evaluation, displacement), EPS * evaluation.round_off)
 
     def _nothing_left(self, norm: float, displacement: float, evaluation: Evaluation) -> bool:
         """Whether displacement, last increment and residual are below the round-off of positions. eq. (5.40)"""
         extent = self._system.extent
-        return displacement <= _EPS * extent and norm <= self._round_off(evaluation, extent)
+        return displacement <= EPS * extent and norm <= self._round_off(evaluation, extent)
 
     def _round_off(self, evaluation: Evaluation, length: float) -> float:
         """Residual due to a relative error of such lengths. eqs. (5.10), (5.40)"""
         system = self._system
         entry = system.largest_entry(evaluation.values) if self.entry is None else self.entry
-        return _EPS * entry * length * math.sqrt(system.pattern.n)
+        return EPS * entry * length * math.sqrt(system.pattern.n)
 
 
 def largest(system: System, x: Floats, evaluation: Evaluation) -> float:

@@ -10,7 +10,6 @@ import numpy as np
 
 from umform.model import Model
 from umform.model.changed_forces import changed_residual
-from umform.model.contact import Contact
 from umform.solution.newton import Newton
 from umform.solution.options import Manner
 from umform.solution.records import Converged, Failed
@@ -55,7 +54,7 @@ def within_allowed(
     """
     penalties = {contact: contact.penalty for contact in model.contacts}
     for growth in _GROWTHS:
-        if not excesses(model, converged):
+        if not model.too_deep(converged.evaluation):
             break
         try:
             with newton.timing.attempts.trying("stiffer penalties"):
@@ -91,32 +90,21 @@ def _grown(model: Model, newton: Newton, converged: Converged, growth: float, ma
     Failed
         If a pass does not converge; the model is reverted, but not its penalties.
     """
+    manner = manner or newton.manner()
     for number in range(1, _PASSES + 1):
         found = converged.evaluation.found
-        excess = excesses(model, converged)
+        excess = model.too_deep(converged.evaluation)
         if not excess:
             break
         parts = {contact: np.zeros(model.u.size) for contact in excess}
         for contact, part in parts.items():
             grown = min(excess[contact] / _AIM, growth) * contact.penalty
             contact.stiffen(found[contact], min(grown, contact.largest_penalty), part)
-        change = changed_residual(model, converged.evaluation, parts)
-        again = newton.go_on(converged, change, manner)
+        change = converged.evaluation.residual + changed_residual(model, converged.evaluation, parts)
+        again = newton.go_on(converged, change, replace(manner, grows=number < _PASSES))
         converged = replace(converged, evaluation=again.evaluation, passes=converged.passes + again.iterations)
         log.debug("    pass %d of the penalties, %d iterations", number, len(again.iterations))
     return converged
-
-
-def excesses(model: Model, converged: Converged) -> dict[Contact, float]:
-    """Contacts beyond their allowed penetration that may become stiffer, and their penetration relative to it."""
-    excess = {}
-    for contact in model.contacts:
-        if contact.adapts and contact.penalty < contact.largest_penalty:
-            assert contact.allowed is not None
-            share = contact.deepest(converged.evaluation.found[contact], model.ranks) / contact.allowed
-            if share > 1.0:
-                excess[contact] = share
-    return excess
 
 
 def relaxed(model: Model) -> bool:

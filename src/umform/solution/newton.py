@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from umform.errors import NotFinite, SingularMatrix
 from umform.solution.bordered import Bordered
-from umform.solution.criteria import Criteria, largest
+from umform.solution.criteria import EPS, Criteria, largest
 from umform.solution.factor_reuse import Reuse
 from umform.solution.line_search import lengthened, shortened
 from umform.solution.options import Manner, NewtonOptions, Wary
@@ -38,6 +38,8 @@ _T = TypeVar("_T")
 
 #: Displacement, relative to the extent of the sheet, that indicates an unsupported sheet.
 _FLIGHT = 1e4
+#: Residual, relative to the forces, at which iterations end where a penalty will grow. docs/theory, 4.11
+_NEAR = 1e-2
 
 
 class Newton:
@@ -59,6 +61,8 @@ class Newton:
         self.callbacks: list[Callable[[Iteration], None]] = []
         #: Whether the sheet springs back, nearly elastic, even if its laws have a history. docs/theory, 5.13
         self.springs_back = False
+        #: Relative residual at which iterations end, above the tolerance; zero: none. eq. (5.131)
+        self.settled = 0.0
 
     @property
     def solver(self) -> str:
@@ -80,7 +84,13 @@ class Newton:
         return self.springs_back or not self._has_history
 
     def manner(
-        self, *, consistent: bool = False, wary: Wary = Wary.NOT, rubs: bool = False, patient: bool = False
+        self,
+        *,
+        consistent: bool = False,
+        wary: Wary = Wary.NOT,
+        rubs: bool = False,
+        patient: bool = False,
+        grows: bool = False,
     ) -> Manner:
         """Mode of the iterations, with the options of the user.
 
@@ -94,11 +104,13 @@ class Newton:
             Whether points may alternate between stick and slip, so that elastic sheets use a line search, too.
         patient : bool
             Whether more iterations are allowed.
+        grows : bool
+            Whether to end near equilibrium where a penalty will grow.
         """
         search = self.options.line_search
         if search is None:  # in elastic sheets, whose energy is a narrow curved valley, it is too slow
             search = rubs or not self._elastic
-        return Manner(search, True, self.mixed and not consistent, wary, patient)
+        return Manner(search, True, self.mixed and not consistent, wary, patient, grows)
 
     def solve(
         self,
@@ -217,9 +229,12 @@ class Newton:
         start = clock.perf_counter() if start is None else start
         recorder = Recorder(self.callbacks, system.ranks, start)
         iterations = recorder.iterations
+        if system.ranks.max(float(np.abs(du).max(initial=0.0))) <= EPS * system.extent:
+            du = self.prescribed_increment(u)  # the rest would shake a sheet without forces off its tools
         system.recover(du, manner.mixed)
         u = u + du if beyond is None else u + du + beyond
         criteria, shift = Criteria(system, options.residual, options.increment), Shift(system)
+        criteria.settled = self.settled
         prospects = Prospects(system, patient=manner.patient)
         reuse = Reuse(options, system.pattern.n, system.effort)
         pivots = reuse.remember(first.factors) if first is not None else None
@@ -239,7 +254,9 @@ class Newton:
             entered, left = self._count((status > 0) & (previous == 0)), self._count((status == 0) & (previous > 0))
             moved = bool(entered or left) or system.ranks.any(not np.array_equal(status, previous))
             solved = bool(iterations) or first is not None
-            if not evaluation.kept and criteria.met(norm, increment, u, evaluation, moved=moved, solved=solved):
+            done = not evaluation.kept and criteria.met(norm, increment, u, evaluation, moved=moved, solved=solved)
+            near = manner.grows and solved and not evaluation.kept and norm <= _NEAR * scale
+            if done or (near and system.too_deep(evaluation)):
                 recorder.add(evaluation.flowing, norm / scale, increment, 0.0, entered, left, step_length, pivots)
                 self._check_flight(evaluation, iterations)
                 if lean:

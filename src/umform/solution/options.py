@@ -100,6 +100,8 @@ class Manner:
         When to stop because the tangent is indefinite far from equilibrium.
     patient : bool
         Whether more iterations are allowed, since a smaller increment would need as many.
+    grows : bool
+        Whether the iterations end near equilibrium where a penalty will grow. docs/theory, 4.11
     """
 
     line_search: bool
@@ -107,6 +109,7 @@ class Manner:
     mixed: bool
     wary: Wary = Wary.NOT
     patient: bool = False
+    grows: bool = False
 
     def searching(self, wanted: bool) -> Manner:
         """The same, with a line search if it is wanted."""

@@ -92,12 +92,15 @@ class Converged:
         Iterations, and those of augmentations at the same loads.
     jumped : bool
         Whether the sheet jumped to another stable state, since none was near. eq. (5.102)
+    missed : float
+        Relative residual, if it is above the tolerance; else zero. eq. (5.131)
     """
 
     evaluation: Any
     iterations: list[Iteration]
     passes: list[Iteration] = field(default_factory=list)
     jumped: bool = False
+    missed: float = 0.0
 
     @property
     def x(self) -> Floats:

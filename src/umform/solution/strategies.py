@@ -6,7 +6,7 @@ They are tried in order until one converges. docs/theory, 4.13; `umform.attempts
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,15 +14,20 @@ from numpy.typing import NDArray
 from umform.model import Evaluation, Model
 from umform.model.control import Control
 from umform.solution.carried import came_round, carried
+from umform.solution.criteria import SETTLED_INCREMENT, SETTLED_RESIDUAL
 from umform.solution.habits import Habits
 from umform.solution.newton import Newton
 from umform.solution.options import Wary
 from umform.solution.passage import same_side
 from umform.solution.records import Cause, Converged, Failed
+from umform.solution.rigid_start import rigid_start
 from umform.solution.softening import softened
 from umform.solution.turning import follows
 
 Floats = NDArray[np.float64]
+
+#: Tolerance of an attempt that is repeated, relative to the least residual of the first one.
+_AGAIN = 1.0 + 1e-9
 
 
 @dataclass(frozen=True)
@@ -43,6 +48,8 @@ class Increment:
         Evaluation at the converged state.
     keeps : bool
         Whether an extrapolation keeps the contact points of the converged state. eq. (4.230)
+    grows : bool
+        Whether it ends near equilibrium where a penalty will grow.
     """
 
     model: Model
@@ -53,6 +60,7 @@ class Increment:
     guess: Floats | None
     last: Evaluation
     keeps: bool = True
+    grows: bool = True
 
     def accept(self, converged: Converged) -> Converged:
         """The equilibrium, unless the sheet passed through a tool, or rotated on one too far for its friction."""
@@ -101,11 +109,23 @@ class Increment:
         go = lambda: self.newton.solve(start, manner, self.beyond(start))  # noqa: E731
         return softened(self.model, self.newton, go, self.accept, manner, touched=self.touched)
 
+    def along_extrapolation(self) -> Converged:
+        """The equilibrium from the last increment, scaled."""
+        manner = self.newton.manner(wary=self.wary, grows=self.grows)
+        return self.newton.solve(self.guess, manner, keep=self.keeps and self.newton.options.keep)
+
+    def rigid(self) -> Converged:
+        """The equilibrium by continuation in the penalty from a rigid motion of the sheet. eq. (4.260)"""
+        start = rigid_start(self.model)
+        if start is None:
+            raise Failed("no rigid motion brings the sheet between its tools", [])
+        return softened(self.model, self.newton, lambda: self.newton.solve(start), self.accept)
+
     def along_tangent(self, *, consistent: bool = False) -> Converged:
         """The equilibrium from the increment along the tangent, corrected for rotation with a tool by friction."""
         start = self.tangent()
         rubs, patient = self.rubs, self.undeformed
-        manner = self.newton.manner(consistent=consistent, wary=self.wary, rubs=rubs, patient=patient)
+        manner = self.newton.manner(consistent=consistent, wary=self.wary, rubs=rubs, patient=patient, grows=self.grows)
         return self.newton.solve(start, manner, self.beyond(start))
 
     def beyond(self, start: Floats | None) -> Floats | None:
@@ -169,7 +189,7 @@ STRATEGIES = (
     Strategy(
         "extrapolation",
         lambda at: at.extrapolates and not at.came_round,
-        lambda at: at.newton.solve(at.guess, at.newton.manner(wary=at.wary), keep=at.keeps and at.newton.options.keep),
+        lambda at: at.along_extrapolation(),
     ),
     Strategy(
         "tangent",
@@ -188,7 +208,15 @@ STRATEGIES = (
         lambda at: at.touches and (at.habits.softens or not at.touched),
         lambda at: at.soft(),
     ),
+    # Tools may hold an undeformed sheet only in another position, where it has no tangent until it is there.
+    Strategy(
+        "rigid motion",
+        lambda at: at.undeformed and at.model.ranks.size == 1,
+        lambda at: at.rigid(),
+    ),
 )
+#: Strategies with other penalties: their failures are of other problems than that of the user.
+_SOFT = ("softer penalties", "rigid motion")
 
 
 def equilibrium(increment: Increment) -> Converged:
@@ -217,12 +245,43 @@ def equilibrium(increment: Increment) -> Converged:
                 negative_pivots=converged.iterations[-1].negative_pivots,
             )
             return converged
+    if increment.habits.last and touched:
+        settled = _settled(increment, failures)
+        if settled is not None:
+            return settled
     increment.habits.learn_of_cut({name: failure.cause for name, failure in failures.items()})
-    plain = [failure for name, failure in failures.items() if name != "softer penalties"]
+    plain = [failure for name, failure in failures.items() if name not in _SOFT]
     for one in plain:
         if one.cause is Cause.SINGULAR:
             plain[-1].cause = Cause.SINGULAR  # the motion stays that of the last attempt, whose state the message is of
     raise plain[-1]
+
+
+def _settled(increment: Increment, failures: Mapping[str, Failed]) -> Converged | None:
+    """The nearest that an attempt came to equilibrium, if it is within the tolerances of drawing. eq. (5.131)"""
+    least, best = SETTLED_RESIDUAL, None
+    for strategy in STRATEGIES:
+        failure = failures.get(strategy.name)
+        if failure is None or strategy.name in _SOFT:
+            continue
+        for record in failure.iterations:
+            if record.residual <= least and record.increment <= SETTLED_INCREMENT:
+                least, best = record.residual, strategy
+    if best is None:
+        return None
+    newton = increment.newton
+    newton.settled = _AGAIN * least
+    increment.model.prepare()
+    try:
+        with newton.timing.attempts.trying("settled contact"):
+            converged = increment.accept(best.attempt(increment))
+    except Failed:
+        return None
+    finally:
+        newton.settled = 0.0
+    last = converged.iterations[-1]
+    increment.habits.learn(failed={}, won=best.name, negative_pivots=last.negative_pivots)
+    return replace(converged, missed=last.residual)
 
 
 def _cause(strategy: str, failure: Failed, touched: bool) -> str:

@@ -138,6 +138,9 @@ class System(Protocol):
     def displacement_of_supports(self, values: Mapping[Any, float]) -> Floats:
         """Displacement that supports prescribe for given values of their controls, shape (3 n,)."""
 
+    def resultants(self, evaluation: Any) -> tuple[float, float]:
+        """Largest resultant along an axis of the residual of the unknowns, and of the forces of a tool. eq. (5.130)"""
+
     def largest_entry(self, values: Floats) -> float:
         """Size of the largest entry of the tangent."""
 
@@ -149,6 +152,9 @@ class System(Protocol):
 
     def recover(self, du: Floats, mixed: bool = False) -> None:
         """Update condensed parameters; the next tangent may be mixed, with the stress that the increment predicts."""
+
+    def too_deep(self, evaluation: Any) -> Mapping[Any, float]:
+        """Contacts whose penalty will grow, and their penetration relative to the allowed one. eq. (4.200)"""
 
     def follow(self) -> None:
         """After an evaluation of forces only: let the next recovery use them, with the previous tangent."""

@@ -17,7 +17,7 @@ from umform.model.checks import diagnosis
 from umform.model.control import Control
 from umform.model.loose_part import loose_part
 from umform.solution.augmentation import augmented
-from umform.solution.keeping import excesses, relaxed, within_allowed
+from umform.solution.keeping import relaxed, within_allowed
 from umform.solution.records import Cause, Converged, Failed, Iteration
 from umform.solution.strategies import Increment, equilibrium
 from umform.steps.crushed import crushed
@@ -64,7 +64,7 @@ def take_increment(
         except Failed as failure:  # a smaller increment would fail in the same pass: accept the penalty solution
             _multipliers_stay(run, failure)
             model.prepare()
-            converged = equilibrium(replace(increment, guess=converged.x - x_before))
+            converged = equilibrium(replace(increment, guess=converged.x - x_before, grows=False))
     except BaseException as error:  # no convergence, Ctrl-C, an error of a user's function: restore the previous state
         if isinstance(error, Failed):
             run.habits.count(kept=False)
@@ -75,7 +75,7 @@ def take_increment(
             contact.use_penalty(penalty)
         model.revert()
         raise
-    if not excesses(model, converged):
+    if not model.too_deep(converged.evaluation):
         run.habits.count(kept=True)
     model.commit(converged.evaluation)
     way = changes(model.controls, controls, np.subtract(values, before))
@@ -96,10 +96,10 @@ def _within_allowed(run: Run, increment: Increment) -> tuple[Converged, Floats |
             raise
         model.prepare()  # perhaps grown penalties are too stiff for this increment
         converged = equilibrium(increment)
-    if not excesses(model, converged):
+    if not model.too_deep(converged.evaluation):
         return converged, None
     x_soft = converged.x.copy()
-    again = lambda: equilibrium(replace(increment, guess=x_soft - model.x))  # noqa: E731
+    again = lambda: equilibrium(replace(increment, guess=x_soft - model.x, grows=False))  # noqa: E731
     return within_allowed(model, run.newton, converged, again, yields), x_soft
 
 
@@ -148,7 +148,7 @@ def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], value
         )
         remedy = f"hold the sheet in more places, or take a thicker or a shorter one; else {remedy}"
     limit = limit_load(run, controls) if loose is None else None
-    burst = thinned(run, failure)
+    burst = thinned(run)
     if limit is not None:
         cause, remedy = limit
     elif burst is not None:
@@ -159,7 +159,7 @@ def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], value
         cause = f"{cause}; at the last converged state {'; '.join(pressed)}"
         remedy = f"{remedy}; a force that the sheet does not answer: less of it, a spring, a stop, or drive the tool"
     deep = crushed(run)
-    if deep:
+    if deep and burst is None:
         cause = f"{cause}; at the last converged state {'; '.join(deep)}"
         remedy = (
             "a smaller force: a force or pressure is probably in another unit, or that of the whole part on a piece of "

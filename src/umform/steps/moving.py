@@ -11,6 +11,8 @@ from typing import Any, Self
 
 import numpy as np
 
+from umform.model.control import OnDofs
+from umform.model.tool_controls import ToolWay
 from umform.solution.records import Cause, Converged, Failed
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
@@ -29,6 +31,9 @@ _LONGEST_PATIENCE = 24
 _TRUSTED = 2
 #: After a cut, increments at a pace stay below this part of the failed size; each success raises the limit.
 _BELOW_FAILED, _RAISE = 0.6, 1.05
+
+#: Beginning of what is said of a residual above its tolerance.
+MISSED = "the residual"
 
 
 @dataclass
@@ -52,6 +57,10 @@ class Moving:
         Increments so far.
     done : bool
         Whether the step is complete.
+    tried : float
+        Largest increment tried from the present state.
+    leaps : bool
+        Whether the next increment has the nominal size because all smaller ones failed. eq. (5.132)
     """
 
     starts: list[float]
@@ -61,6 +70,8 @@ class Moving:
     last_size: float | None = None
     count: int = 0
     done: bool = False
+    tried: float = 0.0
+    leaps: bool = False
 
     @classmethod
     def begin(cls, run: Run, step: Move) -> Self:
@@ -79,7 +90,8 @@ class Moving:
 
     def advance(self, run: Run, step: Move) -> None:
         """Try one increment."""
-        target, model = self._target(step), run.model
+        target, model = self._leap(step) if self.leaps else self._target(step), run.model
+        self.tried = max(self.tried, target - self.fraction)
         extrapolation = None if self.last_size is None else (target - self.fraction) / self.last_size
         x_before, active_before = model.x.copy(), run.evaluation.active
         if self._hopeless(step, 0.5 * (target - self.fraction)):
@@ -103,8 +115,17 @@ class Moving:
                 f"step {run.number}, time {time:.4f}: the stable path ends (buckling, or a hinge of a metal without "
                 f"hardening): the sheet jumped to the next stable state, by up to {way:.3g}; the way between is dynamic"
             )
+        if converged.missed:
+            tolerance = run.newton.options.residual
+            above = f"{MISSED} {converged.missed:.2g} of the forces is above the tolerance {tolerance:.2g}"
+            run.result.warn(
+                f"step {run.number}, time {time:.4f}: "
+                f"{above if converged.missed > tolerance else 'the last correction is above its tolerance'}: Newton's "
+                "method comes no nearer under these tools, nor do smaller increments; more contact points, or a softer "
+                "penalty"
+            )
         before, self.last_size, self.fraction = self.fraction, target - self.fraction, target
-        self.count += 1
+        self.count, self.tried, self.leaps = self.count + 1, 0.0, False
         self.done = target == 1.0
         if not self.done:
             self._adapt(step, converged, lambda: Happened.between(model, x_before, active_before, converged))
@@ -132,15 +153,25 @@ class Moving:
         """Whether the state is kept for pictures, for the approximate number of states."""
 
     def _cut(self, run: Run, step: Move, failure: Failed, target: float) -> None:
-        """Halve an increment that failed, or end the run."""
+        """Halve an increment that failed; after the smallest one try the nominal one, or end the run. eq. (5.132)"""
         self.size, self.last_size = 0.5 * (target - self.fraction), None
         if failure.cause is Cause.CYCLE:
             time = self.start_time + target * step.time
             run.result.warn(f"step {run.number}, time {time:.4f}: {failure.reason}; the increment is cut")
         log.info("step %d: %s; increment cut to %.3g", run.number, failure.reason, self.size)
+        self.leaps = False
         if self._hopeless(step, self.size):
+            driven = all(isinstance(control, ToolWay | OnDofs) for control in step.moved())
+            if driven and self.tried < 0.5 * (self._leap(step) - self.fraction):
+                log.info("step %d: no smaller increment converges; one of the nominal size follows", run.number)
+                self.leaps = True
+                return
             values = step.values(target, self.starts)
             raise no_convergence(run, failure, step.moved(), values) from None
+
+    def _leap(self, step: Move) -> float:
+        """End of an increment of the nominal size."""
+        return min(1.0, self.fraction + step.nominal)
 
     @staticmethod
     def _hopeless(step: Move, size: float) -> bool:
@@ -232,6 +263,7 @@ class Pacing(Moving):
         """Adapt the size to the pace."""
         assert step.pace is not None
         assert self.last_size is not None
+        self.limit = math.inf if converged.missed else self.limit  # the size was not why the increments failed
         self.size = min(step.pace.factor(happened()) * self.last_size, step.pace.largest, self.limit)
         self.limit *= _RAISE
 

@@ -87,6 +87,8 @@ def test_angle_close_to_that_of_the_tools_is_a_warning():
         ({"thickness": 0.0}, "thickness", "greater_than"),
         ({"thickness": 1e308}, "opening", "refused"),
         ({"punch_angle": 180.0}, "punch_angle", "less_than"),
+        ({"length": 1e9}, "length", "less_than_equal"),
+        ({"work": "hem", "base": 1e9}, "base", "less_than_equal"),
         ({"thickness": math.nan}, "thickness", "finite_number"),
         ({"opening": "16"}, "opening", "float_type"),
         ({"opening": None}, "opening", "float_type"),

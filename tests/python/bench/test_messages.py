@@ -10,6 +10,8 @@ import umform
 from umform import errors
 from umform.processes.air_bending.goal import Goal
 from umform.processes.air_bending.spec import AirBending
+from umform.processes.bend_sequence.spec import Bend, BendSequence
+from umform.processes.hemming import Hemming
 from umform.spec import parameters
 
 SOURCE = Path(umform.__file__).parent
@@ -36,6 +38,8 @@ MAKERS = {
     "NoAnswer",
     "PydanticCustomError",
 }
+#: What the form asks for.
+SPECS = (AirBending, Bend, BendSequence, Goal, Hemming)
 PARTS = ("what", "cause", "remedy")
 GERMAN = json.loads(files("umform.bench").joinpath("page", "messages.de.json").read_text(encoding="utf-8"))
 #: What no form can lead to: files of curves, the Python interface, the start of the server.
@@ -78,7 +82,7 @@ def messages():
 def of_specs():
     """What is said of the parameters: templates without their numbers."""
     found = set()
-    for parameter in (one for spec in (Goal, AirBending) for one in parameters(spec).values()):
+    for parameter in (one for spec in SPECS for one in parameters(spec).values()):
         if parameter.kinds[0].type in (float, int):
             texts = {f"the {parameter.noun}", parameter.must_be, parameter.remedy.removesuffix("; or leave it out")}
             found |= {re.sub(r"(?<![\w.])-?\d[\d.e-]*(?!\w)", "{}", text) for text in texts}

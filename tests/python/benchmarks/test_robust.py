@@ -85,7 +85,7 @@ def test_errors_are_told_apart(robust, bends, monkeypatch, error, ended):
     assert (error.cause or error.what) in found["reason"]
 
 
-def result(force=0.0, drift=0.0):
+def result(force=0.0, drift=0.0, warnings=()):
     """A run that does not balance."""
     rows = [9.0, 9.0, force]  # the start need not be in equilibrium, and before a first touch there is round-off alone
     zero = np.zeros(3)
@@ -102,7 +102,7 @@ def result(force=0.0, drift=0.0):
         moment_imbalance=zero,
         works={},
     )
-    return SimpleNamespace(balance=lambda: balance)
+    return SimpleNamespace(balance=lambda: balance, warnings=warnings)
 
 
 def test_a_run_without_balance_is_wrong(robust, bends, monkeypatch):
@@ -110,6 +110,9 @@ def test_a_run_without_balance_is_wrong(robust, bends, monkeypatch):
     assert robust.imbalance(task, robust.Done([result()])) == ""
     assert robust.imbalance(task, robust.Done([result(force=1e-3)])) == "forces off by 0.001, 1e-06 allowed"
     assert robust.imbalance(task, robust.Done([result(force=1e-3)], forces=0.01)) == ""
+    told = ["step 1: the residual 4e-05 of the forces is above the tolerance 1e-09: ..."]
+    assert robust.imbalance(task, robust.Done([result(force=1e-3, warnings=told)])) == ""
+    assert robust.imbalance(task, robust.Done([result(force=2e-2, warnings=told)]))
     assert robust.imbalance(task, robust.Done([], {"angle": (0.2, 0.1)})) == "angle off by 0.2, 0.1 allowed"
     assert robust.imbalance(task, robust.Done([], {"angle": (np.nan, 0.1)}))
     for finer, said in ((0.02, ""), (0.08, "energies with increments of half the size off by 0.08, 0.048 allowed")):

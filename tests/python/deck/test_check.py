@@ -23,6 +23,13 @@ def test_free_motions(strip, found):
     assert free.remedy
 
 
+def test_a_flange_that_is_wiped_without_a_clamp_tips(texts, found):
+    text = texts("wiping")
+    assert found(text, "tool punch") == []
+    (tips,) = found(text.replace('nodes = "x0"', 'nodes = "x0_lower"\ndirections = "x"'), "tool punch")
+    assert tips.level is Level.ERROR and "only block at (" in tips.text and "tips over" in tips.text and tips.remedy
+
+
 def test_gaps(texts, found):
     text = texts("free-bending")
     first = found(text, "contact cylinder")[0]

@@ -1,5 +1,9 @@
 """Blanks of any outline, with holes."""
 
+import signal
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -82,3 +86,23 @@ def test_a_blank_can_be_drawn_on():
 def test_what_is_no_blank_is_refused(wrong):
     with pytest.raises((InvalidValue, WrongCellType)):
         uf.mesh.blank(**({"outline": OUTLINE, "thickness": 1.0, "size": 2.0} | wrong))
+
+
+_TO_NOBODY = """
+import os
+import umform as uf
+from umform.surfaces import Arc
+uf.mesh.blank(uf.Profile([Arc((5.0, 0.0), (5.0, 0.0), (0.0, 0.0))]), 1.0, 5.0)
+read, write = os.pipe()
+os.close(read)
+try:
+    os.write(write, b"a")
+except BrokenPipeError:
+    print("an error like any other")
+"""
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGPIPE"), reason="no SIGPIPE")
+def test_a_pipe_that_closes_after_a_mesh_does_not_end_the_process():
+    done = subprocess.run([sys.executable, "-c", _TO_NOBODY], capture_output=True, text=True, check=False)
+    assert done.stdout == "an error like any other\n", done

@@ -10,7 +10,7 @@ from umform.errors import NoConvergence
 from umform.model.contact import Contact
 from umform.model.contact.encounter import Encounter
 from umform.results.penetration import force_error, penetrations
-from umform.solution import keeping
+from umform.solution import keeping, newton
 from umform.solution.options import NewtonOptions
 from umform.solution.records import Failed
 
@@ -160,6 +160,31 @@ def test_a_penalty_that_is_far_too_soft_grows_in_several_passes():
     assert {name: won for name, _, won in result.timing.attempts.rows()}["stiffer penalties"] == len(result) - 1
 
 
+def out_of_balance(model):
+    """Residual of the converged state, relative to the forces."""
+    found = model.evaluate(model.u)
+    return float(np.linalg.norm(model.restrict(found.residual))) / found.force_scale
+
+
+def test_a_penalty_grows_before_the_iterations_converge(monkeypatch):
+    """The same states for fewer evaluations."""
+    near, _ = run()
+    assert out_of_balance(near.model) < 2e-9
+    monkeypatch.setattr(newton, "_NEAR", 0.0)
+    late, _ = run()
+    assert near.timing.attempts.evaluations < 0.95 * late.timing.attempts.evaluations
+    np.testing.assert_allclose(near["punch_force"], late["punch_force"], rtol=2e-3)
+
+
+def test_the_last_pass_converges_although_a_contact_is_too_deep(monkeypatch):
+    monkeypatch.setattr(keeping, "_PASSES", 1)
+    model, move, pair = stretched(steps=1)
+    pair.use_penalty(2e-3 * pair.initial_penalty)
+    result = uf.solve(model, move, frames=0, progress=False)
+    assert result["ball_penetration"][1] > pair.allowed
+    assert out_of_balance(model) < 2e-9
+
+
 def test_a_penetration_that_is_prescribed_does_not_grow_the_penalty_without_end():
     model = uf.Model(uf.mesh.strip(2.0, 1.0, 1.0, (2, 1)), material=STEEL)
     model.fix("lower", "xy")
@@ -211,6 +236,7 @@ def test_where_no_increment_is_short_enough_the_excess_is_marked(monkeypatch):
     result, pair = run(steps=3)
     assert 5 <= len(tried) <= 2 * len(result)
     assert result["punch"][-1] == -3.0 and pair.penalty == pair.initial_penalty
+    assert out_of_balance(result.model) < 2e-9  # it does not end near equilibrium
     assert not penetrations(result.model, result)["ball"].kept
 
 

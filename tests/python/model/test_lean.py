@@ -46,3 +46,20 @@ def test_a_name_is_found_without_a_list_of_all_names():
     tracemalloc.stop()
     assert names == ["force", "force2", "force3"]
     assert peak < 1_000_000
+
+
+_LINEAR = """
+import sys
+import umform as uf
+from umform_book.linear_algebra import linear_solution
+mesh = uf.mesh.strip(length=4, width=1, thickness=0.5, cells=(4, 1))
+model = uf.Model(mesh, "ANS3DEAS", material=uf.SVK(E=1.0, nu=0.3))
+model.fix("x0")
+linear_solution(model, model.force("x1", (0, 0, 1.0)).vector)
+print(*sys.modules)
+"""
+
+
+def test_a_linear_solution_loads_no_sparse_matrices():
+    run = subprocess.run([sys.executable, "-c", _LINEAR], capture_output=True, text=True, check=True)
+    assert not {"scipy.sparse", "matplotlib"} & set(run.stdout.split())

@@ -13,8 +13,8 @@ from umform.processes.bend_sequence.sides import Strip
 from umform.processes.hemming import Hemming, hemming
 from umform.processes.hemming.files import FILES, record, write_files
 from umform.processes.hemming.measures import clearances
-from umform.processes.hemming.parameters import ACUTE
 from umform.processes.hemming.run import _refuse_touch
+from umform.processes.hemming.spec import ACUTE
 from umform.processes.hemming.words import rows
 
 COARSE = Hemming(base=13.0, increments=24, sheet=replace(ACUTE, elements_per_thickness=1.0, layers=1, increment=0.025))
@@ -103,12 +103,12 @@ def test_an_open_hem_that_goes_through_itself_is_refused():
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"angle": 90.0}, "20 to 70 degrees"),
+        ({"angle": 90.0}, "a number from 20 to 70"),
         ({"gap": 0.0}, "must be positive"),
         ({"base": 8.0, "flange": 12.0}, "longer than its flange"),
         ({"flange": 5.0}, "too short for the die"),
         ({"angle": 29.0}, "cannot be reached"),
-        ({"increments": 2}, "6 increments"),
+        ({"increments": 2}, "whole number from 6"),
     ],
 )
 def test_hems_that_cannot_be_made_are_refused(change, message):

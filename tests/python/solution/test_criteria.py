@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+import umform as uf
 from umform.ranks import ONE
 from umform.solution.criteria import Criteria
 from umform.solution.newton import Newton
@@ -37,6 +38,9 @@ class Given:
         return r
 
     coefficients = extend = restrict
+
+    def resultants(self, evaluation):
+        return 0.0, 0.0
 
     def largest_entry(self, values):
         return float(np.abs(values).max())
@@ -118,3 +122,14 @@ def test_a_displacement_beyond_round_off_must_have_a_small_increment():
     evaluation.force_scale = 1e-17
     criteria = Criteria(system, 1e-9, 1e-6)
     assert not criteria.met(1e-17, 1e-5, np.ones(1), evaluation, moved=False, solved=True)
+
+
+@pytest.mark.parametrize(("size", "moves"), [(1e-17, False), (1e-12, True)])
+def test_an_increment_below_the_round_off_of_positions_is_none(size, moves):
+    """A sheet that lies on a tool without forces would be shaken off it."""
+    model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (4, 1)), material=uf.SVK(E=210e3, nu=0.3))
+    model.fix("x0")
+    started, evaluate = [], model.evaluate
+    model.evaluate = lambda x, *given, **more: started.append(x.copy()) or evaluate(x, *given, **more)
+    Newton(model).solve(np.full(model.x.size, size))
+    assert started[0].any() == moves

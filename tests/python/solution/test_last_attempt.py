@@ -23,7 +23,7 @@ def failing(reason, cause, motion=None):
 
 def increment():
     attempts = SimpleNamespace(trying=lambda name: nullcontext(), causes=Counter())
-    habits = SimpleNamespace(learn=lambda **what: None, learn_of_cut=lambda what: None)
+    habits = SimpleNamespace(learn=lambda **what: None, learn_of_cut=lambda what: None, last=False)
     newton = SimpleNamespace(timing=SimpleNamespace(attempts=attempts))
     return SimpleNamespace(newton=newton, habits=habits, touched=True, accept=lambda found: found)
 

@@ -251,6 +251,9 @@ class Scalar:
 
     coefficients = extend = restrict
 
+    def resultants(self, evaluation):
+        return 0.0, 0.0
+
     def largest_entry(self, values):
         return float(np.abs(values).max())
 

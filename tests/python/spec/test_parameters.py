@@ -18,10 +18,12 @@ from umform.cli.given import Given, given_by
 from umform.errors import InvalidValue, NotFinite
 from umform.processes.air_bending.goal import Goal
 from umform.processes.air_bending.spec import AirBending
+from umform.processes.bend_sequence.spec import Bend, BendSequence, Bodies
 from umform.processes.bending.spec import FreeBending
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.u_bend import UBend
 from umform.processes.draw_bead.spec import DrawBead
+from umform.processes.hemming import Hemming
 from umform.spec import About, Rule, check_fields, parameters
 from umform.spec.types import Degrees, Length
 
@@ -137,7 +139,9 @@ def test_the_schema_of_pydantic_has_the_same_bounds_and_units():
 WITHOUT_UNIT = ("elements_per_thickness", "increment", "penalty", "elements", "friction")
 
 
-@pytest.mark.parametrize("spec", [AirBending, Goal, DrawBead, Cup, UBend, FreeBending])
+@pytest.mark.parametrize(
+    "spec", [AirBending, Bend, BendSequence, Bodies, Cup, DrawBead, FreeBending, Goal, Hemming, UBend]
+)
 def test_each_field_of_a_process_has_a_sentence_and_each_number_a_reason(spec):
     for name, parameter in parameters(spec).items():
         assert parameter.sentence.endswith(".") and parameter.sentence[0].isupper(), name

@@ -4,6 +4,7 @@ import pytest
 
 import umform as uf
 from umform.errors import NoConvergence
+from umform.steps import increment
 
 STEEL = uf.J2(E=206e3, nu=0.3, hardening=uf.Linear(300, 900))
 
@@ -30,6 +31,13 @@ def test_a_tool_that_crushes_the_sheet_is_the_cause():
     pressure = float(error.cause.split("mean pressure of ")[1].split(",")[0])
     assert error.result["holder_penetration"][-1] == pytest.approx(share / 100.0, rel=1e-2)
     assert pressure == pytest.approx(5.0 * share, rel=1e-2)  # penalty 500
+
+
+def test_a_burst_sheet_keeps_its_remedy_though_a_tool_is_deep_in_it(monkeypatch):
+    monkeypatch.setattr(increment, "thinned", lambda run: ("it would have burst before", "end the step earlier"))
+    error = failing(0.4)
+    assert "it would have burst before" in error.cause and "deep" not in error.cause
+    assert error.remedy == "end the step earlier"
 
 
 def test_other_failures_keep_their_remedy():

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.processes.air_bending.spec import AirBending
-from umform.processes.bend_sequence.parameters import Bodies
 from umform.processes.bend_sequence.sides import Strip
+from umform.processes.bend_sequence.spec import Bodies
 from umform.surfaces import Extruded, Profile
 
 Floats = NDArray[np.float64]

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from umform.processes.air_bending.formulas import INNER_RADIUS
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence.collisions import Collision, collisions
-from umform.processes.bend_sequence.parameters import Bend, BendSequence
 from umform.processes.bend_sequence.part import REMEDY, when_and_where
 from umform.processes.bend_sequence.sides import Strip
+from umform.processes.bend_sequence.spec import Bend, BendSequence
 
 Floats = NDArray[np.float64]
 

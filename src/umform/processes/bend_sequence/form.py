@@ -10,10 +10,8 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from umform.errors import FileProblem, InvalidValue
 from umform.processes.air_bending.spec import AirBending
-from umform.processes.bend_sequence.parameters import TOOLS, Bend, BendSequence, Bodies
-
-_Size = Annotated[float, Field(gt=0.0, le=10000.0)]
-_Degrees = Annotated[float, Field(gt=0.0, lt=180.0)]
+from umform.processes.bend_sequence.spec import TOOLS, Bend, BendSequence, Bodies
+from umform.spec.types import Degrees, Length
 
 
 class _Form(BaseModel):
@@ -23,15 +21,15 @@ class _Form(BaseModel):
 class BendForm(_Form):
     """One bend: `Bend`, with the sizes of its tools as further keys."""
 
-    position: _Size
-    angle: _Degrees | None = None
-    stroke: _Size | None = None
+    position: Length
+    angle: Degrees | None = None
+    stroke: Length | None = None
     direction: Literal["up", "down"] = "up"
-    opening: _Size | None = None
-    die_angle: _Degrees | None = None
-    die_radius: _Size | None = None
-    punch_angle: _Degrees | None = None
-    punch_radius: _Size | None = None
+    opening: Length | None = None
+    die_angle: Degrees | None = None
+    die_radius: Length | None = None
+    punch_angle: Degrees | None = None
+    punch_radius: Length | None = None
 
     def bend(self) -> Bend:
         """The bend."""
@@ -39,23 +37,12 @@ class BendForm(_Form):
         return Bend(self.position, self.angle, self.stroke, self.direction, tools)
 
 
-class BodiesForm(_Form):
-    """`Bodies`."""
-
-    punch_width: _Size = 16.0
-    punch_height: _Size = 90.0
-    ram_width: _Size = 60.0
-    die_width: _Size = 24.0
-    die_height: _Size = 60.0
-    table_width: _Size = 90.0
-
-
 class SequenceForm(_Form):
     """Length of the flat strip, its bends in order, bodies of the tools."""
 
-    length: _Size
+    length: Length
     bends: Annotated[list[BendForm], Field(min_length=1, max_length=50)]
-    bodies: BodiesForm = BodiesForm()
+    bodies: Bodies = Bodies()
 
     def sequence(self, sheet: AirBending) -> BendSequence:
         """The sequence with thickness, material, mesh and the default tools.
@@ -65,9 +52,7 @@ class SequenceForm(_Form):
         InvalidValue
             ``where`` is the name of the parameter, or the number of the bend.
         """
-        return BendSequence(
-            self.length, tuple(bend.bend() for bend in self.bends), sheet, Bodies(**self.bodies.model_dump())
-        )
+        return BendSequence(self.length, tuple(bend.bend() for bend in self.bends), sheet, self.bodies)
 
 
 def read_sequence(path: Path) -> SequenceForm:

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from umform.processes.air_bending.measures import Measures
 from umform.processes.bend_sequence.collisions import Collision
-from umform.processes.bend_sequence.parameters import Bend, BendSequence
 from umform.processes.bend_sequence.sides import Sides, Strip
+from umform.processes.bend_sequence.spec import Bend, BendSequence
 from umform.run import Result
 
 Floats = NDArray[np.float64]

@@ -7,9 +7,9 @@ from umform.processes.air_bending.bend import Loaded
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.search import bent_to_angle
 from umform.processes.bend_sequence.collisions import collisions
-from umform.processes.bend_sequence.parameters import BendSequence
 from umform.processes.bend_sequence.part import BendDone, Part
 from umform.processes.bend_sequence.sides import Strip
+from umform.processes.bend_sequence.spec import BendSequence
 from umform.processes.bend_sequence.strip import flat_strip
 from umform.processes.bend_sequence.strip_brake import StripBrake
 from umform.progress import Show, Tick, progress_bar

@@ -13,7 +13,7 @@ from umform.mesh import Mesh
 from umform.mesh.mesh import Floats
 from umform.processes.air_bending.sheet import lines_along
 from umform.processes.air_bending.spec import AirBending
-from umform.processes.bend_sequence.parameters import BendSequence
+from umform.processes.bend_sequence.spec import BendSequence
 
 #: Smallest distance of two lines relative to the smaller adjacent element.
 _NEAR = 0.5

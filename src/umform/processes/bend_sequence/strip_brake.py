@@ -15,8 +15,8 @@ from umform.processes.air_bending.brake import build
 from umform.processes.air_bending.branches import Brake, Floats
 from umform.processes.air_bending.measures import Measures, measure
 from umform.processes.air_bending.section import Section
-from umform.processes.bend_sequence.parameters import Bend, BendSequence
 from umform.processes.bend_sequence.sides import Sides, Strip
+from umform.processes.bend_sequence.spec import Bend, BendSequence
 from umform.progress import Tick, silent
 from umform.run import Result
 from umform.run.stages import continued

@@ -4,7 +4,7 @@
 """
 
 from umform.processes.hemming.measures import Hem, HemMeasures
-from umform.processes.hemming.parameters import Hemming
 from umform.processes.hemming.run import hemming
+from umform.processes.hemming.spec import Hemming
 
 __all__ = ["Hem", "HemMeasures", "Hemming", "hemming"]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from umform.processes.air_bending.section import Section
 from umform.processes.bend_sequence.part import Part
 from umform.processes.bend_sequence.sides import Strip
-from umform.processes.hemming.parameters import Hemming
+from umform.processes.hemming.spec import Hemming
 from umform.run import Result
 
 Floats = NDArray[np.float64]

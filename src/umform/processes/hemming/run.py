@@ -16,7 +16,7 @@ from umform.processes.bend_sequence.part import Part
 from umform.processes.bend_sequence.run import FRAMES, bend_sequence
 from umform.processes.bend_sequence.sides import Strip
 from umform.processes.hemming.measures import Hem, clearances, measured
-from umform.processes.hemming.parameters import Hemming
+from umform.processes.hemming.spec import Hemming
 from umform.progress import Show, parts, progress_bar
 from umform.run.open_run import OpenRun
 from umform.run.stages import continued

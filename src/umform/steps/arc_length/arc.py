@@ -16,7 +16,6 @@ import numpy as np
 from umform.errors import InvalidValue, NoConvergence
 from umform.model import Model
 from umform.model.control import Control
-from umform.solution.keeping import excesses
 from umform.solution.records import Cause, Failed
 from umform.steps.arc_length.critical import CriticalPoints
 from umform.steps.arc_length.equation import Line
@@ -191,7 +190,7 @@ class Following:
             run.habits.count(kept=False)
             self._cut(run, step, failure, tried)
             return
-        if not excesses(run.model, converged):
+        if not run.model.too_deep(converged.evaluation):
             run.habits.count(kept=True)
         run.evaluation = converged.evaluation
         self.count += 1
@@ -250,7 +249,7 @@ def _no_convergence(run: Run, failure: Failed, where: str, line: Line) -> NoConv
             "that jumps; else a smaller increment or grow, more iterations in NewtonOptions, more cuts"
         ),
     )
-    burst = thinned(run, failure)
+    burst = thinned(run)
     if burst is not None:
         cause, remedy = f"{cause}; {burst[0]}", burst[1]
     largest = _passed(run, line)
