@@ -20,21 +20,19 @@ import record
 import umform as uf
 from umform.model.contact.points import PairPoints
 from umform.processes.draw import Cup, Drawn, UBend, draw, extrapolated
+from umform.processes.draw.cup import ESAFORM
+from umform.processes.draw.u_bend import NUMISHEET
 from umform.solution.options import NewtonOptions
 from umform.timing import Timing, timings
 
 BEGIN, END = "<!-- draws -->\n", "<!-- /draws -->"
 #: Parts with the defaults of the commands: U-bends of NUMISHEET 93, cups of ESAFORM 2021, all of one steel.
 STEEL = uf.J2(E=210e3, nu=0.3, hardening=uf.Swift(strength=520.0, offset=0.004, exponent=0.22))
-_CUP: dict[str, Any] = {"thickness": 1.0, "blank_radius": 53.75, "punch_radius": 30.0, "punch_edge": 5.0}
-_CUP |= {"die_radius": 31.2, "die_edge": 10.0, "holder_force": 40e3, "material": STEEL}
-_U: dict[str, Any] = {"thickness": 0.78, "length": 350.0, "width": 35.0, "material": STEEL, "punch_width": 50.0}
-_U |= {"punch_edge": 5.0, "opening": 52.0, "die_edge": 5.0, "holder_force": 2450.0}
 PARTS: dict[str, Cup | UBend] = {
-    "cup": Cup(**_CUP),
-    "cup, fine": Cup(**_CUP, turn=9.0, around=24),
-    "U-bend, coarse": UBend(**_U, element="BEND8", turn=20.0, contact_points=3),
-    "U-bend, one mesh": UBend(**_U),
+    "cup": Cup(**ESAFORM, material=STEEL),
+    "cup, fine": Cup(**ESAFORM, **Cup.meshes["fine"], material=STEEL),
+    "U-bend, coarse": UBend(**NUMISHEET, **UBend.meshes["coarse"], material=STEEL),
+    "U-bend, one mesh": UBend(**NUMISHEET, material=STEEL),
 }
 THREE = "U-bend, three meshes"
 

@@ -15,7 +15,7 @@ import record
 import umform as uf
 from sheets import sheet
 from umform.processes.bending import case as bending
-from umform.processes.bending.parameters import FreeBending
+from umform.processes.bending.spec import FreeBending
 from umform.solution.options import NewtonOptions
 from umform_book.nonlinear import hemisphere, slit_annulus
 from umform_book.nonlinear.course import TIED

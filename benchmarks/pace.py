@@ -21,7 +21,7 @@ from dome import build as dome
 from umform.processes.air_bending import brake
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bending import case as bending
-from umform.processes.bending.parameters import FreeBending
+from umform.processes.bending.spec import FreeBending
 
 Floats = NDArray[np.float64]
 #: Model and the control that moves, how far it goes, and how many equal increments are compared with.

@@ -19,7 +19,7 @@ import umform as uf
 from umform.processes.air_bending import brake
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bending import case as bending
-from umform.processes.bending.parameters import FreeBending
+from umform.processes.bending.spec import FreeBending
 from umform.solution.factor_reuse import cost_of_factors
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions

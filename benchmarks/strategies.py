@@ -18,8 +18,8 @@ from umform.processes.air_bending.search import find_stroke
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bending.case import build as build_bending
 from umform.processes.bending.case import free_bending
-from umform.processes.bending.parameters import FreeBending
 from umform.processes.bending.showcase import Selection
+from umform.processes.bending.spec import FreeBending
 from umform.timing import Timing, timings
 from umform_book.book import Order, cases, chapters, run_case
 

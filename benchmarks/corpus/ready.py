@@ -15,7 +15,7 @@ from umform.processes.bend_sequence import Bend, BendSequence, bend_sequence
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.u_bend import UBend
 from umform.processes.draw_bead.case import build
-from umform.processes.draw_bead.parameters import DrawBead
+from umform.processes.draw_bead.spec import DrawBead
 from umform.processes.hemming import Hemming, hemming
 from umform.processes.hemming.spec import ACUTE
 from umform.steps import Step

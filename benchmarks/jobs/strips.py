@@ -10,7 +10,7 @@ from jobs.drawing import Drawing
 from jobs.pressing import increments, pressed
 from umform import sheet_metals
 from umform.processes.bending.case import build, free_bending
-from umform.processes.bending.parameters import FreeBending
+from umform.processes.bending.spec import FreeBending
 
 _OF_8_NODES = (*["ANS3DEAS"] * 4, *["BEND8"] * 3, "EAS3DEAS", "DISP3DEAS")
 _OF_18_NODES = ("MI9K3DEAS", "BEND18", "DISP9K3DEAS")

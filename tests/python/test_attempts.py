@@ -119,7 +119,7 @@ def test_the_command_line_and_the_report_show_them(capsys, tmp_path):
 def test_increments_that_are_too_large_for_a_sharp_hinge_are_cut_without_much_ado(steps):
     """The first run of the demo, in perfect plasticity: softer penalties do not help there, and are given up soon."""
     from umform.processes.bending.case import build
-    from umform.processes.bending.parameters import FreeBending
+    from umform.processes.bending.spec import FreeBending
 
     case = FreeBending()
     model, punch = build(case)

@@ -10,56 +10,35 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
-from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
+from umform.cli.options import SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.run_checks import show_checks
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import echo_warnings, print_warnings_once
 from umform.errors import UmformError
+from umform.processes.draw_bead.spec import DrawBead
 
 if TYPE_CHECKING:
     from umform.processes.draw_bead.measures import Drawn
 
 
-_TOOLS = "Tools (mm)"
-
-
 @app.command()
+@given_by(DrawBead, omit=("material",))
 def bead(
+    given: Given,
     out: Annotated[
         str | None,
         typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/bead."),
     ] = None,
-    radius: Annotated[float, option("Radius of the tip of the bead.", _TOOLS)] = 5.5,
-    height: Annotated[float, option("Height of the bead above its flat.", _TOOLS)] = 6.0,
-    groove_radius: Annotated[float, option("Radius of the edges of the groove.", _TOOLS)] = 5.0,
-    groove: Annotated[float | None, option("Width of the groove; default: bead plus 2.2 thicknesses.", _TOOLS)] = None,
-    gap: Annotated[
-        float | None, option("Clearance between sheet and closed flats; default 5 % of the thickness.", _TOOLS)
-    ] = None,
-    friction: Annotated[float, option("Coefficient of friction.", _TOOLS)] = 0.1,
-    thickness: Annotated[float, option("Thickness of the sheet.", SHEET)] = 0.8,
     material: Material = None,
-    rolling: Annotated[
-        float | None, option("Degrees from the line of the bead to the rolling direction: 90 across it.", SHEET)
-    ] = None,
     young: Young = None,
     poisson: Poisson = None,
     yield_stress: Yield = None,
     hardening_modulus: Modulus = None,
     swift: SwiftCurve = None,
     flow_curve: FlowCurve = None,
-    draw: Annotated[
-        float | None, option("Distance that the strip is drawn; default 1.5 times the length in the bead.", SOLUTION)
-    ] = None,
-    element: Annotated[str, option("Element of the catalogue.", SOLUTION)] = "BEND8",
-    elements: Annotated[float, option("Elements per quarter turn of the smaller radius.", SOLUTION)] = 14.0,
-    contact_points: Annotated[int, option("Contact points per direction and facet.", SOLUTION)] = 4,
-    penalty: Annotated[
-        float | None,
-        option("Contact pressure per penetration, MPa/mm; default by the allowed penetration.", SOLUTION),
-    ] = None,
     extrapolate: Annotated[
         bool,
         option(
@@ -81,26 +60,10 @@ def bead(
     from umform.io.staging import staging
     from umform.processes.draw_bead.case import drawn_through, extrapolated
     from umform.processes.draw_bead.files import FILES, RESULTS, write_files
-    from umform.processes.draw_bead.parameters import DrawBead
 
     print_warnings_once()
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
-    case = DrawBead(
-        thickness=thickness,
-        material=law,
-        rolling=rolling,
-        radius=radius,
-        height=height,
-        groove_radius=groove_radius,
-        groove=groove,
-        gap=gap,
-        friction=friction,
-        draw=draw,
-        element=element,
-        elements=elements,
-        contact_points=contact_points,
-        penalty=penalty,
-    )
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, given["thickness"])
+    case = DrawBead(**given, material=law)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/bead"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     with staging(place, FILES):

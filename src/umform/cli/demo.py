@@ -6,15 +6,16 @@ import logging
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from umform.cli.options import option
+from umform.cli.given import Given, given_by
+from umform.cli.options import SOLUTION, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.timing import Timed, show_timing
 from umform.cli.typed import as_typed, options_of
-from umform.processes.bending.parameters import RECONSTRUCTION, FreeBending
+from umform.processes.bending.spec import RECONSTRUCTION, FreeBending
 
 if TYPE_CHECKING:
     from umform.processes.bending.showcase import Outcome
@@ -22,13 +23,20 @@ if TYPE_CHECKING:
 demos = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", help="Run an example and show the results.")
 app.add_typer(demos, name="demo")
 
-_RUNS, _STRIP, _MATERIAL, _SOLUTION = "Which runs", "Strip and tool (mm)", "Material (MPa)", "Solution"
-Default = FreeBending
+_RUNS = "Which runs"
+_THROUGH = ("thickness_points", "thickness_rule", "thickness_order", "tie_E33")
 
 
 @demos.command("free-bending", epilog=RECONSTRUCTION)
+@given_by(
+    FreeBending,
+    omit=("mesh", "element", "contact"),
+    called={"tie_E33": "--tie-e33/--no-tie-e33"},
+    **dict.fromkeys(_THROUGH),
+)
 def free_bending(
     context: typer.Context,
+    given: Given,
     out: Annotated[
         str | None,
         typer.Option(
@@ -40,31 +48,7 @@ def free_bending(
     contact: Annotated[
         list[str] | None, option("Contact points per direction and facet, or nodes; may be repeated.", _RUNS)
     ] = None,
-    thickness_points: Annotated[int | None, option("Points through the thickness.", _RUNS)] = None,
-    thickness_rule: Annotated[str | None, option("gauss, lobatto or split.", _RUNS)] = None,
-    thickness_order: Annotated[int | None, option("Order of the thickness strain, 1 to 4.", _RUNS)] = None,
-    tie_E33: Annotated[bool | None, option("Tie the thickness strain.", _RUNS, "--tie-e33/--no-tie-e33")] = None,
-    length: Annotated[float, option("Length of the half strip.", _STRIP)] = Default.length,
-    width: Annotated[float, option("Width of the strip.", _STRIP)] = Default.width,
-    thickness: Annotated[float, option("Thickness of the strip.", _STRIP)] = Default.thickness,
-    radius: Annotated[float, option("Radius of the cylinder.", _STRIP)] = Default.radius,
-    tool_x: Annotated[float, option("x of the cylinder axis.", _STRIP)] = Default.tool_x,
-    tool_z: Annotated[
-        float | None, option("z of the cylinder axis; default: in contact with the strip.", _STRIP)
-    ] = None,
-    kappa: Annotated[float, option("Bulk modulus.", _MATERIAL)] = Default.kappa,
-    mu: Annotated[float, option("Shear modulus.", _MATERIAL)] = Default.mu,
-    yield_stress: Annotated[float, option("Yield stress.", _MATERIAL)] = Default.yield_stress,
-    hardening: Annotated[float, option("Linear hardening modulus.", _MATERIAL)] = Default.hardening,
-    penalty: Annotated[float, option("Contact pressure per penetration.", _SOLUTION)] = Default.penalty,
-    stroke: Annotated[float, option("Largest displacement.", _SOLUTION)] = Default.stroke,
-    steps: Annotated[int, option("Increments up to the stroke.", _SOLUTION)] = Default.steps,
-    unload: Annotated[bool, option("Release to zero force.", _SOLUTION)] = Default.unload,
-    solver: Annotated[str, option("auto, multifrontal, banded, pardiso or superlu.", _SOLUTION)] = Default.solver,
-    line_search: Annotated[
-        bool, option("Line search of Newton's method.", _SOLUTION, "--line-search/--no-line-search")
-    ] = Default.line_search,
-    processes: Annotated[int | None, option("Runs at a time; default: the processors.", _SOLUTION)] = None,
+    processes: Annotated[int | None, option("Runs at a time; default: the processors.", SOLUTION)] = None,
     print_deck: Annotated[
         bool, typer.Option("--print-deck", help="Print the first run as a deck, and run none.")
     ] = False,
@@ -90,33 +74,8 @@ def free_bending(
         elements=tuple(element or ()),
         contacts=tuple(read_contact(text) for text in contact or ()),
     )
-    through = {
-        "thickness_points": thickness_points,
-        "thickness_rule": thickness_rule,
-        "thickness_order": thickness_order,
-        "tie_E33": tie_E33,
-    }
-    given: dict[str, Any] = {name: value for name, value in through.items() if value is not None}
-    base = FreeBending(
-        length=length,
-        width=width,
-        thickness=thickness,
-        radius=radius,
-        tool_x=tool_x,
-        tool_z=tool_z,
-        kappa=kappa,
-        mu=mu,
-        yield_stress=yield_stress,
-        hardening=hardening,
-        penalty=penalty,
-        stroke=stroke,
-        steps=steps,
-        unload=unload,
-        solver=solver,
-        line_search=line_search,
-        **given,
-    )
-    runs = selection.runs(base, sharp=not given)
+    base = FreeBending(**{name: value for name, value in given.items() if value is not None})
+    runs = selection.runs(base, sharp=all(given[name] is None for name in _THROUGH))
     if print_deck:
         from umform.deck import deck_of
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
 from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
@@ -17,13 +18,18 @@ from umform.cli.run_checks import show_checks
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import echo_warnings, print_warnings_once
 from umform.errors import InvalidValue
+from umform.processes.draw.cup import CLEARANCE, ESAFORM, Cup
+from umform.processes.draw.u_bend import NUMISHEET, UBend
+from umform.spec import parameters
 
 if TYPE_CHECKING:
-    from umform.processes.draw.cup import Cup
     from umform.processes.draw.drawn import Drawn
-    from umform.processes.draw.u_bend import UBend
 
-_TOOLS = "Tools (mm, N)"
+_TOOLS = "Tools"
+_COARSE = "Coarse mesh, for a first result in seconds"
+_FINE = "Fine mesh: smaller errors for some three times the time"
+#: Fields that no option gives.
+_NOT_TYPED = ("material", "newton", "pace")
 #: Options of diameters by the radii of a cup.
 _DIAMETERS = {
     "die_radius": "half of --opening",
@@ -36,11 +42,19 @@ app.add_typer(group, name="draw")
 
 Out = Annotated[str | None, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")]
 LimitCurve = Annotated[Path | None, option("Forming limit: a CSV file of minor and major logarithmic strain.", SHEET)]
-Coarse = Annotated[bool, typer.Option("--coarse", help="Coarse mesh, for a first result in seconds.")]
-Fine = Annotated[bool, typer.Option("--fine", help="Fine mesh: smaller errors for some three times the time.")]
-Turn = Annotated[float | None, option("Largest angle in degrees that an element turns over a tool radius.", SOLUTION)]
-Layers = Annotated[int, option("Elements through the thickness; 0: by the rule for sharp bends.", SOLUTION)]
-ThicknessPoints = Annotated[int | None, option("Thickness points per layer.", SOLUTION)]
+
+
+def _varied(spec: type[Cup | UBend]) -> dict[str, None]:
+    """What depends on the mesh: options without a default."""
+    return dict.fromkeys(name for mesh in spec.meshes.values() for name in mesh)
+
+
+def _mesh(spec: type[Cup | UBend], name: str, text: str) -> Any:
+    """The option of a mesh: its help says what the mesh has, and what it has otherwise."""
+    kind: type = spec
+    usual, mesh = parameters(kind), spec.meshes[name].items()
+    parts = [f"--{field.replace('_', '-')} {value} instead of {usual[field].default}" for field, value in mesh]
+    return typer.Option(f"--{name}", help=f"{text}: {', '.join(parts)}.")
 
 
 @contextmanager
@@ -54,25 +68,19 @@ def _halves() -> Iterator[None]:
 
 
 @group.command()
+@given_by(Cup, omit=(*_NOT_TYPED, "blank_radius", "punch_radius", "die_radius"), **ESAFORM | _varied(Cup))
 @_halves()
 def cup(
+    given: Given,
     out: Out = None,
-    coarse: Coarse = False,
-    fine: Fine = False,
-    punch: Annotated[float, option("Diameter of the punch.", _TOOLS)] = 60.0,
-    punch_edge: Annotated[float, option("Edge radius of the punch.", _TOOLS)] = 5.0,
+    coarse: Annotated[bool, _mesh(Cup, "coarse", _COARSE)] = False,
+    fine: Annotated[bool, _mesh(Cup, "fine", _FINE)] = False,
+    punch: Annotated[float, option("Diameter of the punch in mm.", _TOOLS)] = 2.0 * ESAFORM["punch_radius"],
     opening: Annotated[
-        float | None, option("Diameter of the opening of the die; default: punch + 2.4 t.", _TOOLS)
+        float | None,
+        option(f"Diameter of the die opening in mm; default: punch + {2.0 * CLEARANCE:g} t.", _TOOLS),
     ] = None,
-    die_edge: Annotated[float, option("Edge radius of the die.", _TOOLS)] = 10.0,
-    holder_force: Annotated[float, option("Force on the whole holder, N; 0: fixed at its gap.", _TOOLS)] = 40e3,
-    holder_gap: Annotated[
-        float | None, option("Smallest distance between holder and die; default 1.04 t.", _TOOLS)
-    ] = None,
-    friction: Annotated[float, option("Coefficient of friction.", _TOOLS)] = 0.09,
-    stroke: Annotated[float | None, option("Stroke of the punch; default: the full cup.", _TOOLS)] = None,
-    blank: Annotated[float, option("Diameter of the blank.", SHEET)] = 107.5,
-    thickness: Annotated[float, option("Thickness of the sheet.", SHEET)] = 1.0,
+    blank: Annotated[float, option("Diameter of the blank in mm.", SHEET)] = 2.0 * ESAFORM["blank_radius"],
     material: Material = None,
     young: Young = None,
     poisson: Poisson = None,
@@ -81,15 +89,6 @@ def cup(
     swift: SwiftCurve = None,
     flow_curve: FlowCurve = None,
     limit_curve: LimitCurve = None,
-    element: Annotated[str, option("Element of the catalogue.", SOLUTION)] = "ANS3DEAS",
-    turn: Turn = None,
-    around: Annotated[int | None, option("Elements on a quarter of the rim.", SOLUTION)] = None,
-    layers: Layers = 1,
-    thickness_points: ThicknessPoints = None,
-    contact_points: Annotated[int, option("Contact points per direction and facet.", SOLUTION)] = 2,
-    penalty: Annotated[
-        float | None, option("Contact pressure per penetration; default by the allowed penetration.", SOLUTION)
-    ] = None,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
@@ -100,50 +99,21 @@ def cup(
     The defaults are the tools of the ESAFORM benchmark 2021. Each number is defined in docs/forming-results.md.
     """
     from umform.processes.draw.case import draw
-    from umform.processes.draw.cup import CLEARANCE, Cup
 
-    _one_mesh(coarse, fine)
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
-    case = Cup(
-        thickness=thickness,
-        blank_radius=0.5 * blank,
-        material=law,
-        punch_radius=0.5 * punch,
-        punch_edge=punch_edge,
-        die_radius=0.5 * punch + CLEARANCE * thickness if opening is None else 0.5 * opening,
-        die_edge=die_edge,
-        holder_force=holder_force or None,
-        holder_gap=holder_gap,
-        friction=friction,
-        stroke=stroke,
-        element=element,
-        turn=_chosen(turn, coarse, 30.0, 9.0 if fine else 15.0),
-        around=_chosen(around, coarse, 8, 24 if fine else 12),
-        layers=layers or None,
-        thickness_points=thickness_points,
-        contact_points=contact_points,
-        penalty=penalty,
-    )
+    given = _on_mesh(Cup, given, coarse, fine)
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, given["thickness"])
+    given |= {"punch_radius": 0.5 * punch, "blank_radius": 0.5 * blank, "holder_force": given["holder_force"] or None}
+    case = Cup(**given, die_radius=None if opening is None else 0.5 * opening, material=law)
     _run(case, draw, out, "cup", note, limit_curve, overwrite=overwrite, timing=timing)
 
 
 @group.command()
+@given_by(UBend, omit=_NOT_TYPED, called={"punch_width": "--punch"}, **NUMISHEET | _varied(UBend))
 def u(
+    given: Given,
     out: Out = None,
-    coarse: Coarse = False,
-    fine: Fine = False,
-    punch: Annotated[float, option("Width of the punch.", _TOOLS)] = 50.0,
-    punch_edge: Annotated[float, option("Edge radius of the punch.", _TOOLS)] = 5.0,
-    opening: Annotated[float | None, option("Opening of the die; default: punch + 2.56 t.", _TOOLS)] = None,
-    die_edge: Annotated[float, option("Edge radius of the die.", _TOOLS)] = 5.0,
-    holder_force: Annotated[
-        float, option("Force on the whole holder, N: both sides, all of the width.", _TOOLS)
-    ] = 2450.0,
-    friction: Annotated[float, option("Coefficient of friction.", _TOOLS)] = 0.144,
-    stroke: Annotated[float | None, option("Stroke of the punch; default: a fifth of the blank.", _TOOLS)] = None,
-    length: Annotated[float, option("Length of the blank.", SHEET)] = 350.0,
-    width: Annotated[float, option("Width of the blank.", SHEET)] = 35.0,
-    thickness: Annotated[float, option("Thickness of the sheet.", SHEET)] = 0.78,
+    coarse: Annotated[bool, _mesh(UBend, "coarse", _COARSE)] = False,
+    fine: Annotated[bool, _mesh(UBend, "fine", _FINE)] = False,
     material: Material = None,
     young: Young = None,
     poisson: Poisson = None,
@@ -152,16 +122,6 @@ def u(
     swift: SwiftCurve = None,
     flow_curve: FlowCurve = None,
     limit_curve: LimitCurve = None,
-    element: Annotated[
-        str | None, option("Element of the catalogue; default BEND18, with --coarse BEND8.", SOLUTION)
-    ] = None,
-    turn: Turn = None,
-    layers: Layers = 1,
-    thickness_points: ThicknessPoints = None,
-    contact_points: Annotated[int | None, option("Contact points per direction and facet.", SOLUTION)] = None,
-    penalty: Annotated[
-        float | None, option("Contact pressure per penetration; default by the allowed penetration.", SOLUTION)
-    ] = None,
     extrapolate: Annotated[
         bool | None,
         option(
@@ -181,41 +141,22 @@ def u(
     """
     from umform.processes.draw.case import draw
     from umform.processes.draw.three_meshes import extrapolated
-    from umform.processes.draw.u_bend import CLEARANCE, UBend
 
-    _one_mesh(coarse, fine)
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
-    case = UBend(
-        thickness=thickness,
-        length=length,
-        width=width,
-        material=law,
-        punch_width=punch,
-        punch_edge=punch_edge,
-        opening=punch + 2.0 * CLEARANCE * thickness if opening is None else opening,
-        die_edge=die_edge,
-        holder_force=holder_force,
-        friction=friction,
-        stroke=stroke,
-        element=_chosen(element, coarse, "BEND8", "BEND18"),
-        turn=_chosen(turn, coarse, 20.0, 12.0 if fine else 17.0),
-        layers=layers or None,
-        thickness_points=thickness_points,
-        contact_points=_chosen(contact_points, coarse, 3, 4),
-        penalty=penalty,
-    )
-    how = extrapolated if _chosen(extrapolate, coarse, False, True) else draw
+    given = _on_mesh(UBend, given, coarse, fine)
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, given["thickness"])
+    case = UBend(**given, material=law)
+    three = not coarse if extrapolate is None else extrapolate
+    how = extrapolated if three else draw
     _run(case, how, out, "u-bend", note, limit_curve, overwrite=overwrite, timing=timing)
 
 
-def _one_mesh(coarse: bool, fine: bool) -> None:
+def _on_mesh(spec: type[Cup | UBend], given: Given, coarse: bool, fine: bool) -> Given:
+    """The given values, and those of the mesh for what is not given; no layers are those of the rule."""
     if coarse and fine:
         raise InvalidValue("two meshes are asked for", where="--coarse and --fine", remedy="one of them, or neither")
-
-
-def _chosen(given: Any, coarse: bool, first: Any, usual: Any) -> Any:
-    """The given value, or the default for a coarse or the usual mesh."""
-    return given if given is not None else first if coarse else usual
+    mesh = spec.meshes["coarse"] if coarse else spec.meshes["fine"] if fine else {}
+    typed = {name: value for name, value in given.items() if value is not None}
+    return mesh | typed | {"layers": given["layers"] or None}
 
 
 def _limit(file: Path | None) -> Any:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import MISSING
+from types import MappingProxyType
 from typing import Annotated, Any, get_type_hints
 
 from umform.cli.options import option
@@ -14,7 +15,9 @@ from umform.spec import Parameter, parameters
 Given = dict[str, Any]
 
 
-def given_by(*specs: type, omit: Collection[str] = (), **defaults: Any) -> Callable[[Callable[..., Any]], Any]:
+def given_by(
+    *specs: type, omit: Collection[str] = (), called: Mapping[str, str] = MappingProxyType({}), **defaults: Any
+) -> Callable[[Callable[..., Any]], Any]:
     """Give a command the options of all fields of Specs; its parameter ``given`` gets their values by name.
 
     Parameters
@@ -23,13 +26,15 @@ def given_by(*specs: type, omit: Collection[str] = (), **defaults: Any) -> Calla
         Dataclasses with ``groups``: the panel of the options from each named field on.
     omit : collection of str
         Fields that the command takes in another way.
+    called : mapping of str to str
+        Options of fields that have another name than the field.
     **defaults : object
-        Defaults of this command where they differ.
+        Defaults of this command where they differ; None for an option that need not be given.
     """
 
     def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
         own = inspect.signature(command)
-        options = [one for spec in specs for one in _options(spec, omit, defaults)]
+        options = [one for spec in specs for one in _options(spec, omit, called, defaults)]
         names = [one.name for one in options]
 
         def run(**values: Any) -> Any:
@@ -47,28 +52,31 @@ def given_by(*specs: type, omit: Collection[str] = (), **defaults: Any) -> Calla
     return decorate
 
 
-def _options(spec: type, omit: Collection[str], defaults: dict[str, Any]) -> list[inspect.Parameter]:
+def _options(
+    spec: type, omit: Collection[str], called: Mapping[str, str], defaults: dict[str, Any]
+) -> list[inspect.Parameter]:
     found, panel = [], ""
     groups: dict[str, str] = spec.groups  # type: ignore[attr-defined]
     for name, parameter in parameters(spec).items():
         panel = groups.get(name, panel)
         if name not in omit:
             default = defaults.get(name, parameter.default)
-            hint = Annotated[_hint(parameter), _info(parameter, panel)]  # type: ignore[valid-type]
+            info = _info(parameter, panel, [called[name]] if name in called else [])
+            hint = Annotated[_hint(parameter, default), info]  # type: ignore[valid-type]
             no_default = inspect.Parameter.empty if default is MISSING else default
             kind = inspect.Parameter.POSITIONAL_OR_KEYWORD
             found.append(inspect.Parameter(name, kind, default=no_default, annotation=hint))
     return found
 
 
-def _hint(parameter: Parameter) -> Any:
+def _hint(parameter: Parameter, default: Any) -> Any:
     types = {kind.type for kind in parameter.kinds}
     plain = next(iter(types)) if len(types) == 1 else str
-    return plain | None if parameter.optional else plain
+    return plain | None if parameter.optional or default is None else plain
 
 
-def _info(parameter: Parameter, panel: str) -> Any:
-    info = option(parameter.text, panel)
+def _info(parameter: Parameter, panel: str, names: Sequence[str]) -> Any:
+    info = option(parameter.text, panel, *names)
     if {int, str} <= {kind.type for kind in parameter.kinds}:
         info.parser, info.metavar = _number_or_word, "<int|word>"
     return info

@@ -12,14 +12,14 @@ from umform.first_use import at_first_use
 
 if TYPE_CHECKING:
     from umform.processes.bending.case import Bending, free_bending
-    from umform.processes.bending.parameters import FreeBending
     from umform.processes.bending.showcase import demo
+    from umform.processes.bending.spec import FreeBending
 
 __all__ = ["Bending", "FreeBending", "demo", "free_bending"]
 
 _HOME = {
     "Bending": "bending.case",
-    "FreeBending": "bending.parameters",
+    "FreeBending": "bending.spec",
     "demo": "bending.showcase",
     "free_bending": "bending.case",
 }

@@ -3,18 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from numbers import Integral, Real
 from typing import Any
 
 from umform.errors import InvalidValue
 from umform.spec import Rule
-
-
-def check_rules(values: Mapping[str, Any], rules: Mapping[str, Rule]) -> None:
-    """Reject invalid values by name, one by one."""
-    for name, rule in rules.items():
-        rule.check(name, values[name])
 
 
 def whole(value: Any, least: int, most: float = math.inf) -> bool:
@@ -49,25 +42,6 @@ PLASTIC = Rule(
     "forming needs a plastic material",
     "an elastic law, or the name of a metal",
     "a J2 or a Metal; umform.sheet_metals.get('DC04').law for one",
-)
-
-
-def contact_points(remedy: str) -> Rule:
-    """Contact points per direction of a facet."""
-    return Rule(
-        lambda value: whole(value, 1, 10),
-        "contact points per direction must be a whole number from 1 to 10",
-        "zero, or a rule that does not exist",
-        remedy,
-    )
-
-
-#: A coefficient of friction.
-FRICTION = Rule(
-    lambda value: number(value) and 0.0 <= value <= 2.0,
-    "a coefficient of friction lies between 0 and 2",
-    "a sign, or a percentage",
-    "0.05 to 0.2 for lubricated sheet",
 )
 
 

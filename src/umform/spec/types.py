@@ -14,6 +14,10 @@ _MISSING = "a sign, or a missing value"
 Length = Annotated[float, Gt(0.0), About("mm", cause=_MISSING)]
 #: A stress in MPa.
 Stress = Annotated[float, Gt(0.0), About("MPa", cause=_MISSING)]
+#: A force in N.
+Force = Annotated[float, Gt(0.0), About("N", cause=_MISSING)]
+#: A contact pressure per penetration.
+Penalty = Annotated[float, Gt(0.0), About("MPa/mm", cause=_MISSING)]
 #: Another positive number.
 Positive = Annotated[float, Gt(0.0), About(cause=_MISSING)]
 #: An angle between two straight lines.
@@ -28,9 +32,8 @@ Rolling = Annotated[
     About("degrees", cause="a vector in place of an angle", remedy="0 along the bend line, 90 across it"),
 ]
 #: Contact points per direction of a facet.
-ContactPoints = Annotated[
-    int,
-    Ge(1),
-    Le(10),
-    About(cause="all points of a facet instead of those of one direction", remedy="auto, or such as 5"),
+ContactPoints = Annotated[int, Ge(1), Le(10), About(cause="all points of a facet instead of those of one direction")]
+#: A coefficient of friction.
+Friction = Annotated[
+    float, Ge(0.0), Le(2.0), About(cause="a sign, or a percentage", remedy="0.05 to 0.2 for lubricated sheet")
 ]

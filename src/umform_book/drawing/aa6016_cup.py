@@ -161,7 +161,7 @@ def _check_heights(page: Page, found: dict[str, Made], means: list[float]) -> No
     middle, half = 0.5 * (min(means) + max(means)), 0.5 * (max(means) - min(means))
     page.check(f"{_BASE}: mean height within the band of the teams", base, middle, half, relative=False)
     case = setups()[_BASE]
-    gap = thickness_in_gap(case.clearance, case.die_radius, case.around, case.contact_points)
+    gap = thickness_in_gap(case.clearance, case.throat, case.around, case.contact_points)
     what = f"{_BASE}: thickness of the rim in the gap, mm, eq. (4.192)"
     page.check(what, found[_BASE].wall[1], gap, 0.02, relative=False)
 

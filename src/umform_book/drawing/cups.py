@@ -12,6 +12,7 @@ from umform.materials import J2, Metal, Voce, Yld2004
 from umform.materials.j2 import Plastic
 from umform.mesh import Mesh
 from umform.processes.draw import Cup
+from umform.processes.draw.cup import ESAFORM
 from umform.processes.draw.drawn import let_go, passage
 from umform.processes.draw.press import OPTIONS
 from umform.results.forming import EarProfile, LargestForce, ear_profile, forming_fields, largest_force, section
@@ -40,14 +41,7 @@ def isotropic() -> J2:
 
 def esaform(material: Plastic | None = None, **changes: object) -> Cup:
     """The cup of the ESAFORM benchmark 2021."""
-    given: dict[str, object] = {
-        "thickness": 1.0,
-        "blank_radius": 53.75,
-        "punch_radius": 30.0,
-        "punch_edge": 5.0,
-        "die_radius": 31.2,
-        "die_edge": 10.0,
-        "holder_force": 40e3,
+    given: dict[str, object] = ESAFORM | {
         "penalty": 1e5,  # softer tools leave the rim thicker than the gap that it is ironed in, and the cup low
         "contact_points": 2,  # more make the gap narrower on a coarse mesh, eq. (4.192)
     }

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from umform.processes import FreeBending
-from umform.processes.bending.parameters import RECONSTRUCTION
+from umform.processes.bending.spec import RECONSTRUCTION, ContactRule
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
 from umform_book.free_bending.runs import (
@@ -21,24 +21,26 @@ from umform_book.free_bending.runs import (
 )
 from umform_book.page import Page
 
-Found = dict[tuple[Discretisation, int | str, float], Smoothness]
+Found = dict[tuple[Discretisation, ContactRule, float], Smoothness]
 
 PAPER, STIFF = 100.0, 1e5
-ALL_RULES: tuple[int | str, ...] = ("nodes", *range(1, 11))
+ALL_RULES: tuple[ContactRule, ...] = ("nodes", *range(1, 11))
 #: Line force of these runs beyond u = 2, N/mm, for estimates.
 LINE_FORCE = 2.8
-FEW_RULES: tuple[int | str, ...] = ("nodes", 2, 3, 5, 10)
+FEW_RULES: tuple[ContactRule, ...] = ("nodes", 2, 3, 5, 10)
+_SHORT_RULES: tuple[ContactRule, ...] = ("nodes", 2, 5, 10)
 
 
 def sweep(page: Page) -> Found:
     """All rules with the penalty of the paper, some with others."""
     coarse = MESHES[0]
+    wanted: list[tuple[Discretisation, ContactRule, float]]
     if page.short:
-        wanted = [(coarse, points, PAPER) for points in ("nodes", 2, 5, 10)] + [(coarse, 2, STIFF)]
+        wanted = [*((coarse, points, PAPER) for points in _SHORT_RULES), (coarse, 2, STIFF)]
     else:
         wanted = [(mesh, points, PAPER) for mesh in MESHES for points in ALL_RULES]
         wanted += [(mesh, points, STIFF) for mesh in MESHES[:3] for points in FEW_RULES]
-        wanted += [(MESHES[3], points, STIFF) for points in ("nodes", 3, 5, 10)]
+        wanted += [(MESHES[3], points, STIFF) for points in FEW_RULES if points != 2]
         wanted += [(coarse, points, penalty) for penalty in (10.0, 1e3, 1e4) for points in FEW_RULES]
     runs = page.each(wanted, lambda item: f"{item[0].label}, {item[1]}, penalty {item[2]:g}")
     return {(mesh, points, penalty): smoothness(page, mesh, points, penalty) for mesh, points, penalty in runs}

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from umform.processes import Bending, FreeBending
-from umform.processes.bending.parameters import RECONSTRUCTION
+from umform.processes.bending.spec import RECONSTRUCTION, ContactRule
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot, rule_name
 from umform_book.free_bending.runs import MESHES, RECOMMENDED, bend
@@ -32,7 +32,7 @@ def case_of(row: dict[str, str]) -> FreeBending:
     along, across = row["cells"].split("x")
     points = row["contact_points"]
     options: dict[str, Any] = RECOMMENDED if row["recommended"] == "1" else {}
-    contact = int(points) if points.isdigit() else points
+    contact: ContactRule = "nodes" if points == "nodes" else int(points)
     return FreeBending(mesh=(int(along), int(across)), element=row["element"], contact=contact, **options)
 
 

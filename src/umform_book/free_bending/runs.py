@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.processes import Bending, FreeBending, free_bending
+from umform.processes.bending.spec import ContactRule
 from umform_book.balance import balance_row
 from umform_book.contact.figures import rule_name
 from umform_book.page import Page
@@ -46,13 +47,13 @@ class Discretisation:
         """Length of an element."""
         return FreeBending().length / self.mesh[0]
 
-    def spacing(self, points: int | str) -> float:
+    def spacing(self, points: ContactRule) -> float:
         """Mean distance of neighbouring contact points along the strip."""
         if points == "nodes":
             return self.size / (1 if self.least == 2 else 2)
         return self.size / int(points)
 
-    def across(self, points: int | str) -> int:
+    def across(self, points: ContactRule) -> int:
         """Contact points in a line across the strip."""
         if points == "nodes":
             return self.mesh[1] * (1 if self.least == 2 else 2) + 1
@@ -95,7 +96,7 @@ class Smoothness:
     """
 
     mesh: Discretisation
-    points: int | str
+    points: ContactRule
     penalty: float
     jump: float
     roughness: float
@@ -114,7 +115,7 @@ class Smoothness:
         return rule_name(self.points)
 
 
-def smoothness(page: Page, mesh: Discretisation, points: int | str, penalty: float, steps: int = 150) -> Smoothness:
+def smoothness(page: Page, mesh: Discretisation, points: ContactRule, penalty: float, steps: int = 150) -> Smoothness:
     """Bend, without release, and measure jumps, roughness and contact."""
     case = FreeBending(mesh=mesh.mesh, element=mesh.element, contact=points, penalty=penalty, steps=steps, unload=False)
     bending = bend(page, case)

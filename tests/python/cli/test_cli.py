@@ -181,7 +181,7 @@ def test_a_restricted_run_gives_the_force_of_the_reference(tmp_path):
     ("options", "exit_code", "message"),
     [
         (["--element", "FOO"], 1, "unknown element"),
-        (["--penalty", "-1", "--mesh", "24x1"], 1, "penalty must be positive"),
+        (["--penalty", "-1", "--mesh", "24x1"], 1, "penetration must be positive"),
         (["--thickness-order", "3", "--thickness-points", "3", "--contact", "2"], 1, "needs at least 4"),
         (["--mesh", "24"], 1, "24x1"),
         (["--contact", "2x3"], 1, "nodes"),

@@ -17,7 +17,7 @@ from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.draw_bead.case import build
-from umform.processes.draw_bead.parameters import DrawBead
+from umform.processes.draw_bead.spec import DrawBead
 from umform.sheet_metals import get, uniaxial
 
 ROOT = Path(__file__).parents[3]

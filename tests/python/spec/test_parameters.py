@@ -19,6 +19,10 @@ from umform.errors import InvalidValue, NotFinite
 from umform.processes.air_bending.goal import Goal
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence.spec import Bend, BendSequence, Bodies
+from umform.processes.bending.spec import FreeBending
+from umform.processes.draw.cup import Cup
+from umform.processes.draw.u_bend import UBend
+from umform.processes.draw_bead.spec import DrawBead
 from umform.processes.hemming import Hemming
 from umform.spec import About, Rule, check_fields, parameters
 from umform.spec.types import Degrees, Length
@@ -104,6 +108,19 @@ def test_a_command_has_an_option_for_each_field():
     assert Tube(**{name: got[name] for name in ("radius", "wall", "points")}).points == 4
 
 
+def test_an_option_may_have_another_name_and_no_default():
+    app, got = typer.Typer(), {}
+
+    @app.command()
+    @given_by(Tube, called={"hollow": "--full/--empty", "radius": "--size"}, points=None, wall=2.0)
+    def tube(given: Given) -> None:
+        """Bend a tube."""
+        got.update(given)
+
+    assert CliRunner().invoke(app, ["--size", "25", "--full"]).exit_code == 0
+    assert got == {"radius": 25.0, "wall": 2.0, "bend": 90.0, "points": None, "part": 1.0, "hollow": True}
+
+
 def test_the_schema_of_pydantic_has_the_same_bounds_and_units():
     schema = TypeAdapter(Tube).json_schema()["properties"]
     assert schema["radius"] == {
@@ -118,12 +135,18 @@ def test_the_schema_of_pydantic_has_the_same_bounds_and_units():
         TypeAdapter(Tube).validate_python({"radius": -1.0})
 
 
-@pytest.mark.parametrize("spec", [AirBending, Bend, BendSequence, Bodies, Goal, Hemming])
+#: Ratios and counts, and the penalty of air bending.
+WITHOUT_UNIT = ("elements_per_thickness", "increment", "penalty", "elements", "friction")
+
+
+@pytest.mark.parametrize(
+    "spec", [AirBending, Bend, BendSequence, Bodies, Cup, DrawBead, FreeBending, Goal, Hemming, UBend]
+)
 def test_each_field_of_a_process_has_a_sentence_and_each_number_a_reason(spec):
     for name, parameter in parameters(spec).items():
         assert parameter.sentence.endswith(".") and parameter.sentence[0].isupper(), name
         if parameter.kinds[0].type is float:
-            assert parameter.about.unit or name in ("elements_per_thickness", "increment", "penalty"), name
+            assert parameter.about.unit or name in WITHOUT_UNIT, name
 
 
 def test_the_form_of_the_bench_has_the_defaults_and_bounds_of_the_process():

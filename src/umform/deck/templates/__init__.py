@@ -11,7 +11,7 @@ from umform.errors import InvalidValue
 
 if TYPE_CHECKING:
     from umform.processes.air_bending import AirBending
-    from umform.processes.bending.parameters import FreeBending
+    from umform.processes.bending.spec import FreeBending
 
 _FOLDER = Path(__file__).parent
 #: Files beside a deck that it reads.

@@ -37,16 +37,18 @@ def dc04_like() -> J2:
 
 @dataclass(frozen=True)
 class AirBending:
-    r"""Air bending of a sheet in a V-die, in mm, N and MPa. ::
+    r"""Air bending, in mm, N and MPa. ::
 
-          |     |
-          | \ / |  punch_angle, punch_radius
-    =======  v  =======  sheet: thickness, width
-    -----.       .-----  die_radius
-          \     /
-           \   /     die_angle
-             v
-         |<----->|  opening
+              |     |
+              | \ / |  punch_angle, punch_radius
+        =======  v  =======  sheet: thickness, width
+        -----.       .-----  die_radius
+              \     /
+               \   /     die_angle
+                 v
+             |<----->|  opening
+
+    The sheet lies on the shoulders of a V-die, and is bent by a punch.
     """
 
     groups: ClassVar = {
@@ -100,7 +102,7 @@ class AirBending:
     thicknesses, on 1/16 of the opening."""
     width_elements: Annotated[int, Ge(1), Le(1000)] = 3
     """Elements over half of the width; without a width there is one."""
-    contact_points: ContactPoints | Literal["auto"] = "auto"
+    contact_points: Annotated[ContactPoints | Literal["auto"], About(remedy="auto, or such as 5")] = "auto"
     """Contact points per direction and facet; auto: as many as the contact of each tool needs, eq. (4.31)."""
     penalty: Positive | None = None
     """Contact pressure per penetration; without it, it follows from the allowed penetration, eq. (4.29)."""

@@ -16,7 +16,7 @@ from umform.materials import J2, Linear, Perfect
 from umform.model import Model
 from umform.model.control import Prescribed
 from umform.processes.bending.measures import at_marks, jump, roughness
-from umform.processes.bending.parameters import FreeBending
+from umform.processes.bending.spec import FreeBending
 from umform.report.repeats import counted
 from umform.results.balanced import Balanced, balanced
 from umform.results.run_record import run_record

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from umform.processes.bending.case import law_of
-from umform.processes.bending.parameters import RECONSTRUCTION, FreeBending
+from umform.processes.bending.spec import RECONSTRUCTION, FreeBending
 from umform.processes.decks import Entry, deck_text
 from umform.processes.material_keys import law_keys
 

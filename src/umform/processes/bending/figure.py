@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from umform.plotting import COLOURS, INK, Picture, camera, draw_shape, house_style
 from umform.processes.bending.case import Bending
-from umform.processes.bending.parameters import FreeBending
+from umform.processes.bending.spec import FreeBending
 
 BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY = COLOURS
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from umform.errors import InvalidValue
+from umform.processes.bending.spec import ContactRule
 
 
 def read_mesh(text: str) -> tuple[int, int]:
@@ -19,7 +20,7 @@ def read_mesh(text: str) -> tuple[int, int]:
     return int(along), int(across)
 
 
-def read_contact(text: str) -> int | str:
+def read_contact(text: str) -> ContactRule:
     """The contact rule that is written as nodes, 5 or 5x5."""
     first, _, second = text.lower().partition("x")
     if text.lower() == "nodes":

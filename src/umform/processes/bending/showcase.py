@@ -17,7 +17,7 @@ from umform.io.tables import write_csv, write_json
 from umform.pool import check_processes, run_all
 from umform.processes.bending.case import Bending, cell_of, check, failed, failure_text, free_bending
 from umform.processes.bending.deck import deck_of
-from umform.processes.bending.parameters import RECONSTRUCTION, FreeBending
+from umform.processes.bending.spec import RECONSTRUCTION, ContactRule, FreeBending
 from umform.progress import progress_bar
 from umform.report.versions import versions
 
@@ -44,7 +44,7 @@ class Selection:
 
     meshes: tuple[tuple[int, int], ...] = ()
     elements: tuple[str, ...] = ()
-    contacts: tuple[int | str, ...] = ()
+    contacts: tuple[ContactRule, ...] = ()
 
     def pairs(self) -> list[tuple[str, tuple[int, int]]]:
         """Elements with their meshes."""

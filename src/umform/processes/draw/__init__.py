@@ -4,12 +4,32 @@
 writes all that is known of it.
 """
 
-from umform.processes.draw.case import draw
-from umform.processes.draw.cup import Cup
-from umform.processes.draw.drawn import Drawn
-from umform.processes.draw.endings import Ending
-from umform.processes.draw.files import write_files
-from umform.processes.draw.three_meshes import extrapolated
-from umform.processes.draw.u_bend import UBend
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from umform.first_use import at_first_use
+
+if TYPE_CHECKING:
+    from umform.processes.draw.case import draw
+    from umform.processes.draw.cup import Cup
+    from umform.processes.draw.drawn import Drawn
+    from umform.processes.draw.endings import Ending
+    from umform.processes.draw.files import write_files
+    from umform.processes.draw.three_meshes import extrapolated
+    from umform.processes.draw.u_bend import UBend
 
 __all__ = ["Cup", "Drawn", "Ending", "UBend", "draw", "extrapolated", "write_files"]
+
+_HOME = {
+    "Cup": "cup",
+    "Drawn": "drawn",
+    "Ending": "endings",
+    "UBend": "u_bend",
+    "draw": "case",
+    "extrapolated": "three_meshes",
+    "write_files": "files",
+}
+
+# The command line reads the parameters without the run.
+__getattr__ = at_first_use(__name__, _HOME)

@@ -3,44 +3,46 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
-from umform.elements import element
+from annotated_types import Ge
+
 from umform.errors import InvalidValue
-from umform.materials.j2 import Plastic
-from umform.mesh import Bent, Mesh, Sizes, bending_sizes, disc
-from umform.model import Model
-from umform.processes.draw.press import OPTIONS, Press, held_by
-from umform.processes.draw.rules import (
-    COMMON,
-    check_clearance,
-    check_stiffness,
-    layers_by_rule,
-    tight,
-    unusual_pressure,
-)
-from umform.processes.rules import check_rules, length, whole
-from umform.solution.options import NewtonOptions
-from umform.steps import Pace
-from umform.surfaces import Plane, Profile, Revolved
+from umform.processes.draw.spec import Draw, Turn, check_clearance, tight, unusual_pressure
+from umform.spec import About, Rule
+from umform.spec.types import ContactPoints, Force, Friction, Length
 
+if TYPE_CHECKING:
+    from umform.mesh import Mesh, Sizes
+    from umform.model import Model
+    from umform.processes.draw.press import Press
+
+#: Tools and blank of the ESAFORM benchmark 2021.
+ESAFORM: dict[str, Any] = {
+    "thickness": 1.0,
+    "blank_radius": 53.75,
+    "punch_radius": 30.0,
+    "punch_edge": 5.0,
+    "die_edge": 10.0,
+    "holder_force": 40e3,
+}
 #: Usual clearance beside the punch in thicknesses, that of the ESAFORM benchmark 2021: the rim thickens.
 CLEARANCE = 1.2
 #: Way of the punch beyond that at which the rim has left the edge of the die, in thicknesses.
 _BEYOND = 4.0
-_RULES = COMMON | {
-    "blank_radius": length("the radius of the blank", "in mm, such as 53.75"),
-    "punch_radius": length("the radius of the punch", "in mm, such as 30"),
-    "die_radius": length("the radius of the opening of the die", "in mm, such as 31.2"),
-    "holder_gap": length("the distance of the holder from the die", "in mm, such as 1.04; default 1.04 t").optional(),
-}
+_EVEN = Rule(
+    lambda count: count % 2 == 0,
+    "the number of elements on a quarter of the rim is even",
+    "the core of the mesh has half of them on each of its sides",
+    "12, or 8 for a coarse mesh",
+)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Cup:
-    r"""Parameters of a round cup in mm, N and MPa; a quarter of it is computed, the rolling direction is x. ::
+class Cup(Draw):
+    r"""A round cup, in mm, N and MPa. ::
 
                    |  punch  |
         holder     |         |     holder
@@ -50,83 +52,46 @@ class Cup:
           die    \               /           die_edge
                  |<- die_radius
 
-    Parameters
-    ----------
-    thickness, blank_radius : float
-        The blank, a disc.
-    material : J2 or Metal
-        Law of the sheet.
-    punch_radius, punch_edge, die_radius, die_edge : float
-        Radii of the punch and of the opening of the die, and of their edges.
-    holder_force : float, optional
-        Force on the whole holder, which rests on its distance blocks unless the sheet pushes harder. Without it the
-        holder keeps its distance.
-    holder_gap : float, optional
-        Distance of the holder on its blocks from the die; default 1.04 thicknesses.
-    friction : float
-        Coefficient of friction on all tools.
-    stroke : float, optional
-        Travel of the punch; default: until the rim has left the edge of the die.
-    element : str
-        Name in the catalogue.
-    turn : float
-        Largest angle in degrees that an element turns over the edge of the punch or of the die.
-    around : int
-        Elements on a quarter of the rim; an even number.
-    layers : int or None
-        Layers of elements; None: as many as the sharpest radius needs, eq. (2.29).
-    thickness_points : int
-        Points through the thickness of each layer; default: that of the law.
-    contact_points : int
-        Contact points per direction and facet.
-    penalty : float, optional
-        Pressure per penetration; default: by the allowed penetration, eqs. (4.29) and (4.200).
-    newton : NewtonOptions
-        Tolerances and predictor.
-    pace : Pace
-        Increments of the stroke.
+    A quarter of it is computed; the rolling direction is x.
     """
 
     kind: ClassVar[str] = "cup"
-    thickness: float
-    blank_radius: float
-    material: Plastic
-    punch_radius: float
-    punch_edge: float
-    die_radius: float
-    die_edge: float
-    holder_force: float | None = None
-    holder_gap: float | None = None
-    friction: float = 0.09
-    stroke: float | None = None
+    groups: ClassVar = Draw.groups | {"blank_radius": "Sheet", "punch_radius": "Tools", "around": "Solution"}
+    meshes: ClassVar = {"coarse": {"turn": 30.0, "around": 8}, "fine": {"turn": 9.0, "around": 24}}
+
+    blank_radius: Length
+    """Radius of the blank, a disc."""
+    punch_radius: Length
+    """Radius of the punch."""
+    die_radius: Length | None = None
+    """Radius of the opening of the die; without it, that of the punch plus 1.2 thicknesses."""
+    holder_force: (
+        Annotated[
+            Force, About(remedy="in N, such as 40e3; None, on the command line 0, for a holder that keeps its distance")
+        ]
+        | None
+    ) = None
+    """Force on the whole holder, which rests on its distance blocks unless the sheet pushes harder; without it, on the
+    command line with 0, the holder keeps its distance."""
+    holder_gap: Length | None = None
+    """Distance of the holder on its blocks from the die; without it, 1.04 thicknesses."""
+    friction: Friction = 0.09
+    stroke: Length | None = None
+    """Travel of the punch; without it, until the rim has left the edge of the die."""
     element: str = "ANS3DEAS"
-    turn: float = 15.0
-    around: int = 12
-    layers: int | None = 1
-    thickness_points: int | None = None
-    contact_points: int = 2
-    penalty: float | None = None
-    newton: NewtonOptions = OPTIONS
-    pace: Pace = Pace()
+    turn: Turn = 15.0
+    around: Annotated[int, Ge(2), _EVEN] = 12
+    """Number of elements on a quarter of the rim, which is even."""
+    contact_points: ContactPoints = 2
 
     def __post_init__(self) -> None:
-        values = self.record()
-        check_rules({name: values[name] for name in _RULES}, _RULES)
-        check_stiffness(self.material)
-        if not (whole(self.around, 2) and self.around % 2 == 0):
-            raise InvalidValue(
-                "the number of elements on a quarter of the rim is even, two at least",
-                where="around",
-                value=self.around,
-                cause="the core of the mesh has half of them on each of its sides",
-                remedy="12, or 8 for a coarse mesh",
-            )
+        super().__post_init__()
         self._check_tools()
 
     def _check_tools(self) -> None:
         wanted = self.punch_radius + CLEARANCE * self.thickness
         remedy = f"about {wanted:.4g}, a diameter of {2.0 * wanted:.4g}"
-        check_clearance(self.clearance, self.thickness, where="die_radius", value=self.die_radius, remedy=remedy)
+        check_clearance(self.clearance, self.thickness, where="die_radius", value=self.throat, remedy=remedy)
         if not self.punch_edge < 0.9 * self.punch_radius:
             raise InvalidValue(
                 "the edge of the punch is larger than the punch",
@@ -135,13 +100,13 @@ class Cup:
                 cause="a hemispherical punch, or a diameter",
                 remedy=f"less than {0.9 * self.punch_radius:.4g}",
             )
-        if not self.blank_radius > self.die_radius + 0.5 * self.die_edge:
+        if not self.blank_radius > self.throat + 0.5 * self.die_edge:
             raise InvalidValue(
                 "the blank does not lie on the die",
                 where="blank_radius",
                 value=self.blank_radius,
-                cause=f"the die begins at {self.die_radius + self.die_edge:.4g}",
-                remedy=f"a larger blank: a diameter above {2.0 * self.die_radius + self.die_edge:.4g}",
+                cause=f"the die begins at {self.throat + self.die_edge:.4g}",
+                remedy=f"a larger blank: a diameter above {2.0 * self.throat + self.die_edge:.4g}",
             )
         if self.gap < self.thickness:
             raise InvalidValue(
@@ -151,20 +116,21 @@ class Cup:
                 remedy=f"{1.04 * self.thickness:.4g}, a little more than the thickness",
             )
 
-    def record(self) -> dict[str, Any]:
-        """All parameters by name."""
-        return {field.name: getattr(self, field.name) for field in fields(self)}
-
     @property
     def clearance(self) -> float:
         """Gap beside the punch in the die."""
-        return self.die_radius - self.punch_radius
+        return self.throat - self.punch_radius
+
+    @property
+    def throat(self) -> float:
+        """Radius of the opening of the die."""
+        return self.punch_radius + CLEARANCE * self.thickness if self.die_radius is None else self.die_radius
 
     @property
     def warnings(self) -> list[str]:
         """Unusual parameters."""
         wanted = 2.0 * (self.punch_radius + CLEARANCE * self.thickness)
-        flange = math.pi * (self.blank_radius**2 - (self.die_radius + self.die_edge) ** 2)
+        flange = math.pi * (self.blank_radius**2 - (self.throat + self.die_edge) ** 2)
         pressure = unusual_pressure(self.holder_force, flange, self.material)
         return [*tight(self.clearance, self.thickness, what="an opening", wanted=wanted), *pressure]
 
@@ -189,19 +155,10 @@ class Cup:
         return full if self.stroke is None else self.stroke
 
     @cached_property
-    def needed_layers(self) -> int:
-        """Layers by the rule for sharp bends: eq. (2.29) for the smallest radius of the tools."""
-        radius = min(self.punch_edge, self.die_edge)
-        return layers_by_rule(self.element, self.material, self.thickness_points, self.thickness, radius)
-
-    @property
-    def stacked(self) -> int:
-        """Layers of elements."""
-        return self.needed_layers if self.layers is None else self.layers
-
-    @cached_property
     def sizes(self) -> Sizes:
         """Rings of the blank, which follow the radii of the tools."""
+        from umform.mesh import Bent, bending_sizes
+
         half = 0.5 * self.thickness
         flat = self.punch_radius - self.punch_edge
         nose, edge = self.punch_edge + half, self.die_edge + half
@@ -219,6 +176,9 @@ class Cup:
 
     def blank(self) -> Mesh:
         """A quarter of a disc."""
+        from umform.elements import element
+        from umform.mesh import disc
+
         return disc(
             self.blank_radius,
             self.thickness,
@@ -232,6 +192,10 @@ class Cup:
 
     def build(self) -> tuple[Model, Press]:
         """Model of a quarter, and the press with its steps."""
+        from umform.model import Model
+        from umform.processes.draw.press import Press, held_by
+        from umform.surfaces import Plane, Profile, Revolved
+
         t, far = self.thickness, 2.0 * self.blank_radius
         deep = self.way + self.constant_thickness_height
         points = {} if self.thickness_points is None else {"thickness_points": self.thickness_points}
@@ -239,7 +203,7 @@ class Cup:
         model.symmetry("x0", "x")
         model.symmetry("y0", "y")
         die = Profile.from_corners(
-            [(far, -t / 2), (self.die_radius, -t / 2), (self.die_radius, -deep)],
+            [(far, -t / 2), (self.throat, -t / 2), (self.throat, -deep)],
             radii=[0, self.die_edge, 0],
             closed=False,
         )

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from umform.errors import InvalidValue
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.endings import Ending, tears_from
-from umform.processes.draw.rules import coarse
+from umform.processes.draw.spec import coarse
 from umform.processes.draw.u_bend import UBend
 from umform.processes.limit import Limit
 from umform.report.symmetry import Mirror, with_images
@@ -148,7 +148,7 @@ class Drawn:
         """
         if not isinstance(self.case, Cup) or not getattr(self.case.material, "directional", False):
             return False
-        return bool(np.linalg.norm(self.outline.after, axis=1).max() < self.case.die_radius)
+        return bool(np.linalg.norm(self.outline.after, axis=1).max() < self.case.throat)
 
     @cached_property
     def sections(self) -> dict[str, Section]:

@@ -3,50 +3,49 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
-import numpy as np
-
-from umform.elements import element
 from umform.errors import InvalidValue
-from umform.materials.j2 import Plastic
-from umform.mesh import Bent, Mesh, Sizes, bending_sizes, grid
-from umform.model import Model
-from umform.processes.draw.press import OPTIONS, Press, held_by
-from umform.processes.draw.rules import (
-    COMMON,
-    check_clearance,
-    check_stiffness,
-    layers_by_rule,
-    tight,
-    unusual_pressure,
-)
+from umform.processes.draw.spec import Draw, Turn, check_clearance, tight, unusual_pressure
 from umform.processes.limit import allowed_penetration
-from umform.processes.rules import check_rules, length
-from umform.results.forming.u_bend import HEIGHTS
-from umform.solution.options import NewtonOptions
-from umform.steps import Pace
-from umform.surfaces import Box, Plane, UDie
+from umform.spec.types import ContactPoints, Force, Friction, Length, Penalty
 
+if TYPE_CHECKING:
+    from umform.mesh import Mesh, Sizes
+    from umform.model import Model
+    from umform.processes.draw.press import Press
+    from umform.solution.options import NewtonOptions
+
+#: Tools and blank of the NUMISHEET benchmark 93.
+NUMISHEET: dict[str, Any] = {
+    "thickness": 0.78,
+    "length": 350.0,
+    "width": 35.0,
+    "punch_width": 50.0,
+    "punch_edge": 5.0,
+    "die_edge": 5.0,
+    "holder_force": 2450.0,
+}
 #: Usual clearance beside the punch in thicknesses, that of NUMISHEET 93: 1 mm for a sheet of 0.78 mm.
 CLEARANCE = 1.0 / 0.78
 #: A given penalty of the holder over that of the other tools, and its allowed penetration in thicknesses by which it is
 #: chosen otherwise, eq. (4.29). A stiff plane touches the sheet only in front of the edge of the die; the rest of the
 #: flange then lies without pressure between two planes, its contact is not determined, and Newton's method fails.
 _HOLDER, _GIVEN_WAY = 0.06, 1.0 / 100.0
-_RULES = COMMON | {
-    "length": length("the length of the blank", "in mm, such as 350"),
-    "punch_width": length("the width of the punch", "in mm, such as 50"),
-    "opening": length("the opening of the die", "in mm, such as 52"),
-    "width": length("the width of the blank", "in mm, such as 35; forces are those on it"),
-}
+
+
+def _options() -> NewtonOptions:
+    """The parabola suits the steady flow over the edge of the die."""
+    from umform.processes.draw.press import OPTIONS
+
+    return replace(OPTIONS, extrapolate=2)
 
 
 @dataclass(frozen=True, kw_only=True)
-class UBend:
-    r"""Parameters of a U-bend in mm, N and MPa; half of it is computed, in plane strain. ::
+class UBend(Draw):
+    r"""A U-bend, in mm, N and MPa. ::
 
                     | punch |            punch_width, punch_edge
         holder      |       |     holder
@@ -55,87 +54,64 @@ class UBend:
         ---------.  punch_edge  .-------
            die    |            |         opening, die_edge
 
-    Parameters
-    ----------
-    thickness, length, width : float
-        The blank.
-    material : J2 or Metal
-        Law of the sheet.
-    punch_width, punch_edge, opening, die_edge : float
-        Widths of the punch and of the opening of the die, and the radii of their edges.
-    holder_force : float
-        Force on the whole holder.
-    friction : float
-        Coefficient of friction on all tools.
-    stroke : float, optional
-        Travel of the punch; default: a fifth of the length of the blank.
-    element : str
-        Name in the catalogue.
-    turn : float
-        Largest angle in degrees that an element turns over the edge of the punch or of the die.
-    layers, thickness_points, contact_points
-        As for :class:`Cup`.
-    penalty : float, optional
-        Pressure per penetration on die and punch; on the holder 0.06 of it. Default: by the allowed penetration, eqs.
-        (4.29) and (4.190).
-    newton, pace
-        As for :class:`Cup`. The parabola suits the steady flow over the edge of the die.
+    Half of it is computed, in plane strain.
     """
 
     kind: ClassVar[str] = "u-bend"
-    thickness: float
-    length: float
-    width: float
-    material: Plastic
-    punch_width: float
-    punch_edge: float
-    opening: float
-    die_edge: float
-    holder_force: float
-    friction: float = 0.144
-    stroke: float | None = None
+    groups: ClassVar = Draw.groups | {"length": "Sheet", "punch_width": "Tools"}
+    meshes: ClassVar = {"coarse": {"element": "BEND8", "turn": 20.0, "contact_points": 3}, "fine": {"turn": 12.0}}
+
+    length: Length
+    """Length of the blank."""
+    width: Length
+    """Width of the blank."""
+    punch_width: Length
+    """Width of the punch."""
+    opening: Length | None = None
+    """Width of the opening of the die; without it, that of the punch plus 2.56 thicknesses."""
+    holder_force: Force
+    """Force on the whole holder: both sides, all of the width."""
+    friction: Friction = 0.144
+    stroke: Length | None = None
+    """Travel of the punch; without it, a fifth of the length of the blank."""
     element: str = "BEND18"
-    turn: float = 17.0
-    layers: int | None = 1
-    thickness_points: int | None = None
-    contact_points: int = 4
-    penalty: float | None = None
-    newton: NewtonOptions = replace(OPTIONS, extrapolate=2)
-    pace: Pace = Pace()
+    turn: Turn = 17.0
+    contact_points: ContactPoints = 4
+    penalty: Penalty | None = None
+    """Contact pressure per penetration on die and punch, 0.06 of it on the holder; without it, by the allowed
+    penetration, eqs. (4.29) and (4.190)."""
+    newton: NewtonOptions = field(default_factory=_options)
 
     def __post_init__(self) -> None:
-        values = self.record()
-        check_rules({name: values[name] for name in _RULES}, _RULES)
-        check_stiffness(self.material)
-        if self.holder_force is None:
-            raise InvalidValue("a U-bend has a holder that is pressed", where="holder_force", remedy="a force in N")
+        super().__post_init__()
         wanted = self.punch_width + 2.0 * CLEARANCE * self.thickness
         remedy = f"about {wanted:.4g}"
-        check_clearance(self.clearance, self.thickness, where="opening", value=self.opening, remedy=remedy)
-        if not 0.5 * self.length > 0.5 * self.opening + self.die_edge + self.way:
+        check_clearance(self.clearance, self.thickness, where="opening", value=self.throat, remedy=remedy)
+        if not 0.5 * self.length > 0.5 * self.throat + self.die_edge + self.way:
             raise InvalidValue(
                 "the blank is drawn off the die before the end of the stroke",
                 where="stroke",
                 value=self.way,
-                cause=f"half of the blank is {0.5 * self.length:.4g}, {0.5 * self.opening + self.die_edge:.4g} of it "
+                cause=f"half of the blank is {0.5 * self.length:.4g}, {0.5 * self.throat + self.die_edge:.4g} of it "
                 "over the opening",
                 remedy="a shorter stroke, or a longer blank",
             )
 
-    def record(self) -> dict[str, Any]:
-        """All parameters by name."""
-        return {field.name: getattr(self, field.name) for field in fields(self)}
-
     @property
     def clearance(self) -> float:
         """Gap beside the punch in the die."""
-        return 0.5 * (self.opening - self.punch_width)
+        return 0.5 * (self.throat - self.punch_width)
+
+    @property
+    def throat(self) -> float:
+        """Width of the opening of the die."""
+        return self.punch_width + 2.0 * CLEARANCE * self.thickness if self.opening is None else self.opening
 
     @property
     def warnings(self) -> list[str]:
         """Unusual parameters."""
         wanted = self.punch_width + 2.0 * CLEARANCE * self.thickness
-        flange = self.width * (self.length - self.opening - 2.0 * self.die_edge)
+        flange = self.width * (self.length - self.throat - 2.0 * self.die_edge)
         pressure = unusual_pressure(self.holder_force, flange, self.material)
         return [*tight(self.clearance, self.thickness, what="an opening", wanted=wanted), *pressure]
 
@@ -147,6 +123,8 @@ class UBend:
     @property
     def heights(self) -> tuple[float, float, float] | None:
         """Heights at which the wall is measured: those of NUMISHEET 93 if it is long enough; None without a wall."""
+        from umform.results.forming.u_bend import HEIGHTS
+
         low, high = self.punch_edge + self.thickness, self.way - self.die_edge - self.thickness
         if low < HEIGHTS[0] and HEIGHTS[2] < high:
             return HEIGHTS
@@ -155,25 +133,16 @@ class UBend:
         return (low + 0.15 * (high - low), 0.5 * (low + high), high - 0.15 * (high - low))
 
     @cached_property
-    def needed_layers(self) -> int:
-        """Layers by the rule for sharp bends: eq. (2.29) for the smallest radius of the tools."""
-        radius = min(self.punch_edge, self.die_edge)
-        return layers_by_rule(self.element, self.material, self.thickness_points, self.thickness, radius)
-
-    @property
-    def stacked(self) -> int:
-        """Layers of elements."""
-        return self.needed_layers if self.layers is None else self.layers
-
-    @cached_property
     def sizes(self) -> Sizes:
         """Ends of the elements along half of the blank, which follow the radii of the tools."""
+        from umform.mesh import Bent, bending_sizes
+
         half = 0.5 * self.thickness
         flat = 0.5 * self.punch_width - self.punch_edge
         nose, edge = self.punch_edge + half, self.die_edge + half
         bent = (
             Bent(flat, flat + 0.5 * math.pi * nose, nose, "the edge of the punch"),
-            Bent(0.5 * self.opening, 0.5 * self.opening + self.die_edge + self.way, edge, "the edge of the die"),
+            Bent(0.5 * self.throat, 0.5 * self.throat + self.die_edge + self.way, edge, "the edge of the die"),
         )
         largest = max(3.0 * math.radians(self.turn) * edge, 2.0 * self.thickness)
         return bending_sizes(0.0, 0.5 * self.length, bent, turn=self.turn, largest=largest)
@@ -181,6 +150,8 @@ class UBend:
     @property
     def allowed(self) -> float:
         """Penetration allowed on the edges of punch and die. eq. (4.190)"""
+        from umform.elements import element
+
         radius = min(self.punch_edge, self.die_edge)
         chords = 1 if element(self.element).cell == "hex8" else 2
         spacing = math.radians(self.turn) * (radius + 0.5 * self.thickness) / chords
@@ -188,11 +159,22 @@ class UBend:
 
     def blank(self) -> Mesh:
         """Half of a strip of unit width, its lower face at z = 0."""
+        import numpy as np
+
+        from umform.elements import element
+        from umform.mesh import grid
+
         heights = np.linspace(0.0, self.thickness, self.stacked + 1)
         return grid(self.sizes.ends, (0.0, 1.0), heights, element(self.element).cell)
 
     def build(self) -> tuple[Model, Press]:
         """Model of half of the blank, and the press with its steps."""
+        import numpy as np
+
+        from umform.model import Model
+        from umform.processes.draw.press import Press, held_by
+        from umform.surfaces import Box, Plane, UDie
+
         t = self.thickness
         points = {} if self.thickness_points is None else {"thickness_points": self.thickness_points}
         rolling = {"rolling": (1.0, 0.0, 0.0)} if getattr(self.material, "directional", False) else {}
@@ -201,7 +183,7 @@ class UBend:
         model.fix(np.arange(len(model.mesh.points)), "y")
         deep = 2.0 * self.way + 20.0 * t
         edges, flat = self._contacts()
-        die = model.tool("die", UDie(self.opening, deep, self.die_edge, self.die_edge))
+        die = model.tool("die", UDie(self.throat, deep, self.die_edge, self.die_edge))
         model.contact("lower", die, name="on_die", **edges)
         holder = model.tool("holder", Plane((0.0, 0.0, t), (0.0, 0.0, -1.0)))
         hold = held_by(model, holder, 0.5 * self.holder_force / self.width, blocks=False)

@@ -15,7 +15,9 @@ def parameters(case: Cup | UBend) -> dict[str, Any]:
     """Parameters with their defaults; the material as text."""
     found: dict[str, Any] = {"stroke": case.way, "layers": case.stacked}
     if isinstance(case, Cup):
-        found["holder_gap"] = case.gap
+        found |= {"holder_gap": case.gap, "die_radius": case.throat}
+    else:
+        found["opening"] = case.throat
     found |= {"element": element(case.element).name, "material": repr(case.material)}
     return case.record() | found | {"newton": vars(case.newton), "pace": vars(case.pace)}
 

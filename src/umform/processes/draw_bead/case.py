@@ -8,7 +8,7 @@ from umform.elements import rolling_at
 from umform.model import Model
 from umform.processes.draw_bead.limits import Limits
 from umform.processes.draw_bead.measures import Drawn
-from umform.processes.draw_bead.parameters import DrawBead
+from umform.processes.draw_bead.spec import DrawBead
 from umform.processes.limit import FINER, Limit
 from umform.progress import Show, parts, progress_bar
 from umform.run import solve

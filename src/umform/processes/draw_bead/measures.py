@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.processes.draw_bead.limits import Limits
-from umform.processes.draw_bead.parameters import DrawBead
+from umform.processes.draw_bead.spec import DrawBead
 from umform.results import fields
 from umform.run import Result
 

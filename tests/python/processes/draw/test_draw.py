@@ -18,7 +18,7 @@ from umform.processes.draw.drawn import FORCE, FORCE_OFF
 from umform.processes.draw.endings import ending_of
 from umform.processes.draw.files import draw_blank
 from umform.processes.draw.pictures import pictures, sections
-from umform.processes.draw.rules import coarse
+from umform.processes.draw.spec import coarse
 from umform.processes.draw.words import before_the_run, summary
 from umform.results.forming import ear_profile, passage
 
@@ -349,7 +349,7 @@ def test_the_default_opening_follows_the_thickness(monkeypatch, command, kind, u
         assert CliRunner().invoke(app, ["draw", command, "--material", "DP600", *more]).exit_code == 0
     assert [type(case).__name__ for case in cases] == 3 * [kind]
     assert [case.clearance / case.thickness for case in cases] == pytest.approx(3 * [usual])
-    assert (cases[0].die_radius == 31.2) if kind == "Cup" else (cases[0].opening == 52.0)
+    assert cases[0].throat == (31.2 if kind == "Cup" else 52.0)
     refused = CliRunner().invoke(
         app, ["draw", command, "--material", "DP600", "--thickness", "1.5", "--opening", "62.4"]
     )
