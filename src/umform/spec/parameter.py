@@ -81,7 +81,7 @@ class Kind:
         if self.type is bool:
             return "true or false"
         by = {name: f"{limit:.15g}" for name, limit, _, _ in self.limits()}
-        noun = {int: "a whole number", float: "a number", str: "a text"}.get(self.type, "another object")
+        noun = {int: "a whole number", float: "a number", str: "a text"}.get(self.type, "an object")
         if {"ge", "le"} <= set(by):
             return f"{noun} from {by['ge']} to {by['le']}"
         if {"gt", "lt"} <= set(by):
@@ -101,7 +101,7 @@ class Parameter:
     name : str
         Its name.
     default : object
-        Its default; `dataclasses.MISSING` if it must be given, or is made anew for each object.
+        Its default; `dataclasses.MISSING` without one, or where a factory makes it.
     sentence : str
         What it is: a noun phrase, then, after a semicolon, what holds without it.
     kinds : tuple of Kind

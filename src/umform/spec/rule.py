@@ -72,7 +72,7 @@ def check_value(spec: type, name: str, value: Any) -> None:
     parameter = parameters(spec)[name]
     if value is None and parameter.optional:
         return
-    if not any(kind.fits(value) for kind in parameter.kinds):
+    if value is None or not any(kind.fits(value) for kind in parameter.kinds):
         subject = name if bool in (kind.type for kind in parameter.kinds) else f"the {parameter.noun}"
         what = f"{subject} must be {parameter.must_be}"
         raise _error(what, name, value, parameter.about.cause, parameter.remedy)

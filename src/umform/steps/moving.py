@@ -153,7 +153,7 @@ class Moving:
         """Whether the state is kept for pictures, for the approximate number of states."""
 
     def _cut(self, run: Run, step: Move, failure: Failed, target: float) -> None:
-        """Halve an increment that failed; after the smallest one try the nominal one, or end the run. eq. (5.132)"""
+        """Halve a failed increment; below the smallest size, try the nominal size once, or end the run. eq. (5.132)"""
         self.size, self.last_size = 0.5 * (target - self.fraction), None
         if failure.cause is Cause.CYCLE:
             time = self.start_time + target * step.time

@@ -64,6 +64,7 @@ class Tube:
         ({"points": 2.5}, "the contact points must be a whole number from 1 to 10 or auto", "a whole number"),
         ({"points": "all"}, "the contact points must be a whole number from 1 to 10 or auto", "a whole number"),
         ({"part": 0.5}, "not half of it", "another part"),
+        ({"radius": None}, "the radius of the tube must be positive and finite", "in mm, such as 20"),
         ({"hollow": 1}, "hollow must be true or false", "true or false"),
     ],
 )
@@ -164,3 +165,9 @@ def test_the_outer_description_covers_the_inner_one():
 
     about = parameters(Own)["length"].about
     assert (about.unit, about.remedy) == ("mm", "as on the drawing")
+
+
+@pytest.mark.parametrize("name", ["sheet", "bodies"])
+def test_nothing_in_place_of_an_object_is_refused(name):
+    with pytest.raises(InvalidValue, match="must be an object"):
+        BendSequence(length=80.0, bends=(Bend(position=40.0, angle=90.0),), **{name: None})

@@ -12,7 +12,7 @@ from umform.processes.air_bending.spec import AirBending
 from umform.spec import About, check_value
 from umform.spec.types import Degrees, Positive
 
-#: Smallest usual opening over thickness.
+#: Smallest usual ratio of the opening to the thickness.
 _USUAL = 5.0
 
 
@@ -29,7 +29,7 @@ class Goal:
     """Force of bottoming."""
     travel: Annotated[float, About("mm")] | None = None
     """Way beyond the stroke at which tip and flanks are one thickness apart; of bottoming."""
-    # The force that counts as zero after unloading leaves about the smallest of these as error; see `brake`.
+    # Unloading ends at a small force, not at zero (`brake`): an error of the angle of about the lower bound.
     tolerance: Annotated[float, Ge(0.001), Le(10.0), About("degrees", cause="radians, or a part of the angle")] = 0.02
     """Tolerance of the angle."""
 
