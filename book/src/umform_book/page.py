@@ -13,7 +13,8 @@ from umform_book.balance import BalanceRow, balance_row
 from umform_book.case import Case
 from umform_book.checks import Check, Verdict
 from umform_book.markdown import folded, markdown_table
-from umform_book.printed import rounded_coordinates, shown
+from umform_book.pictures import small_png, small_svg
+from umform_book.printed import shown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -139,7 +140,7 @@ class Page:
         if self.images is None:
             return
         path = save(figure, self.images / f"{self.case.name}-{name}.svg")
-        path.write_text(rounded_coordinates(path.read_text(encoding="utf-8")), encoding="utf-8")
+        path.write_text(small_svg(path.read_text(encoding="utf-8")), encoding="utf-8")
         self._show(path, caption)
 
     def shape(
@@ -156,6 +157,7 @@ class Page:
             return
         path = self.images / f"{self.case.name}-{name}.png"
         save(plot_shape(shape, values, view=view), path, dpi=90)
+        path.write_bytes(small_png(path.read_bytes()))
         self._show(path, caption)
 
     def _show(self, path: Path, caption: str) -> None:

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import re
-
 #: Numbers below this are round-off in any check.
 _ROUND_OFF = 1e-12
 #: A check with a limit up to this is about round-off or Newton's tolerance: whether it passes is all that is stable.
 _NUMERICAL = 1e-5
 #: Numbers of tables below this are round-off.
 _TABLE = 1e-10
-#: Decimals of a coordinate in a picture, in points.
-_DECIMALS = 2
 
 
 def bounded(value: float, limit: float) -> str:
@@ -49,11 +45,3 @@ def shown(value: float, digits: int = 4) -> str:
     if 0.0 < abs(value) <= _TABLE:
         return _below(_TABLE)
     return f"{value:.{digits}g}"
-
-
-def rounded_coordinates(svg: str) -> str:
-    """A picture whose coordinates, and the names made from them, do not show the last digits of what is drawn."""
-    names = dict.fromkeys(re.findall(r'id="([mp][0-9a-f]{10})"', svg))
-    numbers = {name: f"{name[0]}{number}" for number, name in enumerate(names)}
-    svg = re.sub(r'(?<=#|")[mp][0-9a-f]{10}(?=["\)])', lambda name: numbers.get(name[0], name[0]), svg)
-    return re.sub(r"\d*[1-9]\d*\.\d{3,}", lambda number: f"{float(number[0]):.{_DECIMALS}f}", svg)
