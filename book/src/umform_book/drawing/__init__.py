@@ -5,9 +5,9 @@ from umform_book.drawing import aa6016_cup, hemispherical_stretch, s_rail, spher
 
 CHAPTER = Chapter(
     "Drawing",
-    "Round and square cups beside measured ones, a cup and an S-rail that must be symmetric, a sheet stretched over "
-    "a hemisphere beside a membrane, a disc drawn by a sphere beside other codes. The [U-bend](friction-u-bend.md) of "
-    "NUMISHEET 93, and the same with [each kind of hardening](material-u-bend.md), are in the chapters on friction and "
-    "on metals.",
+    "Round and square cups compared with measurements; a cup and an S-rail that must be symmetric; a sheet stretched "
+    "over a hemisphere, compared with a membrane; a disc drawn by a sphere, compared with other codes. The "
+    "[U-bend](friction-u-bend.md) of NUMISHEET 93, also with [each kind of hardening](material-u-bend.md), is in the "
+    "chapters on friction and on metals.",
     (swift_cup.CASE, aa6016_cup.CASE, hemispherical_stretch.CASE, spherical_punch.CASE, square_cup.CASE, s_rail.CASE),
 )

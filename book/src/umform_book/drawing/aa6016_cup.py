@@ -23,7 +23,7 @@ Floats = NDArray[np.float64]
 
 #: How far from the measured mean height is good, and how far is known, mm.
 WITHIN, KNOWN = 0.5, 1.3
-_CAUSE = "the force of the holder is not among the data of the reference, and the height follows it, see the table"
+_CAUSE = "the reference does not give the force of the holder, and the height depends on it (see the table)"
 #: The coarsest mesh, the run that others are compared with, the mesh of the ears, and the run without ironing.
 _COARSE, _BASE, _FINE, _FREE = "30 degrees", "20 degrees", "15 degrees", "opening 64 mm, holder 2 kN"
 #: Radii of the blank and of the middle of the wall.
@@ -132,7 +132,7 @@ def _point(page: Page) -> None:
 
 
 def _process(page: Page, found: dict[str, Made]) -> None:
-    """Heights over the force of the holder and friction, and what they say."""
+    """Heights by holder force and friction."""
     rows: list[tuple[str | float, ...]] = [
         (f"{force} kN, friction {friction:g}", *_row(found[label]))
         for label, (force, friction) in _PROCESS.items()
@@ -184,7 +184,7 @@ def _check_ears(page: Page, found: dict[str, Made]) -> None:
         0.2,
         relative=False,
         known=0.9,
-        cause="a flat holder and the gap even the ears of both cards out, in the results of NTNU and Postech too",
+        cause="a flat holder and the gap even out the ears of both cards, in the results of NTNU and Postech too",
     )
     rows = [
         (label, cosine(found[label].flange), cosine(found[label].ears), found[label].ears.words("mm"))
@@ -253,24 +253,24 @@ CASE = Case(
     name="drawing-aa6016-cup",
     title="ESAFORM 2021: cup of AA6016-T4",
     problem="""
-A disc of 107.5 mm and 1 mm is drawn through a die of 62.4 mm (edge 10 mm) by a punch of 60 mm (edge 5 mm): a quarter,
-one layer of ANS3DEAS. Heights by the process are those of 8 elements around it and at most 20 degrees an element over
-an edge; ears (also those of Postech, isotropic, without ironing) those of 12 and 15 degrees. The holder is pressed with
-40 kN and lies on distance blocks at 1.04 mm; friction 0.09, with the card of Postech its 0.1; penalty 1e5 MPa/mm at
-2 x 2 points a facet. The rim is ironed in the gap of 1.2 mm between punch and die. Then the die and the holder open,
-then the punch, and the height of the rim above the bottom is measured. E = 70 GPa, nu = 0.33, hardening of Voce; the
-two cards of Yld2004-18p of the benchmark. cos 4θ is its amplitude in the height: positive for ears in and across the
-rolling direction, negative for ears between them. The punch force is the largest mean over the passage of one element,
-with its ripple as the band, eq. (5.72).
+A disc of 107.5 mm in diameter, 1 mm thick, is drawn by a punch of 60 mm (edge radius 5 mm) through a die of 62.4 mm
+(edge radius 10 mm). The model is a quarter with one layer of ANS3DEAS. Runs for the height have 8 elements around the
+quarter, and an element turns by at most 20 degrees over an edge. Runs for the ears (also Postech, isotropic, without
+ironing) have 12 elements and 15 degrees. The holder presses with 40 kN; distance blocks stop it at 1.04 mm. Friction is
+0.09, with the card of Postech 0.1. The penalty is 1e5 MPa/mm at 2 x 2 points per facet. The gap of 1.2 mm between punch
+and die irons the rim. Then die and holder open, then the punch, and the height of the rim above the bottom is measured.
+E = 70 GPa, nu = 0.33, hardening of Voce; the two cards of Yld2004-18p of the benchmark. cos 4θ: amplitude of this
+harmonic in the height, positive for ears at 0 and 90 degrees to the rolling direction, negative for ears between them.
+The punch force is the largest mean over the passage of one element; its ripple is the band, eq. (5.72).
 """,
     reference="""
 Habraken et al. 2022, Int. J. Mater. Form. 15, 61: measured profile (25 digitised points) and profiles of teams,
-digitised by S. C. Soare (PolyN). The profiles of the teams have means of 30.6 to 34.5 mm. Tools and distance of the
-holder are those of the input files in PolyN, friction and hardening those of NTNU. Those files are for shells without
-a thickness in contact, whose flange cannot press against a holder that keeps its distance, and whose wall is not
-ironed; the table has the profiles of these shells with the two cards. A flange of solid elements thickens against the
-holder, and the cup tears where the holder keeps its distance. So the holder is pressed; its force is not in the files,
-40 kN is an assumption, and a table shows the height by this force and by friction.
+digitised by S. C. Soare (PolyN). The mean heights of the teams are 30.6 to 34.5 mm. Tools and distance of the holder
+are those of the input files in PolyN, friction and hardening those of NTNU. The files use shells without thickness in
+contact: their flange cannot press against a holder at a fixed distance, and their wall is not ironed. The table has the
+profiles of these shells with the two cards. A flange of solid elements thickens against the holder; at a fixed distance
+the cup tears. So here a force presses the holder. The files do not give it: 40 kN is an assumption, and a table shows
+the height by this force and by friction.
 """,
     run=run,
     cost=280.0,

@@ -44,9 +44,9 @@ _BUDGET = {
 #: Known misses of strains with 8-node elements: without friction, and with.
 _KNOWN = {0.0: 0.03, 0.3: 0.06}
 _CAUSE = (
-    "flat elements: the error falls with their size, elements with curved faces do not have it at a third of their "
-    "number, and neither places of contact nor slip matter (budget); near the largest tension that the metal can bear, "
-    "a little tension is much strain"
+    "flat elements: the error falls with their size, and curved elements do not have it with a third of the number; "
+    "contact points and slip have no effect (budget). Near the largest tension that the metal can carry, a small "
+    "change of tension is a large change of strain"
 )
 
 
@@ -127,7 +127,7 @@ def _ends(found: Dome | Stretched) -> tuple[float, float]:
 
 
 def _budget(page: Page, domes: dict[str, Dome]) -> None:
-    """What contact and increments do."""
+    """Effect of contact and increments."""
     rows = []
     for (mesh, change), setup in _BUDGET.items():
         dome, base = made(page, f"{mesh}, {change}", setup, 0.3), domes[mesh]
@@ -165,18 +165,18 @@ CASE = Case(
     name="drawing-hemispherical-stretch",
     title="Stretching over a hemispherical punch",
     problem=f"""
-A disc of {THICKNESS:g} mm is clamped at a radius of {CLAMP:g} mm, where the shoulder of the die (radius {SHOULDER:g}
-mm) begins, and stretched by a spherical punch of {PUNCH:g} mm over {STROKES[-1]:g} mm; the tools are those of the
-tests of Ghosh and Hecker (1975) that Wang and Budiansky (1978) computed. Mild steel, isotropic: E = 206 GPa, nu = 0.3,
-565.32 (0.007117 + p)^0.2589 MPa. Without friction and with mu = 0.3 on both tools. A quarter of the disc, one layer;
-the size is that along the radius, half of it over the shoulder; penalty 2e4 MPa/mm.
+A disc, {THICKNESS:g} mm thick, is clamped at a radius of {CLAMP:g} mm, where the shoulder of the die (radius
+{SHOULDER:g} mm) begins. A spherical punch of radius {PUNCH:g} mm stretches it over {STROKES[-1]:g} mm. The tools are
+those of the tests of Ghosh and Hecker (1975), which Wang and Budiansky (1978) computed. Mild steel, isotropic: E = 206
+GPa, nu = 0.3, 565.32 (0.007117 + p)^0.2589 MPa. Without friction, and with mu = 0.3 on both tools. A quarter of the
+disc, one layer. The element size is that along the radius, half of it over the shoulder; penalty 2e4 MPa/mm.
 """,
     reference="""
 Geometry: "Stretching of a thin sheet with a hemispherical punch" in the Example Problems of Abaqus. The reference is a
-membrane that is integrated apart in numpy: conical elements along the meridian, logarithmic strains, J2 in plane stress
-by backward Euler, contact and friction at the nodes of the middle surface, half of the present thickness from the
-tools. It knows no bending: over the shoulder of the die, and while the strains are small, the sheet carries more (the
-force at 6 mm). Strains are compared within 50 mm.
+membrane, computed separately in numpy: conical elements along the meridian, logarithmic strains, J2 in plane stress by
+backward Euler, contact and friction at the nodes of the middle surface, half of the current thickness from the tools.
+The membrane has no bending stiffness. Over the shoulder of the die, and while the strains are small (force at 6 mm), a
+sheet carries more. Strains are compared within 50 mm.
 """,
     run=run,
     cost=80.0,

@@ -61,7 +61,7 @@ def middle(x: Floats) -> Floats:
 
 
 def swept(profile: Profile, name: str, chord: float = 0.05, along: int = 80) -> Triangulated:
-    """A section led along the middle line, as triangles with the normals of the section."""
+    """A section swept along the middle line, as triangles with the normals of the section."""
     section = profile.points(chord, beyond=BESIDE)
     across = Extruded(profile).gap(np.insert(section, 1, 0.0, axis=1))[1][:, [0, 2]]
     t = np.linspace(-OVER, 1.0 + OVER, along + 1)
@@ -148,7 +148,7 @@ class Made:
 
 
 def unevenness(mesh: Mesh, u: Floats) -> float:
-    """Largest distance between a node and the one that half a turn about the middle takes to its place."""
+    """Largest distance between a node and its image under half a turn about the middle."""
     _, other = cKDTree(mesh.points).query(np.array([LENGTH, 0.0, 0.0]) + mesh.points * [-1.0, -1.0, 1.0])
     return float(np.linalg.norm(u[other] - u * [-1.0, -1.0, 1.0], axis=1).max())
 
@@ -222,17 +222,17 @@ CASE = Case(
     problem=f"""
 A blank of {LENGTH:g} x {2 * BLANK:g} x {THICKNESS:g} mm is drawn by {STROKE:g} mm to a rail whose middle line is
 y = {SWAY:g} cos(pi x / {LENGTH:g}) mm. Opening {2 * HALF:g} mm wide, clearance {CLEARANCE:g} mm on each side, all radii
-{RADIUS:g} mm, holder {HOLDER / 1e3:g} kN, mu = {FRICTION:g}. Die and punch are sections led along the middle line, 4320
-and 2400 triangles with the normals of the section; the holder is a plane. E = 206 GPa, nu = 0.3, hardening
+{RADIUS:g} mm, holder {HOLDER / 1e3:g} kN, mu = {FRICTION:g}. Die and punch are sections swept along the middle line,
+4320 and 2400 triangles with the normals of the section; the holder is a plane. E = 206 GPa, nu = 0.3, hardening
 567 (0.0071 + p)^0.264 MPa. ANS3DEAS in one layer, 2 x 2 contact points, penalty {PENALTY:g} MPa/mm; only holder and
 friction hold the blank. Degrees: largest angle that an element turns over a radius; along: elements along the rail.
 """,
     reference="""
 No published rail has these tools. The forces published for the S-rail of NUMISHEET 96 (239.9 and 238.8 kN by two codes
-at a stroke of 40 mm: Ida et al., J. Phys.: Conf. Ser. 1063 (2018) 012100) come without the tools. So the page checks
-what holds for any answer: all meshes reach the end of the stroke, forces and work balance, and half a
-turn about the middle takes blank and tools, hence the rail, to themselves. The difference between two meshes is one of
-umform from itself.
+at a stroke of 40 mm: Ida et al., J. Phys.: Conf. Ser. 1063 (2018) 012100) are published without the tools. So the page
+checks what must hold for any answer: every mesh reaches the end of the stroke, forces and work balance, and the rail is
+symmetric, since half a turn about the middle maps blank and tools onto themselves. Two meshes compare umform with
+itself.
 """,
     run=run,
     cost=190.0,

@@ -29,7 +29,7 @@ from umform_book.drawing.spherical import (
 from umform_book.page import Page
 from umform_book.references import table
 
-#: Runs of the page: both metals, and what is varied of the first, whose law is the cheaper one.
+#: Runs of the page: both metals, and variants of the first, whose law is cheaper.
 METALS = {"Mises": Setup(MISES), "Yld2004": Setup(ALUMINIUM)}
 VARIED = {
     "3 mm": Setup(MISES, 3.0, 4),
@@ -49,7 +49,7 @@ BUDGET = {
 OUTSIDE = 0.01
 #: Known miss with Mises, whose band is narrow and steep over the edge of the die.
 _KNOWN = 0.012
-_CAUSE = "mesh: elements of 3 in place of 2 mm change the strains by 0.01, see the budget"
+_CAUSE = "mesh: elements of 3 mm instead of 2 mm change the strains by 0.01 (see the budget)"
 #: Largest relative change of the volume, which is elastic: that of balanced tension of 400 MPa.
 VOLUME = 2.0 * 400.0 * (1.0 - 2.0 * 0.33) / 69.2e3
 
@@ -100,7 +100,7 @@ def run(page: Page) -> None:
 
 
 def _budget(page: Page, found: dict[str, Drawn]) -> None:
-    """What mesh, layers, penetration, element and yield function do."""
+    """Effect of mesh, layers, penetration, element and yield function."""
     rows = []
     for label, other in BUDGET.items():
         if label not in found or other not in found:
@@ -130,8 +130,8 @@ CASE = Case(
     name="drawing-spherical-punch",
     title="Deep drawing of AA5182-O by a spherical punch",
     problem=f"""
-A disc of {2 * BLANK:g} mm and {THICKNESS:g} mm lies between die and holder, which keep a gap of {GAP:g} mm; a
-spherical punch of radius {PUNCH:g} mm draws it by {STROKE:g} mm through an opening of {2 * DIE:g} mm, edge
+A disc of {2 * BLANK:g} mm in diameter, {THICKNESS:g} mm thick, lies between die and holder with a fixed gap of {GAP:g}
+mm. A spherical punch of radius {PUNCH:g} mm draws it by {STROKE:g} mm through an opening of {2 * DIE:g} mm, edge radius
 {DIE_EDGE:g} mm; mu = {FRICTION:g} on all tools. E = 69.2 GPa, nu = 0.33, yield stress 126 + 189.1 (1 - exp(-13.1 p)) +
 220.7 p MPa; Mises, and Yld2004-18p of the card AA5182-O. A quarter, one layer of BEND18, elements of 2 mm along the
 radius and 6 on the quarter of the rim, 3 x 3 contact points, penalty 2e4 MPa/mm. The rolling direction is x. The sheet
@@ -140,10 +140,10 @@ is not released.
     reference="""
 Example 4 of the UMMDp (tools, hardening, coefficients). Strains: Inoue, Takizawa, Kuwabara 2018, J. Phys. Conf. Ser.
 1063, 012102, fig. 3: eight results of four codes along the rolling direction, with Mises and with Yld2004-18p, each
-with five layers of linear solid elements. They are results of codes, not measured ones. The lowest and the highest
-were read from the figure to 0.005; with Yld2004 the codes are up to 0.11 apart. Of forces and of the draw-in nothing
-was published: those numbers stand here without a reference. Without directions the cup must be symmetric
-about 45 degrees, as the mesh is; plastic flow keeps the volume.
+with five layers of linear solid elements. These are results of codes, not measurements. The lowest and the highest
+were read from the figure to 0.005; with Yld2004 the codes are up to 0.11 apart. Forces and draw-in were not published:
+the page shows them without a reference. With an isotropic metal the cup must be symmetric about 45 degrees, as the mesh
+is; plastic flow keeps the volume.
 """,
     run=run,
     cost=400.0,

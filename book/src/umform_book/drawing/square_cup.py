@@ -221,7 +221,7 @@ def run(page: Page) -> None:
 
 
 def _end(page: Page, late: dict[str, Made]) -> None:
-    """The aluminium at the last stroke beside the published row, and what its mesh does."""
+    """The aluminium at the last stroke beside the published row, and the effect of its mesh."""
     if not {COARSE_END, FINE_END} <= late.keys():
         return
     coarse, fine = late[COARSE_END], late[FINE_END]
@@ -238,7 +238,7 @@ def _end(page: Page, late: dict[str, Made]) -> None:
 
 
 def _budget(page: Page, found: dict[str, Made]) -> None:
-    """What mesh, r-values, contact and friction do at the first stroke."""
+    """Effect of mesh, r-values, contact and friction at the first stroke."""
     base = found[BASE]
     rows = [
         (label, cup.side - base.side, cup.diagonal - base.diagonal, 100.0 * (cup.force / base.force - 1.0))
@@ -269,24 +269,24 @@ CASE = Case(
     name="drawing-square-cup",
     title="NUMISHEET 93: square cups of aluminium and mild steel",
     problem=f"""
-A blank of {BLANK:g} x {BLANK:g} mm is drawn by {STROKE:g} mm, others by {DEEP:g} mm: punch {PUNCH:g} x {PUNCH:g}
-mm with corners of {PUNCH_CORNER:g} mm and an edge of {PUNCH_EDGE:g} mm; opening {OPENING:g} x {OPENING:g} mm with
-corners of {DIE_CORNER:g} mm and an edge of {DIE_EDGE:g} mm; holder {HOLDER / 1e3:g} kN. Aluminium: {THICKNESS:g} mm,
+A blank of {BLANK:g} x {BLANK:g} mm is drawn by {STROKE:g} mm, in some runs by {DEEP:g} mm. Punch {PUNCH:g} x {PUNCH:g}
+mm, corner radius {PUNCH_CORNER:g} mm, edge radius {PUNCH_EDGE:g} mm; opening {OPENING:g} x {OPENING:g} mm, corner
+radius {DIE_CORNER:g} mm, edge radius {DIE_EDGE:g} mm; holder {HOLDER / 1e3:g} kN. Aluminium: {THICKNESS:g} mm,
 mu = {FRICTION:g} on all tools, E = 71 GPa, nu = 0.33, hardening 576.79 (0.01658 + p)^0.3593 MPa, isotropic; one run has
 Hill48 from the r-values 0.71, 0.58, 0.70. Mild steel: {STEEL_THICKNESS:g} mm, mu = {STEEL_FRICTION:g}, the card
 "NUMISHEET93 mild steel": E = 206 GPa, nu = 0.3, 565.32 (0.007117 + p)^0.2589 MPa, Hill48 from 1.79, 1.51, 2.27. A
-quarter, one layer of ANS3DEAS, 2 x 2 contact points, penalty 1000 MPa/mm (to {DEEP:g} mm: 1e4). The size is that of the
-elements over the edges of the tools; on the flat of the punch they are 2.5, at the rim 1.6 times as large. Draw-in: way
-of the middle of the sides, and of the corner of the blank along the diagonal.
+quarter, one layer of ANS3DEAS, 2 x 2 contact points, penalty 1000 MPa/mm (to {DEEP:g} mm: 1e4). The element size is
+that over the edges of the tools; elements on the flat of the punch are 2.5 times as large, at the rim 1.6 times.
+Draw-in: displacement of the middle of the sides, and of the corner of the blank along the diagonal.
 """,
     reference="""
-Mean of the measured draw-in, and the numbers of another code with brick elements and isotropic flow: "Sheet Forming in
-DEFORM 3D" of the manual of DEFORM, table of the square cup, with one decimal, and thickness, holder force and friction
-of the aluminium. The manual gives both strokes for aluminium; in the benchmark, as it is remembered, the aluminium was
-drawn by 15 mm and the steel by 40 mm, so the row at 40 mm may be of steel: it stands beside both metals, unchecked.
-No other published draw-in of the steel was found. Radii of the tools, hardening and friction of the steel are those
-that are widely used for the benchmark; they are not in that source. Single measurements are not given: at 15 mm 0.5 mm
-are taken for what the mean may be off.
+Mean of the measured draw-in, and results of another code with brick elements and isotropic flow: "Sheet Forming in
+DEFORM 3D" in the manual of DEFORM, table of the square cup, with one decimal. Thickness, holder force and friction of
+the aluminium are from there too. The manual lists both strokes under aluminium. In the benchmark, from memory, the
+aluminium was drawn by 15 mm and the steel by 40 mm, so the row at 40 mm may belong to the steel: the table shows it
+beside both metals, without a check. No other published draw-in of the steel was found. Tool radii, hardening and
+friction of the steel are those widely used for the benchmark; they are not in that source. Single measurements are not
+given: the check at 15 mm allows the mean an error of 0.5 mm.
 """,
     run=run,
     cost=320.0,

@@ -13,7 +13,7 @@ from umform_book.page import Page
 
 
 def hill_of(metal: Metal) -> Metal:
-    """The function of Hill that a quadratic Yld2004 is whose shears across the sheet are 1: the same yield stresses."""
+    """The function of Hill that equals a quadratic Yld2004 whose shears across the sheet are 1: same yield stresses."""
     given = metal.yield_function
     s0, s45, s90 = (uniaxial(given, angle)[0] for angle in (0.0, 45.0, 90.0))
     function = Hill48.from_stresses(s0, s45, s90, balanced(given)[0])
@@ -49,14 +49,14 @@ CASE = Case(
     name="drawing-swift-cup",
     title="Cups with known answers: symmetry, and a quadratic Yld2004 beside Hill48",
     problem="""
-The cup of the page on AA6016-T4 on a coarse mesh (30 degrees over an edge, penalty 1e4), drawn and released: with an
-isotropic metal, whose cup is the same at theta and 90 degrees - theta; with the card of NTNU of Yld2004, but the
-exponent 2; and with the function of Hill that this is.
+The cup of the [page on AA6016-T4](drawing-aa6016-cup.md) on a coarse mesh (30 degrees over an edge, penalty 1e4), drawn
+and released with three metals: an isotropic one, whose cup is the same at theta and 90 degrees - theta; the card of
+NTNU of Yld2004 with the exponent 2; and the function of Hill that equals it.
 """,
     reference="""
-Symmetry: the mesh is symmetric about 45 degrees, and so is the cup but for the heights of its points. Quadratic
-Yld2004: a quadratic function of the deviator that is symmetric about the axes of the sheet is that of Hill (1948); its
-constants follow from the yield stresses at 0, 45 and 90 degrees and in balanced tension.
+Symmetry: the mesh is symmetric about 45 degrees, and so is the cup, except for the staggered heights of the thickness
+points. Quadratic Yld2004: a quadratic function of the deviator that is symmetric about the axes of the sheet is that of
+Hill (1948); its constants follow from the yield stresses at 0, 45 and 90 degrees and in balanced tension.
 """,
     run=run,
     cost=40.0,
