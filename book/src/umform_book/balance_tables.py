@@ -14,7 +14,7 @@ from umform_book.newton_order import LOW, REASONS
 from umform_book.outcome import Outcome
 from umform_book.printed import bounded
 
-#: Imbalances up to this are Newton's tolerance and round-off: a bound stands for them.
+#: Imbalances up to this are Newton's tolerance and round-off, and are printed as a bound.
 _TOLERANCE = 1e-6
 
 #: Columns of the page of all cases.

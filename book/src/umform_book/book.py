@@ -117,7 +117,7 @@ def run_cases(
     processes: int | None = None,
     tick: Callable[[str, float], None] = lambda what, done: None,
 ) -> dict[str, Outcome]:
-    """Run cases and write their pages; then write the pages of all cases from what is stored of this run and others.
+    """Run cases and write their pages; then write the pages of all cases from the stored results of all runs.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Parts of a deck of CalculiX, and what it prints: for the cases of the book and for the comparison of codes.
+"""Parts of a deck of CalculiX and its output: for the cases of the book and for the comparison of codes.
 
 Keywords as in G. Dhondt, CalculiX CrunchiX User's Manual, version 2.20.
 """
@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-#: CalculiX takes what it finds as penetration at the beginning of the first step for one of the mesh, and removes it in
-#: proportion to the time of each step. A first step as short as this leaves nothing to remove: without it the force at
-#: a displacement depends on the stroke of the step.
+#: Displacement of the first step. CalculiX treats a penetration at the beginning of the first step as one of the mesh,
+#: and removes it in proportion to the time of each step. Without a short first step the force at a displacement depends
+#: on the stroke of the step.
 FIRST = 0.01
 #: Edges of a hexahedron in the order of its mid-side nodes.
 EDGES = ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7))

@@ -36,7 +36,7 @@ class Check:
     what : str
         What was measured, on which element and mesh.
     found, reference : float
-        The number and what it should be.
+        The number and its reference.
     within : float
         Largest deviation that passes.
     relative : bool
@@ -79,7 +79,7 @@ class Check:
 
     @property
     def verdict(self) -> Verdict:
-        """The verdict; what is not a number is red."""
+        """The verdict; NaN is red."""
         size = abs(self.deviation)
         if not math.isfinite(size):
             return Verdict.RED
@@ -91,7 +91,7 @@ class Check:
 
     @property
     def note(self) -> str:
-        """Why the check is not green; empty if it is, or if nobody knows."""
+        """Why the check is not green; empty if it is, or if the cause is unknown."""
         if self.verdict in (Verdict.GREEN, Verdict.RED):
             return ""
         if not self.theory:
@@ -126,7 +126,7 @@ class Check:
         return f"{100 * self.within:.4g} %" if self.relative else f"{self.within:.4g}"
 
     def cells(self) -> tuple[str, ...]:
-        """What stands in the table of checks: what, reference, found, deviation, limit, verdict."""
+        """The cells of the table of checks: what, reference, found, deviation, limit, verdict."""
         if self.reference == 0.0:  # found and deviation are the same
             found, deviation = self.miss, "-"
         else:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 #: An order below this is low and needs a reason.
 LOW = 1.8
-#: Residual over error tells which kind of error is left: by more than so much up or down it is another kind.
+#: Residual over error characterises the kind of error: a larger factor, up or down, is another kind.
 _ANOTHER_KIND = 2.0
 #: An error that has not fallen by this factor is no error of a converging iteration yet.
 _CONVERGING = 3.0
@@ -39,9 +39,9 @@ class NewtonOrder:
     Attributes
     ----------
     order : float or None
-        Median over the increments of the order of their last two steps; None where no increment tells one.
+        Median over the increments of the order of their last two steps; None if no increment has one.
     measured : int
-        Number of increments that tell one.
+        Number of increments with an order.
     low : dict of str to int
         Of these, how many have an order below 1.8, by reason.
     """
@@ -75,8 +75,8 @@ def measurable(iterations: Sequence[Iteration]) -> list[Iteration]:
     """Iterations whose error stands out of round-off.
 
     The error is measured by the energy r . du of the increment, whose root is a norm of it. An energy at round-off
-    tells nothing: round-off is where the residual of the last iteration is, at the lowest. Where an increment was made
-    in several passes, the last one counts.
+    is useless; round-off is at least the residual of the last iteration. Of an increment with several passes the last
+    one counts.
     """
     if not iterations:
         return []
@@ -86,7 +86,7 @@ def measurable(iterations: Sequence[Iteration]) -> list[Iteration]:
 
 
 def newton_order(iterations: Sequence[Iteration]) -> float | None:
-    """Order of convergence p of the last two steps of an increment, |e_(k+1)| ~ |e_k|^p; None if it cannot be told."""
+    """Order of convergence p of the last two steps of an increment, |e_(k+1)| ~ |e_k|^p; None for less than three."""
     errors = [math.sqrt(record.energy) for record in measurable(iterations)]
     if len(errors) < 3:
         return None

@@ -24,7 +24,7 @@ Floats = NDArray[np.float64]
 
 
 def diaphragms(finest: int = 96, coarser: int = 64) -> dict[str, Floats]:
-    """First point of the curves of the elastic pinched cylinder, and two coarser meshes that tell how certain it is."""
+    """First point of the curves of the elastic pinched cylinder, and two coarser meshes for its uncertainty."""
     fractions = np.array([0.05])
     quietly = partial(solve, progress=False)
     columns: dict[str, Floats] = {LOAD: fractions}

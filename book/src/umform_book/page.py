@@ -77,7 +77,7 @@ class Page:
         return short if self.short else whole
 
     def each(self, items: Iterable[Item], label: Callable[[Item], str] = str) -> Iterator[Item]:
-        """Run through items and tell how far it is."""
+        """Run through items and report progress."""
         sequence = list(items)
         for number, item in enumerate(sequence):
             self.tick(label(item), number / len(sequence))

@@ -46,7 +46,7 @@ def summary_text(chapters: Sequence[Chapter], outcomes: Mapping[str, Outcome]) -
             table = markdown_table(("case", "", "of limit", "worst check"), rows)
             parts += [f"## {chapter.title}", chapter.about, table]
     used = "; ".join(dict.fromkeys(outcome.versions for outcome in outcomes.values() if outcome.versions))
-    parts += ["\\* umform computed the reference or a part of it; the page says which."]
+    parts += ["\\* umform computed the reference or a part of it; the page names the part."]
     parts += [f"Made with {used}."] if used else []
     return "\n\n".join(parts) + "\n"
 

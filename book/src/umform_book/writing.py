@@ -75,7 +75,7 @@ def worst(checks: Iterable[Judged]) -> Judged | None:
 
 
 def worst_sentence(checks: Sequence[Check]) -> str:
-    """What misses, or what is nearest to its limit."""
+    """The check that misses most, or is nearest to its limit."""
     check = worst(checks)
     if check is None:
         return "There is no check."

@@ -20,9 +20,9 @@ from umform_book.sharp_bends.candidates import Candidate
 from umform_book.variants import Variant
 
 STROKE = 5.5
-#: What the angle (degrees), the largest force and the springback may differ by from the reference, and what is known.
+#: Limits of angle (degrees), largest force and springback against the reference, and known deviations.
 WITHIN = {"angle": (0.4, 1.0), "force": (0.01, 0.04), "springback": (0.02, 0.06)}
-#: One layer: what is known of its angle.
+#: Known deviation of the angle of one layer, degrees.
 ONE_KNOWN = 3.0
 
 
@@ -127,7 +127,7 @@ def _plot(page: Page, found: Found) -> None:
 
 @dataclass(frozen=True)
 class Metal(Candidate):
-    """A candidate of the metal of the brake, whatever hardening is asked for."""
+    """A candidate of the metal of the brake; it ignores the hardening that is passed."""
 
     def strip(
         self,

@@ -69,7 +69,7 @@ class Arc(ArcBending):
         return np.asarray(1.0 / self.curvature + z + self.w)
 
     def closed_springback(self) -> float:
-        """What the closed form says of its moment and radii."""
+        """Moment and radii of the closed form."""
         radii, material = self.radii(), self.model.material
         assert isinstance(material, J2)
         return springback(self.moment, radii[0], radii[-1], material)

@@ -127,7 +127,7 @@ def _judge(page: Page, bend: Bluntness, found: Runs) -> None:
     page.check(f"{bend.label}, default: outer strain", strain(found[DEFAULT]), stretched, 0.04)
     if page.short:
         return
-    # points come to lie above and below where the fibres yield: no more than what the default may be off in all
+    # the heights of points relative to the border of flow change with their number: the limit is that of the default
     page.check(f"{bend.label}, 8 points for 6: outer strain", strain(found[EIGHT]), strain(found[DEFAULT]), 0.04)
     what = f"{bend.label}, one layer: outer strain"
     page.check(what, strain(found[SINGLE]), stretched, 0.04, known=0.27, cause=ONE_LAYER, theory=ONE_LAYER_THEORY)

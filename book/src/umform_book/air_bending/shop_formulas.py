@@ -170,7 +170,7 @@ radii in proportion, bent to about 90 degrees and unloaded: metal like DC04; for
 Measured: largest force; inside radius R and K-factor after unloading. Rm: Considère's rule on the hardening curve.
 """,
     reference="""
-Rules of thumb, no exact references: they show that the numbers are those of a press brake.
+Rules of thumb, no exact references: they show that the results are realistic for a press brake.
 
 * Force: F = C Rm b t^2 / V with C = 1 + 4 t/V for V/t up to 10 and C = 1 above (German workshops, formula sheet
   "Berechnungen Biegen", scribd.com/doc/125260567); here 1 + 4 t/V for all V/t. Makers of press brakes print C = 1.33 to

@@ -1,4 +1,4 @@
-"""A block so large that it stands for a half-space, fine where a tool touches it."""
+"""A block that is large enough for a half-space, with a fine mesh where a tool touches it."""
 
 from __future__ import annotations
 

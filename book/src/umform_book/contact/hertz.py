@@ -56,7 +56,7 @@ class Problem:
 
 @dataclass(frozen=True)
 class Measures:
-    """What came out, over what Hertz says for the same force.
+    """Results over those of Hertz for the same force.
 
     Attributes
     ----------

@@ -223,7 +223,7 @@ eigenvalues, LAPACK), iterations in 5 increments.
 Penetration under a line force, eq. (4.14), with the relative radius of tool and strip, 1/R - M/EI; valid while the
 contact is short against the strip and long against the distance of the points. The force is linear in the travel, so
 its relative error is penetration / travel, apart from the stiffness that the width of the contact adds. The stiffest
-penalty stands for the exact force.
+penalty gives the reference of the force.
 """,
     own="for the force, the stiffest penalty of umform itself; the penetration is a closed form",
     run=run,

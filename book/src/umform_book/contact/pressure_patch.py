@@ -51,7 +51,7 @@ class Patch:
         return points == "nodes" or int(points) >= self.least
 
 
-#: MITC9 with E_12 tied fails the membrane patch test on such faces (another page), so it is asked without contraction.
+#: MITC9 with E_12 tied fails the membrane patch test on such faces (another page), so it is tested without contraction.
 _EXACT_MEMBRANE = Variant("MI9K3DEAS", {"compatible_E12": True}, "E_12 compatible")
 PATCHES = (
     Patch(Variant("ANS3DEAS"), False, 2),

@@ -55,8 +55,8 @@ def hanging(force: float, length: float) -> Hanging:
 
     On the arc the curvature is 1/R, so the moment is EI/R and constant: no shear force, a constant tension and the
     pressure of that tension. Beyond, EI psi'^2 / 2 = F (sin psi_end - sin psi). Where the strip leaves the cylinder the
-    curvature is continuous, so EI/(2 R^2) = F (sin psi_end - sin angle), and the shear force F cos(angle) that the free
-    part asks for is a line force of the tool. The tension there is F sin(angle).
+    curvature is continuous, so EI/(2 R^2) = F (sin psi_end - sin angle), and the shear force F cos(angle) of the
+    free part is balanced by a line force of the tool. The tension there is F sin(angle).
     """
     ratio = force / EI
 

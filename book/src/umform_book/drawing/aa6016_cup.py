@@ -21,7 +21,7 @@ from umform_book.references import table
 
 Floats = NDArray[np.float64]
 
-#: How far from the measured mean height is good, and how far is known, mm.
+#: Limit and known deviation of the mean height from the measured one, mm.
 WITHIN, KNOWN = 0.5, 1.3
 _CAUSE = "the reference does not give the force of the holder, and the height depends on it (see the table)"
 #: The coarsest mesh, the run that others are compared with, the mesh of the ears, and the run without ironing.
@@ -201,7 +201,7 @@ def _check_forces(page: Page, found: dict[str, Made]) -> None:
     fine = found[finest].force.value
     for label in others:
         cup = found[label]
-        if label != _COARSE:  # there the band alone tells
+        if label != _COARSE:  # there only the band is checked
             page.check(f"{label}: punch force of drawing beside {finest}, kN", cup.force.value, fine, 0.05)
         what = f"{label}: distance of its punch force from {finest} over its band"
         page.at_most(what, abs(cup.force.value - fine) / cup.force.ripple, 1.0)

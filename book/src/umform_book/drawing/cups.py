@@ -102,7 +102,7 @@ WALL = 8.0
 
 
 def make(page: Page, label: str, case: Cup) -> Made | None:
-    """Hold, draw, open; None for a run that ends before, which the page says."""
+    """Hold, draw, open; a run that ends early gives None and a sentence on the page."""
     model, press = case.build()
     where = "the run ends before the end of the stroke"
     try:

@@ -34,7 +34,7 @@ MESHES = {
     "ANS3DEAS, 2 mm": Setup(12, 2.0, "ANS3DEAS"),
 }
 _FINEST = {"BEND18": "BEND18, 4 mm", "ANS3DEAS": "ANS3DEAS, 2 mm"}
-#: What is varied of a mesh.
+#: Variants of a mesh.
 _BUDGET = {
     ("BEND18, 6 mm", "penalty 4e4"): Setup(6, 6.0, penalty=4e4),
     ("BEND18, 6 mm", "8 increments in each 6 mm"): Setup(6, 6.0, increments=8),

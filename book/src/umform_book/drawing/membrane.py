@@ -38,7 +38,7 @@ class Round:
     friction : float
         Coefficient.
     moves : bool
-        Whether it goes down with the stroke.
+        Whether it moves down with the stroke.
     """
 
     centre: tuple[float, float]
@@ -58,7 +58,7 @@ class Sheet:
 
 @dataclass(frozen=True)
 class Stretched:
-    """The membrane at each stroke asked for.
+    """The membrane at given strokes.
 
     Attributes
     ----------
@@ -226,7 +226,7 @@ def _solved(A: Floats, r: Floats) -> Floats:
 
 
 def _laid(r: Floats, stroke: float, radius: float) -> Floats:
-    """Heights of a membrane that lies on a ball and goes straight from there to its rim."""
+    """Heights of a membrane that lies on a ball and is straight from there to its rim."""
     slope = np.arcsin(radius / np.hypot(r[-1], radius - stroke)) - np.arctan2(radius - stroke, r[-1])
     ball = radius - stroke - np.sqrt(np.maximum(radius**2 - r**2, 0.0))
     return np.where(r < radius * np.sin(slope), ball + _OVERLAP, (r - r[-1]) * np.tan(slope))

@@ -18,7 +18,7 @@ _RADIUS, _WIDTH, _AROUND = 50.0, 0.3, 30
 def compressed_flange(material: Metal, blank: float, wall: float) -> EarProfile:
     r"""Lengths that the radii of a flange have in the wall, by the r-values alone.
 
-    A point of the blank at the radius R goes to the wall with the strain ln(wall / R) around the cup. Uniaxial
+    A point of the blank at the radius R reaches the wall with the strain ln(wall / R) around the cup. Uniaxial
     compression in that direction, at right angles to its radius, stretches the radius by :math:`-r / (1 + r)` of it,
 
     .. math:: h = \int_{wall}^{blank} (R / wall)^m \, dR , \qquad m = r / (1 + r) .

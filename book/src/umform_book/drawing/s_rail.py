@@ -1,4 +1,4 @@
-"""An S-shaped rail drawn between tools of triangles under a holder: both ends are alike, and meshes agree."""
+"""An S-shaped rail drawn between tools of triangles under a holder: the rail is symmetric, and meshes agree."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def tools() -> tuple[Triangulated, Triangulated]:
 
 
 def blank(setup: Setup) -> Mesh:
-    """A blank whose lines follow the rail, finer where metal goes over the radii; its outer edges are straight."""
+    """A blank whose lines follow the rail, finer where metal passes the radii; its outer edges are straight."""
     over = Bent(HALF - 6.5, 2.0 * HALF, RADIUS + 0.5 * THICKNESS)
     ends = bending_sizes(0.0, BLANK, [over], turn=setup.turn, largest=10.0).ends
     flat = grid(np.linspace(0.0, LENGTH, setup.along + 1), np.r_[-ends[:0:-1], ends], [0.0, THICKNESS])

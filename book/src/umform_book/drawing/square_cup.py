@@ -46,7 +46,7 @@ DEFORM = {STROKE: (5.5, 3.3), DEEP: (26.9, 15.5)}
 
 @dataclass(frozen=True)
 class Setup:
-    """How it is computed: size of elements where tools bend the sheet, mm, and what else may be varied."""
+    """How it is computed: element size where tools bend the sheet, mm, and the other parameters."""
 
     size: float = 3.0
     material: J2 | Metal = ALUMINIUM

@@ -96,7 +96,7 @@ def check_stairs(page: Page, found: Found) -> None:
 
 
 def check_order(page: Page, found: Found) -> None:
-    """What is said of the rules: nodes against points, two against three, a stiff penalty against a soft one."""
+    """Check the order of the rules: nodes against points, two against three, a stiff penalty against a soft one."""
     for mesh in MESHES:
         if (mesh, "nodes", PAPER) not in found:
             continue

@@ -1,4 +1,4 @@
-"""Strip drawn over a radius: the force pays for friction, bending and unbending; Swift's sum and the balance."""
+"""Strip drawn over a radius: work of friction, bending and unbending; Swift's sum and the balance."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ ELEMENT = Variant("BEND8")
 
 @dataclass(frozen=True)
 class Drawn:
-    """Numbers of the last part of the way, forces per width.
+    """Numbers of the last part of the path, forces per width.
 
     Attributes
     ----------
@@ -37,7 +37,7 @@ class Drawn:
     friction, plastic : float
         Work of friction and of plastic flow, the same.
     missing : float
-        What the force does, less the work against the weight and all energies, over what it does.
+        Work of the force minus the work against the weight and all energies, over the first.
     swing : float
         Largest minus smallest force over the mean.
     """
@@ -118,7 +118,7 @@ def run(page: Page) -> None:
         page.check(f"{label}: force less weight against friction and flow", found.force - found.weight, parts, 0.01)
         page.at_most(f"{label}: what balance misses over the work of the force", abs(found.missing), 1e-3)
     columns = ("", "force", "over the sum", "weight", "friction", "flow", "swing %")
-    page.table("The force on the last part of the way, and the works per length that it pays for", columns, rows)
+    page.table("Mean force over the last part of the path, and the work per length that it does", columns, rows)
     page.figure("force", plot(curves, "way", "force", level=swift_sum(0.1)), "Force; level: the sum for mu = 0.1")
 
 
@@ -134,9 +134,9 @@ slip. Measured on the last {MEASURED:g}, a whole number of elements.
     reference="""
 After Swift: F2 = exp(mu theta) (F1 + M/r) + M/r for a rigid-plastic strip that is bent as it runs onto the radius and
 straightened as it leaves; M = (2/sqrt 3) Y h^2/4 (1 - (sigma/(2/sqrt 3) Y)^2) under the tension there, friction at R, r
-= R + h/2. Elastic strains take 1 to 2 % of the bending, hardening adds 1 %; bending is a seventh of the force: below 1
-%. By energy: the force less the work against the weight, per length, is the work of friction and flow, on the average
-over an element: below 1 %.
+= R + h/2. Elastic strains lower the bending work by 1 to 2 %, hardening raises it by 1 %; bending is a seventh of the
+force, so the uncertainty is below 1 %. By energy, averaged over an element: the force minus the work against the
+weight, per length, equals the work of friction and flow within 1 %.
 """,
     run=run,
     cost=60.0,

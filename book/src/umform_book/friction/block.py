@@ -240,7 +240,7 @@ pressed down by {PRESSED:g}. Allowed penetration {PENETRATION:g}, allowed elasti
 and with multipliers.
 
 * By displacement: all nodes move together in the direction (0.8, 0.6), to {", ".join(f"{turn:g}" for turn in TURNS)}
-  elastic slips; then on while the face is pressed twice as far.
+  elastic slips; then further, while the face is pressed down twice as far.
 * By force: the nodes are held, 0.9 of the bound pushes the plane, and its displacement is measured.
 * Around a circle of ten elastic slips.
 """,
@@ -248,8 +248,8 @@ and with multipliers.
 Closed forms. By displacement: a spring (bound at the largest pressure so far, at least that of the allowed
 penetration, over the allowed elastic slip) that slips at mu p, with the pressure found; with multipliers the bound
 itself, against the motion of the increment. By force: traction over that spring; with multipliers less than the
-allowed slip. Circle of radius r: the elastic slip e = mu p / stiffness follows like a weight on a string, on a circle
-of radius sqrt(r^2 - e^2), and the work of a turn is 2 pi sqrt(r^2 - e^2) mu N. Uncertainty: the traction has the
+allowed slip. Circle of radius r: the elastic slip e = mu p / stiffness trails the motion at a constant angle, on a
+circle of radius sqrt(r^2 - e^2), and the work of a turn is 2 pi sqrt(r^2 - e^2) mu N. Uncertainty: the traction has the
 direction of the end of an increment, pi/n tan(lag) of the work for n increments a turn, sin(lag) = e/r; the checks
 allow twice that and the chords, 2 (pi/n)^2.
 """,

@@ -24,7 +24,7 @@ from umform_book.variants import Variant
 Floats = NDArray[np.float64]
 
 RADIUS, WIDTH, E = 10.0, 1.0, 1e5
-#: Thicknesses of the strips, and the one that stands for a membrane.
+#: Thicknesses of the strips, and that of the membrane.
 THIN, THICK = 0.02, (0.1, 0.2, 0.5)
 TENSION, PENALTY, TURN = 1.0, 100.0, 0.02
 
@@ -149,7 +149,7 @@ def thick(page: Page) -> None:
             found = measure(strip, turn(page, strip, EIGHTEEN, divisions, 3))
             over = found.ratio / strip.ratio
             rows.append((f"h/R = {h / RADIUS:g}", divisions, found.ratio, found.ratio / np.exp(0.3 * np.pi), over))
-        # The friction at the lower face asks for the shear force mu p h / 2, which free ends do not have.
+        # The friction at the lower face needs the shear force mu p h / 2, which free ends do not have.
         within = max(0.001, strip.mu**2 * h / (2.0 * RADIUS))
         page.check(f"h/R = {h / RADIUS:g}, {divisions} intervals: T2/T1", found.ratio, strip.ratio, within)
         page.at_most(f"h/R = {h / RADIUS:g}: moment on the cylinder over mu R N, less 1", found.moment, 1e-9)

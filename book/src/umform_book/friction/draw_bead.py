@@ -149,8 +149,8 @@ sharper radius. Then the same strip is drawn over a flat with the equivalent bea
 After Swift, as in [bending and unbending](friction-bending-work.md), for each of three arcs: F -> exp(mu theta) (F + B)
 + B with B = M/r, M the plastic moment in plane strain under the tension there; theta of the edges from the common
 tangent of the circles of the mid-line, 2 theta on the bead. The usual estimate of draw beads (Stoughton 1988, after the
-tests of Nine 1978, whose numbers were not available). Uncertainty 10 %: the strip is not bent to the radius at once,
-elastic strains take a part, hardening adds one.
+tests of Nine 1978, whose numbers were not available). Uncertainty 10 %: the strip is not bent to the radius at once;
+elastic strains lower the force, hardening raises it.
 """,
     run=run,
     cost=150.0,

@@ -53,7 +53,7 @@ class Sliding:
 def sliding(weight: float, radius: float, angle: float, mu: float) -> Sliding:
     """Closed form for a strip without stretching and shear strain between two forces at an angle.
 
-    On the arc the moment is EI/r, r = R + h/2, so the friction at the lower face asks for the shear force
+    On the arc the moment is EI/r, r = R + h/2, so the friction at the lower face needs the shear force
     Q = c q with c = mu h / 2r and q = p R; q = T - Q' and T' = mu q - Q give q ~ exp(k s), k (1 + c k) = mu R / r.
     Where the strip leaves the tool stands a line force P with its friction; beyond, M^2 / (2 EI) = F (1 - cos a).
     """

@@ -21,7 +21,7 @@ from umform_book.page import Page
 COEFFICIENTS, MESHES, STEPS = (0.0, 0.1, 0.3), ((24, 1), (48, 1), (96, 1)), 100
 #: Force over that without friction, at the marks of the paper, against that on the finest mesh.
 EXPECTED = {24: 0.02, 48: 0.01}
-#: What friction may cost, over the same without it; and the share of evaluations that may be abandoned.
+#: Limits of the iterations with friction over those without, and of the share of abandoned evaluations.
 ITERATIONS, THROWN = 1.5, 0.15
 
 

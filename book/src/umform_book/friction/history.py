@@ -28,7 +28,7 @@ STRIP = Strip(0.1, np.pi, 0.3)
 SLIP = 1e-4
 #: The cylinder turns there, and less back, so that a part of the strip sticks and a part slips.
 THERE, BACK = 0.01, 0.0097
-#: Laws whose bound is asked for at every point.
+#: Laws whose bound is checked at every point.
 LAWS = {
     "mu = 0.3": uf.Friction(0.3),
     "cap": uf.Friction(0.3, cap=0.04),

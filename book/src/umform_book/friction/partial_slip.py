@@ -24,7 +24,7 @@ from umform_book.variants import Variant
 Floats = NDArray[np.float64]
 
 E, MU, RADIUS, DEPTH, END, GROWTH = 1000.0, 0.2, 200.0, 0.0115, 40.0, 1.35
-#: The closed form asks for a body of nu = 1/2 against a rigid tool; the other one shows what coupling does.
+#: The closed form needs a body of nu = 1/2 against a rigid tool; the other value shows the effect of coupling.
 NEARLY_HALF, USUAL = 0.49, 0.3
 #: Elastic slip that is allowed, a five-hundredth of the way of the tool.
 WAY, SLIP = 0.0035, 5e-6

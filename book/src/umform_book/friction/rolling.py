@@ -22,8 +22,8 @@ Floats = NDArray[np.float64]
 BEFORE, AFTER, RADIUS, LENGTH, WAY = 1.0, 0.8, 50.0, 24.0, 10.0
 E, NU, YIELD, MODULUS, MU = 70e3, 0.3, 100.0, 50.0, 0.1
 PENALTY, SLIP = 1e5, 2e-4
-#: Relative errors of force and torque that are expected of the slab's method at a contact of 2.5 thicknesses: it knows
-#: no shear within the strip.
+#: Expected relative errors of force and torque of the slab method at a contact of 2.5 thicknesses: it neglects shear
+#: within the strip.
 FORCE, TORQUE = 0.1, 0.05
 
 
@@ -174,9 +174,9 @@ CASE = Case(
     problem=f"""
 A strip of {2 * BEFORE:g} mm is rolled to {2 * AFTER:g} mm between rolls of R = {RADIUS:g} mm in plane strain; upper
 half, E = {E:g}, nu = {NU:g}, yield stress {YIELD:g}, hardening modulus {MODULUS:g} MPa, mu = {MU:g}. The roll is
-pressed into the strip, whose tail is held and then released, and turns by a path of {WAY:g} mm: only friction moves the
-strip. ANS3DEAS in two layers, 108, 144 and 180 elements over {LENGTH:g} mm, 2 x 2 contact points, penalty {PENALTY:g}.
-The contact is 4.5 mm long; measured over the last fifth.
+pressed into the strip, whose tail is held and then released, and rolls over a path of {WAY:g} mm: only friction moves
+the strip. ANS3DEAS in two layers, 108, 144 and 180 elements over {LENGTH:g} mm, 2 x 2 contact points, penalty
+{PENALTY:g}. The contact is 4.5 mm long; measured over the last fifth.
 """,
     reference="""
 Von Kármán's slab (1925): equilibrium of plane sections with the yield stress of plane strain and friction towards the

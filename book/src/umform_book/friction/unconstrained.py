@@ -134,7 +134,7 @@ def bend(page: Page, setup: Setup, label: str) -> tuple[Measured, Floats, Result
 
 
 def setups(mu: float) -> dict[str, Setup]:
-    """The run, and what is changed in it for the budget."""
+    """The run, and its variants for the budget."""
     base = Setup(friction=mu)
     slip = {"half of the elastic slip": replace(base, slip=0.5 * base.slip)} if mu else {}
     return {

@@ -25,11 +25,11 @@ WARNED = 0.01
 
 
 def drawn(page: Page, increments: int) -> Result:
-    """The block, pressed down and drawn to and fro."""
+    """The block, pressed down and moved back and forth."""
     made = block(EIGHT, 2, 2)
     steps = [Move(made.press, -PRESSED, steps=2)]
     steps += [Move(made.push, [0.8 * turn * SLIP, 0.6 * turn * SLIP], steps=increments) for turn in TURNS]
-    return page.solve(f"block, {increments} increments a way", made.model, steps)
+    return page.solve(f"block, {increments} increments per stroke", made.model, steps)
 
 
 def wiped(page: Page, increments: int) -> Result:
@@ -46,7 +46,7 @@ def wiped(page: Page, increments: int) -> Result:
     model.contact("upper", punch, friction=RUB, points=4, penalty=PENALTY, name="wiper")
     stroke = model.drive(punch, "-z", name="stroke")
     steps = [Move(stroke, STROKE, steps=increments), Move(stroke, 0.0, steps=increments)]
-    return page.solve(f"strip, {increments} increments a way", model, steps)
+    return page.solve(f"strip, {increments} increments per stroke", model, steps)
 
 
 def run(page: Page) -> None:
@@ -59,8 +59,10 @@ def run(page: Page) -> None:
         exact = MU * normal * (TURNS[0] * SLIP - slip + (TURNS[0] - TURNS[1]) * SLIP - 2.0 * slip)
         work = float(result["friction_work"][-1])
         rows.append((increments, work, exact, work / exact - 1.0))
-        page.check(f"block, {increments} increments a way: work of friction", work, exact, 1e-6)
-    page.table("A block drawn to and fro", ("increments a way", "work of friction", "exact", "deviation"), rows)
+        page.check(f"block, {increments} increments per stroke: work of friction", work, exact, 1e-6)
+    page.table(
+        "A block moved back and forth", ("increments per stroke", "work of friction", "exact", "deviation"), rows
+    )
     counts = page.pick((10, 20, 40, 80, 160), (10, 20))
     runs = [wiped(page, increments) for increments in counts]
     finest = float(runs[-1]["friction_work"][-1])
@@ -72,10 +74,10 @@ def run(page: Page) -> None:
     ]
     page.table(
         "A strip wiped over a roll and let go",
-        ("increments a way", "work of friction", "off the finest", "largest drift"),
+        ("increments per stroke", "work of friction", "off the finest", "largest drift"),
         table,
     )
-    page.at_most(f"strip, {counts[1]} increments a way: drift", drifts[1], 0.5 * WARNED)
+    page.at_most(f"strip, {counts[1]} increments per stroke: drift", drifts[1], 0.5 * WARNED)
     if len(counts) > 2:
         page.at_most("strip: work at 40 increments off the finest, over that at 10", off[2] / off[0], 1.0 / 8.0)
         page.at_most("strip: drift at 80 increments over that at 20", drifts[3] / drifts[1], 1.0 / 8.0)
@@ -86,15 +88,15 @@ CASE = Case(
     title="Work of friction: points that begin to slip, touch and leave",
     problem=f"""
 * The block of [friction-block](friction-block.md), drawn to {TURNS[0]:g} elastic slips and back to {TURNS[1]:g}, in
-  1 to 20 increments a way.
+  1 to 20 increments per stroke.
 * An elastic strip of {LENGTH:g} x {THICKNESS:g}, E = {E:g}, clamped at one end, is wiped by a roll of radius 3 over a
   roll of radius 4, by a stroke of {STROKE:g}, and let go; mu = {RUB:g}, {STRIP.name}, 24 elements, 4 x 4 contact
-  points. Points touch, slip, turn back and leave all the time.
+  points. Throughout the run points touch, slip, reverse and open.
 """,
     reference="""
-Block: mu N times the way less the elastic slip, and at the reversal less twice that slip, for any number of increments.
-Strip: the finest run; the error of the work falls with the square of the increments. So does the drift, until in the
-finest runs single points that open or touch are what is left of it. The checks want a factor of 8 where theory has 16.
+Block: mu N times the path minus the elastic slip, at the reversal minus twice that slip, for any number of increments.
+Strip: the finest run; the error of the work falls with the square of the number of increments. So does the drift, until
+single points that open or touch dominate it in the finest runs. Theory gives a factor of 16; the checks require 8.
 """,
     run=run,
     cost=15.0,

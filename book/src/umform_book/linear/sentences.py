@@ -1,4 +1,4 @@
-"""What a study says, in a sentence made of its numbers."""
+"""A sentence with the numbers of a study."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from umform_book.convergence import Study
 from umform_book.variants import Variant, with_tying
 
-#: A baseline that locks, and what one would take instead.
-TOLD = (Variant("DISP3DEAS"), with_tying("ANS3DEAS"), with_tying("EAS3DEAS"), with_tying("MI9K3DEAS"))
+#: An element that locks, and recommended ones.
+COMPARED = (Variant("DISP3DEAS"), with_tying("ANS3DEAS"), with_tying("EAS3DEAS"), with_tying("MI9K3DEAS"))
 
 
-def coarse_and_fine(found: Study, reference: float, variants: Sequence[Variant] = TOLD) -> str:
-    """How much of the reference some elements find on the coarsest and on the finest mesh."""
+def coarse_and_fine(found: Study, reference: float, variants: Sequence[Variant] = COMPARED) -> str:
+    """Share of the reference that some elements reach on the coarsest and on the finest mesh."""
     parts = []
     for variant in variants:
         if variant in found:

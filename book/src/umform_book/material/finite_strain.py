@@ -17,7 +17,7 @@ from umform_book.variants import Variant
 Floats = NDArray[np.float64]
 
 KINDS = ("ANS3DEAS", "EAS3DEAS", "BEND8", "MI9K3DEAS", "BEND18")
-#: Residuals between these tell an order.
+#: Range of residuals from which an order is computed.
 _ROUND_OFF, _NEAR = 1e-13, 0.1
 VOCE, SWIFT = Voce(130.0, 300.0, 12.0), Swift(500.0, 0.004, 0.21)
 _PAIRS = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)]
@@ -160,7 +160,7 @@ def _return_maps(page: Page) -> None:
 
 
 def _orders(metal: Metal, count: int) -> tuple[list[float], int]:
-    """Orders of the last three residuals of random increments, where they tell one, and the most iterations."""
+    """Orders from the last three residuals above round-off of random increments, and the most iterations."""
     rng, law = np.random.default_rng(2), metal.small_strain_law()
     ways = rng.normal(size=(2, count, 6))
     ways /= np.linalg.norm(ways, axis=2)[:, :, None]
@@ -171,9 +171,9 @@ def _orders(metal: Metal, count: int) -> tuple[list[float], int]:
     for strain, state, change in zip(before, states, sizes[:, None] * ways[1], strict=True):
         residuals = metal.residuals(strain + change, state)
         most = max(most, len(residuals) - 1)
-        told = residuals[residuals > _ROUND_OFF]
-        if len(told) >= 3 and told[-3] < _NEAR:
-            orders.append(float(np.log(told[-1] / told[-2]) / np.log(told[-2] / told[-3])))
+        usable = residuals[residuals > _ROUND_OFF]
+        if len(usable) >= 3 and usable[-3] < _NEAR:
+            orders.append(float(np.log(usable[-1] / usable[-2]) / np.log(usable[-2] / usable[-3])))
     return orders, most
 
 

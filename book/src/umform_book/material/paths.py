@@ -139,8 +139,8 @@ Euler is of first order: values are extrapolated from two step sizes.
     reference="""
 Tests SSNP15 (closed form; other programs to 1 % in its second part), SSNP14 (other programs) and SSNV101 of
 Code_Aster, the last integrated exactly along its proportional path: p = 0.19198873. SPCC: Yoshida and Uemori (2002),
-table 1, integrated by an independent program with explicit steps of 2e-6, which overshoot the turns of the bar by up
-to 2e-6: that times the slope is allowed besides.
+table 1, integrated by an independent program with explicit steps of 2e-6, which overshoot the reversals by up to 2e-6:
+the check also allows this overshoot times the slope.
 """,
     run=run,
     cost=15.0,

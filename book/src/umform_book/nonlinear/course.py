@@ -22,10 +22,10 @@ Floats = NDArray[np.float64]
 
 #: What one would take for a curved or bent shell.
 TIED = tuple(with_tying(name) for name in ("ANS3DEAS", "EAS3DEAS", "MI9K3DEAS"))
-#: They lock in thin shells, and show why the others exist.
+#: Elements that lock in thin shells, for comparison.
 LOCKING = tuple(Variant(name) for name in ("DISP3D", "DISP3DEAS", "DISP9K3D", "DISP9K3DEAS"))
-#: Relative error that is expected on the finest mesh if nothing else is said. Elements of second order: on a mesh that
-#: is half as fine four times as much.
+#: Default of the relative error that is expected on the finest mesh. It is four times as large on a mesh half as fine,
+#: since the elements are of second order.
 EXPECTED = 0.02
 #: The balance of work of a run without a jump drifts by less, from the length of its increments.
 _JUMP = 0.05
@@ -66,9 +66,9 @@ class Problem:
     follow : callable
         How the load is followed, see :func:`trace`.
     known, cause : float, str
-        How far the curve on the finest mesh is known to be off the reference, and why.
+        Known deviation of the curve on the finest mesh from the reference, and its cause.
     known_measures : float
-        How far what is read off it is known to be off, for the same cause.
+        Known deviation of the measures, for the same cause.
     """
 
     build: Callable[[Variant, int], Setup]
@@ -163,7 +163,7 @@ def needed_text(found: Found, enough: float = EXPECTED) -> str:
         if variant in LOCKING:
             continue
         good = [n for n in row if all(abs(row[finer] - 1.0) <= enough for finer in row if finer >= n)]
-        when = f"from {min(good)} intervals on" if good else f"not even with {max(row)} intervals"
+        when = f"from {min(good)} intervals on" if good else f"on no mesh up to {max(row)} intervals"
         met.setdefault(when, []).append(variant.label.replace(", E_33 tied", " (tied)"))
     parts = "; ".join(f"{when}: {', '.join(labels)}" for when, labels in sorted(met.items()))
     return f"{what} is within {100 * enough:g} % of the reference {parts}."

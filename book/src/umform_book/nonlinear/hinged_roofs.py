@@ -112,7 +112,8 @@ THICK = _case(
     "Hinged cylindrical roof, 12.7 mm: snap-through",
     """
 Table of Sze, Liu & Lo, Finite Elem. Anal. Des. 40 (2004) 1551-1569 (Abaqus S4R): the largest force of the table is
-2226 N at 11.3 mm. It does not say in which strains its elastic law is linear, which is worth 0.6 % here, see below.
+2226 N at 11.3 mm. It does not say in which strains its elastic law is linear: this changes the limit load by 0.6 %
+(see below).
 """,
 )
 THIN = _case(
@@ -120,8 +121,8 @@ THIN = _case(
     "Hinged cylindrical roof, 6.35 mm: snap-back",
     """
 Table of Sze, Liu & Lo, Finite Elem. Anal. Des. 40 (2004) 1551-1569 (Abaqus S4R): the largest force of the table
-before the snap is 586 N at 12.9 mm, the smallest -386 N at 15.8 mm. The points of the table are far apart; a parabola
-through the three highest is what limit loads are compared with. Uncertainty: the last digit of the table, 0.2 % of the
-largest force, and what the parabola misses between its points.
+before the snap is 586 N at 12.9 mm, the smallest -386 N at 15.8 mm. The points of the table are far apart, so limit
+loads are compared with a parabola through the three highest. Uncertainty: the last digit of the table, 0.2 % of the
+largest force, and the error of the parabola between its points.
 """,
 )

@@ -111,9 +111,9 @@ under the force and the outward one u_B at the side.
 """,
     reference="""
 Sze, Liu & Lo, Finite Elem. Anal. Des. 40 (2004) 1551-1569: -w_A = 83.102 and u_B = 34.272 at full load, 73.79 and
-25.38 at half of it, by four-node shell elements. MI9K3DEAS with E_33 tied and 48 intervals comes to 81.39 and
+25.38 at half of it, by four-node shell elements. MI9K3DEAS with E_33 tied and 48 intervals gives 81.39 and
 33.94 at full load, 72.56 and 25.51 at half of it. With both faces of the end held in x and z, which is no diaphragm of
-a shell, it comes to about 80.1 and 32.9: the director is stretched by some per cent and cannot tilt.
+a shell, it gives about 80.1 and 32.9: the director is stretched by some per cent and cannot tilt.
 """,
     run=run,
     picture="curves",

@@ -96,7 +96,7 @@ def _references(page: Page, paths: dict[str, BendingPath]) -> None:
     )
     worst = max(abs(float(row[-1])) for row in rows)
     page.text(
-        "In the classical theory a fibre always flows at 2/sqrt(3) y. It flows at less at first, since sigma_22 is nu "
+        "In the classical theory a fibre always flows at 2/sqrt(3) y. At first it flows at less, since sigma_22 is nu "
         f"sigma_11 and reaches half of sigma_11 only when plastic strain dominates: {worst:.1f} % of the moment at "
         "most, in the knee. Everything below is compared with the law point by point."
     )

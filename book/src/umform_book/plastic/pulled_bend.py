@@ -19,12 +19,12 @@ RADII, TENSIONS = (5.0, 10.0, 20.0, 50.0, 100.0), (0.3, 0.6)
 YIELD_FORCE = 2.0 / np.sqrt(3.0) * 141.6
 #: Limits of stretch and thinning, of the moment, of the springback.
 WITHIN, MOMENT, SPRINGBACK = 0.03, 0.015, 0.01
-OLD: dict[str, Any] = {"thickness_points": 18, "thickness_rule": "graded"}
+_GRADED: dict[str, Any] = {"thickness_points": 18, "thickness_rule": "graded"}
 ELEMENTS: dict[str, tuple[str, dict[str, Any]]] = {
     "ANS3DEAS": ("ANS3DEAS", {}),
     "ANS3DEAS, plane strain": ("ANS3DEAS", {"plane_strain": True}),
     "BEND18": ("BEND18", {}),
-    "ANS3DEAS, 18 graded": ("ANS3DEAS", OLD),
+    "ANS3DEAS, 18 graded": ("ANS3DEAS", _GRADED),
 }
 STATES = ("bent", "straight again", "bent again")
 WHAT = ("stretch", "thinning", "moment", "springback")
@@ -60,7 +60,7 @@ def run(page: Page) -> None:
     _fibres(page, exact)
     for name in names:
         _deviations(page, name, errors[name])
-        if ELEMENTS[name][1] is not OLD:
+        if ELEMENTS[name][1] is not _GRADED:
             _judge(page, name, errors[name])
     _wall(page, exact, errors)
     _limits(page, errors)
@@ -124,12 +124,12 @@ def _limits(page: Page, errors: dict[str, dict[tuple[str, float, float], Floats]
             f"{of.max():+.1f} %."
         )
     page.text(
-        "What is left is the thickness strain of the element, not the points. Fibres outside thin and fibres inside "
-        "thicken by a tenth and more in a sharp bend. The strain is that of Green and Lagrange: the distance of the "
-        "faces is the root mean square of the stretches of the fibres, at R/h = 5 more than their mean by 0.15 % of "
-        "the thickness. So, while the sheet is bent, the distance "
-        f"of the faces of {name} differs from that of the fibres by {bent[..., 1].min():+.1f} to "
-        f"{bent[..., 1].max():+.1f} % of the thinning; when it is straight again, the difference is gone.{moments}"
+        "The remaining error comes from the thickness strain of the element, not from the points. In a sharp bend "
+        "outer fibres thin, and inner fibres thicken, by a tenth and more. The strain is that of Green and Lagrange, "
+        "so the distance of the faces is the root mean square of the stretches of the fibres. At R/h = 5 it exceeds "
+        "their mean by 0.15 % of the thickness. While the sheet is bent, the distance of the faces of "
+        f"{name} differs from that of the fibres by {bent[..., 1].min():+.1f} to {bent[..., 1].max():+.1f} % of the "
+        f"thinning. When the sheet is straight again, the difference vanishes.{moments}"
     )
 
 
@@ -137,16 +137,16 @@ CASE = Case(
     name="plastic-pulled-bend",
     title="Bends under tension",
     problem=r"""
-One element of a wide sheet of thickness 1 is bent to the radius R of its middle fibre, straightened, and bent again,
-while its tension is held at T = 0.3 or 0.6 of the yield force $2/\sqrt3 \cdot 141.6$. Each of the three states is also
-released to no force and no moment: that is the springback. The nodes follow the section: middle fibre on an arc,
-directors straight; stretch and thickness are free. Steel with isotropic hardening, with Chaboche's back stresses, and
-with that of Yoshida and Uemori and a modulus that falls with the plastic strain ([laws](material-bending.md)).
-Default points through the thickness, and the 18 `graded` points of old.
+One element of a wide sheet of thickness 1 is bent to the radius R of its middle fibre, straightened, and bent again.
+The tension is constant, T = 0.3 or 0.6 of the yield force $2/\sqrt3 \cdot 141.6$. For the springback, each of the three
+states is also released to zero force and moment. The nodes follow the section: middle fibre on an arc, directors
+straight; stretch and thickness are free. Steel with isotropic hardening, with Chaboche's back stresses, and with that
+of Yoshida and Uemori and a modulus that falls with the plastic strain ([laws](material-bending.md)). Default points
+through the thickness, and the former default, 18 `graded` points.
 """,
     reference=f"""
-{FIBRES} fibres of the same law, which are free to move against each other, in equilibrium of the thickness stress: the
-radial load that the tension needs acts at the middle fibre.
+{FIBRES} fibres of the same law, which may move against each other, in equilibrium through the thickness. The radial
+load that balances the tension acts at the middle fibre.
 """,
     run=run,
     cost=300.0,

@@ -29,8 +29,8 @@ MATERIAL = SVK(E=PLATE["E"], nu=PLATE["nu"])
 #: A plastic law that never flows, for the points and the order that elements have with one.
 NEVER_FLOWS = J2(E=PLATE["E"], nu=PLATE["nu"], hardening=Perfect(PLATE["E"]))
 STRAIN = 1e-3
-#: Round-off grows steeply with length / thickness: with a plate ten times as thick as that of the reference 1e-10 can
-#: be asked of everything that passes.
+#: Round-off grows steeply with length / thickness: with a plate ten times as thick as that of the reference all
+#: that pass reach 1e-10.
 THICKNESS: float = 10 * PLATE["thickness"]
 
 #: Constant states: stress in the plane, in bending, through the thickness alone, in transverse shear alone.

@@ -192,7 +192,7 @@ class _Deck:
         self.lines += ["*STEP,NLGEOM,INC=100000", "*STATIC", f"{largest / 10},1.,1e-9,{largest}"]
 
     def push(self, to: float) -> None:
-        """The displacement of the punch at the end of the step, and what is printed."""
+        """Displacement of the punch at the end of the step, and printed output."""
         self.lines += ["*BOUNDARY", f"PUNCH,3,3,{-to}", "*NODE PRINT,NSET=PUNCH,TOTALS=ONLY", "RF", "*END STEP"]
 
 

@@ -1,7 +1,7 @@
 """A section in pure plastic bending: straight director of free length, and any interpolation of the thickness strain.
 
-It is an element without length, many points through the thickness and nothing in its surface: what is left of an
-element when only the way in which its E_33 depends on t is to be judged. Unknowns are the stretch of the mid-line l0,
+It is an element of no length with many points through the thickness, which tests only how E_33 depends on t.
+Unknowns are the stretch of the mid-line l0,
 that of the director d, and the parameters a of the thickness strain; with z = h t / 2
 
     l_1 = l0 + k d z,   E_11 = (l_1^2 - 1) / 2,   E_22 = 0,   E_33 = E_33(d, a, t).
@@ -41,7 +41,7 @@ class ThicknessStrain:
         Name in tables.
     order : int or None
         E_33 = (d^2 - 1) / 2 + sum of a_j P_j(t), j = 1 ... order; None: free at every point, its mean that of the
-        director. Then S_33 is constant over the thickness: the linear part that one may assume goes with the mode t.
+        director. Then S_33 is constant over the thickness: its linear part vanishes with the mode t.
     logarithmic : bool
         The same sum added to the logarithm of the stretch: 1 + 2 E_33 = d^2 exp(2 sum of a_j P_j).
     volume : int or None
@@ -156,7 +156,7 @@ class BentSection(Bending):
         return B, H33
 
     def _volume(self, C: Floats, S: Floats, B: Floats) -> tuple[Floats, Floats]:
-        """Stresses with the projected volume change ln J = ln(C_11 C_33) / 2, and what it adds to the tangent."""
+        """Stresses with the projected volume change ln J = ln(C_11 C_33) / 2, and its part of the tangent."""
         if self.strain.volume is None:
             return S, np.zeros((B.shape[2], B.shape[2]))
         theta = 0.5 * np.log(C.prod(axis=1))

@@ -51,12 +51,12 @@ def to_one_thickness(page: Page) -> None:
     columns = ("element", "moment", "permanent curvature", "springback")
     page.table("Error in %, against a stack of 16 elements", columns, rows)
     page.text(
-        "At R/h = 1 the springback of the curvature is 6 to 7 % too large in one layer. It is neither the points nor "
-        "the order: a section of 60 points whose E_33 is free at each of them errs as much. The director of one layer "
-        "is straight and stretches as one, whereas fibres outside thin and fibres inside thicken, which moves them "
-        "against each other: with fibres at places that are a cubic in t (a quadratic is too little) the section errs "
-        "by less than 1 %. Springback is 1.5 % of the curvature, and the permanent curvature hardly feels it. Two "
-        "layers are no remedy, four err by 2 %, eight are converged."
+        "At R/h = 1 the springback of the curvature is 6 to 7 % too large in one layer. Neither the points nor the "
+        "order cause it: a section of 60 points whose E_33 is free at each of them has the same error. The director of "
+        "one layer is straight and stretches uniformly. In the sheet outer fibres thin and inner fibres thicken, so "
+        "they move against each other. A section whose fibre positions are a cubic in t errs by less than 1 %; a "
+        "quadratic is not enough. Springback is 1.5 % of the curvature, so the permanent curvature changes little. Two "
+        "layers do not help, four err by 2 %, eight are converged."
     )
 
 

@@ -117,9 +117,9 @@ def _orders(page: Page, exact: Floats) -> None:
             page.at_most(what, float(np.abs(errors - free).max()), 0.5)
     low = last["split", 12, 1]
     page.text(
-        f"At order 1 the set is up to {-float(low.min()):.0f} % too small: E_33 has a kink where flow begins (elastic "
-        "nu/(1 - nu) of the strain along the sheet, plastic all of it). A low order smooths it; the stress through the "
-        "thickness that remains delays the flow of the outer fibres."
+        f"At order 1 the set is up to {-float(low.min()):.0f} % too small. E_33 has a kink where flow begins: it is "
+        "nu/(1 - nu) of the strain along the sheet in the elastic part, and all of it in the plastic part. A low order "
+        "smooths the kink. A stress through the thickness remains and delays the flow of the outer fibres."
     )
 
 
@@ -147,9 +147,9 @@ def _points(page: Page, curve: tuple[Floats, Floats]) -> None:
     page.text(
         f"The best of Gauss, Lobatto and split with 12 points or fewer errs by {100 * best:.1f} %. The stress has a "
         "kink where flow begins, between 0.9 and 0.3 of the half thickness at 1.1 to 1.45 My, so points must be dense "
-        "near the faces; Gauss points of each half are also dense at the mid-surface, where they are wasted. Staggered "
-        "points, the default, have other heights in each column of an element: 12 a column with 8 nodes, where they "
-        f"err by {worst['staggered', 12]:.1f} %, and 18 with 18 nodes."
+        "near the faces; Gauss points of each half are also dense at the mid-surface, where they have no use. "
+        "Staggered points, the default, have different heights in each column of an element: 12 per column with 8 "
+        f"nodes, with an error of {worst['staggered', 12]:.1f} %, and 18 per column with 18 nodes."
     )
 
 
@@ -184,11 +184,11 @@ def _uniform(page: Page) -> None:
     slope = np.interp(MOMENTS, exact, np.gradient(exact, ks))
     factor = MOMENTS / slope / _permanent(ks, exact)
     page.text(
-        "A cantilever averages over borders at all depths. In pure bending there is one border at one depth, and rules "
-        "err to both sides in turn as it passes from point to point; by most at 1.12 to 1.3 times the yield curvature, "
-        "where 2 to 7 % of the curvature are permanent. The default errs by less than 3 %. Under a given moment the "
-        "curve of moment over curvature is nearly flat besides: 1 % of the moment, or of the yield stress, is "
-        f"{factor.min():.0f} to {factor.max():.0f} % of the permanent curvature."
+        "A cantilever averages over borders of flow at all depths. In pure bending there is one border at one depth, "
+        "and the error of a rule changes its sign as the border passes from point to point. It is largest at 1.12 to "
+        "1.3 times the yield curvature, where 2 to 7 % of the curvature are permanent. The default errs by less than "
+        "3 %. A given moment is more sensitive, since moment over curvature is nearly flat: 1 % of the moment, or of "
+        f"the yield stress, is {factor.min():.0f} to {factor.max():.0f} % of the permanent curvature."
     )
 
 

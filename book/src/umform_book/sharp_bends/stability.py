@@ -119,7 +119,7 @@ def _more(mine: Counts, other: Counts, squeezed: bool = False) -> int:
 
 
 def _squeezing(page: Page) -> None:
-    """How far a patch may be squeezed in large increments until it loses its stability."""
+    """Stretch at which a patch, squeezed in large increments, loses its stability."""
     page.heading("Squeezed through the thickness")
     material, path = LAWS[next(iter(LAWS))]
     state = next(state for state in STATES if state.name == SQUEEZED)
