@@ -68,7 +68,7 @@ def worst_balance(rows: Sequence[BalanceRow]) -> dict[str, str]:
 
 
 def _size(value: float) -> str:
-    """A part of the whole: two digits, or a bound at the tolerance of Newton's method and below."""
+    """A ratio: two digits, or a bound at the tolerance of Newton's method and below."""
     return bounded(value, _TOLERANCE) or f"{value:.1e}"
 
 

@@ -68,7 +68,7 @@ class Check:
 
     @property
     def deviation(self) -> float:
-        """Found minus reference, relative if so wanted."""
+        """Found minus reference, relative if ``relative`` is set."""
         difference = self.found - self.reference
         return difference / abs(self.reference) if self.relative else difference
 

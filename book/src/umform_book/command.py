@@ -60,7 +60,7 @@ def _list_cases() -> None:
 
 
 def _show_page(path: Path) -> None:
-    """The page as the terminal can show it."""
+    """Show the page in the terminal."""
     from rich.markdown import Markdown
 
     from umform_book.markdown import unfolded
@@ -69,7 +69,7 @@ def _show_page(path: Path) -> None:
 
 
 def _show_verdicts(outcomes: dict[str, Outcome], out: Path) -> None:
-    """One line a case, and why a case has failed."""
+    """One line per case, and the error of a failed case."""
     from rich import box
     from rich.table import Table
 

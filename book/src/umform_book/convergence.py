@@ -52,7 +52,7 @@ def normalised(found: Study, reference: float) -> Study:
 def show(
     page: Page, name: str, title: str, found: Study, *, mesh: str = "intervals between nodes along an edge"
 ) -> None:
-    """Enter a normalised study into the page: a table with one column a mesh, and the plot over the meshes."""
+    """Enter a normalised study into the page: a table with one column per mesh, and the plot over the meshes."""
     page.studies.append(StudyRecord(page.case.name, title, {v.label: dict(row) for v, row in found.items()}))
     divisions = sorted({number for row in found.values() for number in row})
     page.table(

@@ -1,4 +1,4 @@
-"""What the run of a case leaves for the pages of all cases."""
+"""Results of a case for the pages of all cases."""
 
 from __future__ import annotations
 
@@ -44,13 +44,13 @@ class CheckRecord:
 
     @property
     def miss(self) -> str:
-        """The deviation as it is printed: that from zero stands as the number itself."""
+        """The deviation as it is printed: from zero, the number itself."""
         return self.found if self.deviation == "-" else self.deviation
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a page leaves once it is written; can be sent between processes.
+    """Results of a page; can be sent between processes.
 
     Attributes
     ----------

@@ -39,7 +39,7 @@ class StudyRecord:
 
 @dataclass
 class Page:
-    """What a case found.
+    """Results of a case.
 
     Attributes
     ----------
@@ -66,14 +66,14 @@ class Page:
 
     @property
     def verdict(self) -> Verdict:
-        """The worst of all checks, where an expected failure counts as green; without any check nothing is proved."""
+        """The worst of all checks, where an expected failure counts as green; red without any check."""
         worst = max((check.verdict for check in self.checks), default=Verdict.RED)
         return Verdict.GREEN if worst is Verdict.EXPECTED else worst
 
     # What a case calls ------------------------------------------------------------------------------------------
 
     def pick(self, whole: Sequence[Item], short: Sequence[Item]) -> Sequence[Item]:
-        """The meshes (or whatever it is) of the whole case or of the short one."""
+        """The items, such as meshes, of the whole case or of the short one."""
         return short if self.short else whole
 
     def each(self, items: Iterable[Item], label: Callable[[Item], str] = str) -> Iterator[Item]:

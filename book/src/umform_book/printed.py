@@ -1,4 +1,4 @@
-"""Numbers as the book prints them: what differs between machines, round-off above all, stands as a bound."""
+"""Numbers as the book prints them: those that differ between machines, such as round-off, are bounds."""
 
 from __future__ import annotations
 

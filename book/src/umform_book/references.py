@@ -1,4 +1,4 @@
-"""Reference values that stand in files, each with its source in its first lines."""
+"""Reference values in files, each with its source in its first lines."""
 
 from __future__ import annotations
 

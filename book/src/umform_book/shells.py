@@ -1,4 +1,4 @@
-"""Meshes and models that more than one case takes."""
+"""Meshes and models of several cases."""
 
 from __future__ import annotations
 

@@ -89,7 +89,7 @@ def _check(items: dict[str, Any]) -> CheckRecord:
 
 
 def _printed(value: float) -> float | None:
-    """A number as tables show it; JSON has none that is not finite."""
+    """A number as tables show it; JSON has no NaN and no infinity."""
     return float(f"{value:.4g}") if math.isfinite(value) else None
 
 

@@ -1,4 +1,4 @@
-"""The summary of the book: counts of verdicts and one row a case, to be read in two minutes."""
+"""The summary of the book: counts of verdicts and one row per case."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ class Variant:
 
     @property
     def cell(self) -> str:
-        """The cell it stands on."""
+        """Its cell type."""
         return self.element.cell
 
     def cells(self, divisions: int) -> int:

@@ -26,12 +26,12 @@ def kept_fibre(kh: float) -> float:
 
 
 def resting_fibre(kh: float) -> float:
-    """Height over h in the flat sheet of the fibre that bears no stress and is at rest: r = sqrt(a b) [Hill1950]."""
+    """Height over h in the flat sheet of the fibre without stress: r = sqrt(a b) [Hill1950]."""
     return 0.5 - kh / 4.0
 
 
 def resting_place(kh: float) -> float:
-    """Distance of the fibre that bears no stress from the inner face of the bent sheet, over h [Hill1950]."""
+    """Distance of the fibre without stress from the inner face of the bent sheet, over h [Hill1950]."""
     a, b = 1.0 / kh - 0.5, 1.0 / kh + 0.5
     return float(np.sqrt(a * b) - a)
 

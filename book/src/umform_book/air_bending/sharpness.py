@@ -18,7 +18,7 @@ OPENING = 16.0
 
 @dataclass(frozen=True)
 class Bluntness:
-    """R/h that a thickness and a stroke come to, about."""
+    """Approximate R/h of a thickness and a stroke."""
 
     ratio: float
     thickness: float
@@ -42,7 +42,7 @@ BENDS = (
 
 @dataclass(frozen=True)
 class Sheet:
-    """What the sheet is made of.
+    """Elements, layers and points of the sheet.
 
     Attributes
     ----------

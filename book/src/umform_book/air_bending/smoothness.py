@@ -27,7 +27,7 @@ LIMIT = 0.01
 
 @dataclass(frozen=True)
 class Event:
-    """What happens in a run.
+    """Setup of a run.
 
     Attributes
     ----------
@@ -93,7 +93,7 @@ class Run:
 
     @property
     def corner(self) -> tuple[float, float]:
-        """Strokes while the legs lay themselves against the flanks: the slope grows to its peak and halves."""
+        """Strokes while the legs come into contact with the flanks: the slope grows to its peak and halves."""
         fine = self.u >= self.event.strokes[0] - 1e-9
         u, slope = self.u[fine], np.gradient(self.F[fine], self.u[fine])
         peak = int(np.argmax(slope))
@@ -123,7 +123,7 @@ def _run(page: Page, event: Event, rule: str) -> Run:
 
 
 def beyond_smooth(u: Floats, F: Floats) -> tuple[float, float]:
-    """J of what the force differs by from a smooth curve, and J of that curve: polynomials of least squares."""
+    """J of the difference between force and a smooth curve, and J of that curve: least-squares polynomials."""
     smooth = Polynomial.fit(u, F, SMOOTH_DEGREE)(u)
     window = WINDOW * THICKNESS
     rest = max(
@@ -134,7 +134,7 @@ def beyond_smooth(u: Floats, F: Floats) -> tuple[float, float]:
 
 
 def _happened(page: Page, run: Run) -> None:
-    """Checks that what the run is about does happen."""
+    """Check that the event of the run occurs."""
     punch = run.result.frames[-1].contacts["punch"]
     if run.event is LIFT_OFF:
         middle = float(punch.gap[np.argmin(np.abs(punch.x[:, 0]))])
@@ -158,7 +158,7 @@ def _happened(page: Page, run: Run) -> None:
 
 
 def _corner(page: Page, few: Run, many: Run) -> None:
-    """Where the legs meet the flank the force is too steep for J: how far the curves lie apart in the stroke."""
+    """Distance of the curves in the stroke, where the legs meet the flank and the force is too steep for J."""
     begin, _ = few.corner
     beyond = few.u >= begin
     apart = np.abs(np.interp(few.F[beyond], many.F[many.u >= begin], many.u[many.u >= begin]) - few.u[beyond])

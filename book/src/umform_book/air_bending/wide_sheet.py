@@ -45,7 +45,7 @@ def _turn(ratio: float) -> float:
 
 
 def _bent(arc: Arc, ratio: float) -> bool:
-    """Bend an arc on to R/h; whether there was an equilibrium with about the thickness of the sheet."""
+    """Bend an arc further to R/h; false without an equilibrium at about the thickness of the sheet."""
     ways = np.linspace(arc.curvature, _turn(ratio), max(2, round((_turn(ratio) - arc.curvature) / _INCREMENT)) + 1)
     try:
         for curvature in ways[1:]:
@@ -109,11 +109,11 @@ def _judge(page: Page, candidate: Candidate, found: dict[str, dict[float, float]
     for name, closed in (("kept", pure_bending.kept_fibre), ("resting", pure_bending.resting_fibre)):
         off = max((value - closed(_turn(ratio)) for ratio, value in found[name].items()), key=abs)
         fibre = "fibre of kept length" if name == "kept" else "fibre at rest"
-        page.at_most(f"{candidate.label}: {fibre}, worst height over h less the closed form", off, within)
+        page.at_most(f"{candidate.label}: {fibre}, worst height over h minus the closed form", off, within)
 
 
 def _widest_gap(candidate: Candidate) -> float:
-    """Largest distance over h of neighbouring thickness points where the neutral fibres come to lie."""
+    """Largest distance over h of neighbouring thickness points at the neutral fibres."""
     t = thickness_rule(candidate.points, candidate.rule)[0]
     heights = ((0.5 * (1.0 + t))[None] + np.arange(candidate.layers)[:, None]).ravel() / candidate.layers
     inner = heights[(heights > 0.25) & (heights < 0.55)]
@@ -121,7 +121,7 @@ def _widest_gap(candidate: Candidate) -> float:
 
 
 def _hardening(page: Page) -> None:
-    """A metal that hardens, three times as much as it yields at: what layers are worth there."""
+    """The effect of layers for a metal with a hardening modulus of three times the yield stress."""
     ratios = RATIOS[2:]
     rows: list[tuple[str | float, ...]] = []
     moments_of: dict[str, list[float]] = {}

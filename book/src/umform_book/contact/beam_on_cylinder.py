@@ -46,7 +46,7 @@ class Found:
 def hang(
     page: Page, variant: Variant, divisions: int, points: int | str, *, penalty: float = PENALTY, frames: int = 0
 ) -> Result:
-    """Let the strip down by its end force."""
+    """Bend the strip by its end force."""
     model, _, load = flat_strip(variant, divisions, (0.0, LENGTH), penalty, points, overlap=OVERLAP)
     model.symmetry("x0", "x")
     label = f"{variant.label}, {divisions} intervals, {rule_name(points)}, penalty {penalty:g}"
@@ -126,7 +126,7 @@ def by_rules(page: Page, exact: Hanging) -> None:
 
 
 def by_force(page: Page) -> None:
-    """The way of the end and the distribution of the normal force."""
+    """Path of the end and distribution of the normal force."""
     result = hang(page, EIGHT, 80, 2, frames=20)
     model, frames = result.model, result.frames[2:]
     ends = model.mesh.nodes("x1")
@@ -139,7 +139,7 @@ def by_force(page: Page) -> None:
     ]
     page.figure("path", plot(curves, "fall of the end", "force"), "Fall of the end under the force")
     worst = max(abs(w - e.tip[1]) for w, e in zip(fall, exact, strict=True)) / LENGTH
-    page.at_most("ANS3DEAS, 80 elements: fall of the end on the way, over the length", worst, EXPECTED[80])
+    page.at_most("ANS3DEAS, 80 elements: fall of the end along the path, over the length", worst, EXPECTED[80])
 
     profiles = []
     for variant, points, divisions in ((EIGHT, "nodes", 40), (EIGHT, 2, 40), (EIGHT, 2, 80), (EIGHTEEN, 3, 80)):

@@ -107,7 +107,7 @@ def by_hertz(page: Page) -> None:
 
 @dataclass(frozen=True)
 class Bent:
-    """Way and force of a bent strip, and the ripple to expect of cells."""
+    """Displacement and force of a bent strip, and the expected ripple of cells."""
 
     way: Floats
     force: Floats
@@ -136,7 +136,7 @@ def bend(page: Page, divisions: int, name: str, rule: dict[str, Any]) -> Bent:
 
 
 def by_bending(page: Page) -> None:
-    """Deviation from the converged curve, and the ripple beside the one that is expected."""
+    """Deviation from the converged curve, and the ripple over the expected one."""
     meshes = page.pick((12, 24, 48), (24,))
     rules = RULES if not page.short else {name: RULES[name] for name in ("10 x 10 points", "cells, auto")}
     converged = bend(page, page.pick((96,), (48,))[0], "10 x 10 points", {"points": 10})

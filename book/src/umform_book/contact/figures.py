@@ -1,4 +1,4 @@
-"""Plots of this chapter and the next: curves with labels, and what a contact rule is called."""
+"""Plots of this chapter and the next: curves with labels, and names of contact rules."""
 
 from __future__ import annotations
 
@@ -78,5 +78,5 @@ def plot(
 
 
 def rule_name(points: int | str) -> str:
-    """How a contact rule is called: nodes, 2 x 2."""
+    """Name of a contact rule: nodes, 2 x 2."""
     return str(points) if points == "nodes" else f"{points} x {points}"

@@ -1,4 +1,4 @@
-"""Hertzian contact: what a tool does to the block, and how peak pressure and size of the contact are measured."""
+"""Hertzian contact: a tool pressed into a block; measures of peak pressure and size of the contact."""
 
 from __future__ import annotations
 

@@ -135,7 +135,7 @@ def by_size(page: Page) -> None:
 
 
 def by_block(page: Page) -> None:
-    """Larger blocks: what the finite one costs."""
+    """Larger blocks: the error of a finite one."""
     ends = page.pick((20.0, 40.0, 80.0), (20.0, 40.0))
     # The depth for a contact of the same size grows with the logarithm of the block: a^2/(2 R) ln 2 for a doubling.
     depths = [LINE.depth + np.log(end / LINE.end) / (2 * LINE.radius) for end in ends]

@@ -16,7 +16,7 @@ ELEMENTS = (EIGHT, with_tying("ANS3DEAS"), Variant("EAS3DEAS"), EIGHTEEN, with_t
 
 
 def expected(elements: float) -> float:
-    """Expected of peak and radius: that of a line contact, in two directions."""
+    """Limits of peak and radius: those of a line contact, in two directions."""
     return 2 * EXPECTED[max(n for n in EXPECTED if n <= elements)]
 
 

@@ -169,13 +169,13 @@ def check_series(page: Page, cells: int, row: dict[float, Found]) -> None:
 
 
 def check_condition(page: Page, row: dict[float, Found], points: int | str) -> None:
-    """Where the penalty rules the largest eigenvalue: a node in contact has it on its own unknown, times its area."""
+    """Condition number where the penalty sets the largest eigenvalue: penalty times area of a node in contact."""
     f = row[max(row)]
     page.check(f"{rule_name(points)}, penalty {max(row):g}: largest eigenvalue", f.largest, f.stiffness, 0.1)
 
 
 def check_stiff(page: Page, rows: Iterable[dict[float, Found]]) -> None:
-    """Stiff penalties converge too, at the tolerance of the house or the floor of eq. (5.36), without cuts."""
+    """Stiff penalties also converge without cuts, at the default tolerance or the floor of eq. (5.36)."""
     found = [f for row in rows for f in row.values()]
     page.at_most("additional increments, all runs", sum(f.increments - STEPS for f in found), 0)
     page.at_most("largest final residual of an increment", max(f.residual for f in found), 1e-8)

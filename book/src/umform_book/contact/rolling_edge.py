@@ -1,4 +1,4 @@
-"""Strip drawn over an edge under a hanging weight: the force is the weight, and what oscillates is the mesh."""
+"""Strip drawn over an edge under a hanging weight: the mean force is the weight; the mesh causes the oscillation."""
 
 from __future__ import annotations
 
@@ -50,14 +50,14 @@ SHARP = Edge(4.0, 6.0, 500.0)
 
 @dataclass(frozen=True)
 class Drawn:
-    """Force over weight while the strip is drawn: way, curve, mean and range (largest minus smallest)."""
+    """Force over weight while the strip is drawn: path, curve, mean and range (largest minus smallest)."""
 
     way: Floats
     force: Floats
 
     @property
     def mean(self) -> float:
-        """Mean over the way."""
+        """Mean over the path."""
         return float(self.force.mean())
 
     @property
@@ -77,7 +77,7 @@ def draw(page: Page, edge: Edge, variant: Variant, divisions: int, points: int |
 
 
 def measure(edge: Edge, result: Result) -> Drawn:
-    """Force over weight on the last part of the way, a whole number of elements of every mesh."""
+    """Force over weight on the last part of the path, a whole number of elements of every mesh."""
     way = -result["pull"]
     part = (result["step"] > 1) & (way > TRAVEL - MEASURED + 1e-9)
     return Drawn(way[part], -result["pull_force"][part] / edge.weight)

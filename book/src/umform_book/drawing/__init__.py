@@ -1,4 +1,4 @@
-"""Drawing: cups beside measured ones and of known symmetry, and a sheet stretched over a punch."""
+"""Drawing: cups compared with measurements, cups of known symmetry, and a sheet stretched over a punch."""
 
 from umform_book.case import Chapter
 from umform_book.drawing import aa6016_cup, hemispherical_stretch, s_rail, spherical_punch, square_cup, swift_cup

@@ -1,4 +1,4 @@
-"""The cup of AA6016-T4 of the ESAFORM benchmark 2021: heights, ears and forces beside the measured ones."""
+"""The cup of AA6016-T4 of the ESAFORM benchmark 2021: heights, ears and forces, compared with measurements."""
 
 from __future__ import annotations
 
@@ -157,7 +157,7 @@ def _check_heights(page: Page, found: dict[str, Made], means: list[float]) -> No
         height = found[label].ears.mean
         page.check(f"{label}: mean height, mm", height, MEASURED, WITHIN, relative=False, known=KNOWN, cause=_CAUSE)
     finest = list(_MESHES)[-1]
-    page.check(f"{_BASE}: mean height, mm, beside {finest}", base, found[finest].ears.mean, 0.3, relative=False)
+    page.check(f"{_BASE}: mean height, mm, against {finest}", base, found[finest].ears.mean, 0.3, relative=False)
     middle, half = 0.5 * (min(means) + max(means)), 0.5 * (max(means) - min(means))
     page.check(f"{_BASE}: mean height within the band of the teams", base, middle, half, relative=False)
     case = setups()[_BASE]
@@ -172,11 +172,11 @@ def _check_ears(page: Page, found: dict[str, Made]) -> None:
         team = _CARDS[card]
         theirs = cosine(EarProfile(teams["angle"][:-1], teams[team][:-1]))
         ours = cosine(found[label].ears)
-        page.check(f"{label}: cos 4θ beside that of {team}, the same card, mm", ours, theirs, 0.3, relative=False)
+        page.check(f"{label}: cos 4θ against that of {team}, the same card, mm", ours, theirs, 0.3, relative=False)
     page.at_most("isotropic: cos 4θ, mm", abs(cosine(found["isotropic"].ears)), 0.2)
     if _FREE in found:
         formula, size = cosine(_compressed("")), cosine(found[_FREE].ears)
-        page.check(f"{_FREE}: cos 4θ beside that of a compressed flange, mm", size, formula, 0.2, relative=False)
+        page.check(f"{_FREE}: cos 4θ against that of a compressed flange, mm", size, formula, 0.2, relative=False)
     page.check(
         f"{_FINE}: cos 4θ of the height, mm",
         cosine(found[_FINE].ears),
@@ -196,13 +196,13 @@ def _check_ears(page: Page, found: dict[str, Made]) -> None:
 
 
 def _check_forces(page: Page, found: dict[str, Made]) -> None:
-    """The force of drawing by mesh, and its bands."""
+    """Punch force by mesh, and its bands."""
     *others, finest = _MESHES
     fine = found[finest].force.value
     for label in others:
         cup = found[label]
         if label != _COARSE:  # there only the band is checked
-            page.check(f"{label}: punch force of drawing beside {finest}, kN", cup.force.value, fine, 0.05)
+            page.check(f"{label}: punch force against {finest}, kN", cup.force.value, fine, 0.05)
         what = f"{label}: distance of its punch force from {finest} over its band"
         page.at_most(what, abs(cup.force.value - fine) / cup.force.ripple, 1.0)
     page.text(forces({label: found[label] for label in _MESHES}))

@@ -35,7 +35,7 @@ def aa6016(card: str = "", exponent: float | None = None, hardening: str = "") -
 
 
 def isotropic() -> J2:
-    """The same curve of NTNU without directions."""
+    """The curve of NTNU with an isotropic yield function."""
     return J2(70e3, 0.33, hardening=Voce(125.95, 314.98, 12.22))
 
 
@@ -50,7 +50,7 @@ def esaform(material: Plastic | None = None, **changes: object) -> Cup:
 
 @dataclass(frozen=True)
 class Made:
-    """A cup out of its tools.
+    """A cup after release.
 
     Attributes
     ----------
@@ -82,7 +82,7 @@ class Made:
     wall: tuple[float, float]
 
     def row(self) -> tuple[int | float, ...]:
-        """What tables show of it."""
+        """Its row in tables."""
         low, high = float(self.ears.height.min()), float(self.ears.height.max())
         forces = self.force.value, self.force.ripple, self.after.value, self.after.ripple, self.peak
         return self.elements, self.ears.mean, low, high, cosine(self.ears), *forces, self.thinning, *self.wall

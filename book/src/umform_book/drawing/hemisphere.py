@@ -1,4 +1,4 @@
-"""A clamped disc stretched over a hemispherical punch, beside a membrane that is integrated apart."""
+"""A clamped disc stretched over a hemispherical punch, compared with a membrane that is computed separately."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Stretching over a hemispherical punch, without and with friction, beside a membrane."""
+"""Stretching over a hemispherical punch, without and with friction, compared with a membrane."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ _CAUSE = (
 
 
 def deviation(dome: Dome, exact: Stretched, row: int = -1) -> Floats:
-    """Thickness strain less that of the membrane, of the cells over the punch and between the tools."""
+    """Thickness strain minus that of the membrane, of the cells over the punch and between the tools."""
     inside = dome.place < WITHIN
     off: Floats = dome.thickness[row][inside] - np.interp(dome.place[inside], exact.place, exact.thickness[row])
     return off
@@ -93,7 +93,7 @@ def _check(page: Page, what: str, dome: Dome, exact: Stretched, known: float) ->
 
 
 def _reference_alone(page: Page, exact: dict[float, Stretched]) -> None:
-    """How far the reference has converged, with friction, where it is worst."""
+    """Convergence of the reference with friction, the worst case."""
     mu, worst = FRICTION[-1], 0.0
     for other in (reference(mu, elements=120), reference(mu, step=0.2)):
         strain = np.interp(exact[mu].place, other.place, other.thickness[-1])
@@ -134,7 +134,7 @@ def _budget(page: Page, domes: dict[str, Dome]) -> None:
         strain = float(np.abs(dome.thickness[-1] - base.thickness[-1]).max())
         rows.append((f"{mesh}: {change}", 100.0 * float(dome.force[-1] / base.force[-1] - 1.0), strain))
     columns = ("", "force, %", "thickness strain, at most")
-    page.table("Budget: what each change does with mu = 0.3 at the end of the stroke", columns, rows)
+    page.table("Budget: effect of each change with mu = 0.3 at the end of the stroke", columns, rows)
 
 
 def _figures(page: Page, exact: dict[float, Stretched], found: dict[tuple[float, str], Dome]) -> None:

@@ -105,7 +105,7 @@ class Membrane:
         return logs
 
     def thickness_strain(self) -> Floats:
-        """Logarithmic strain of the thickness: plastic flow keeps the volume, elasticity does not quite."""
+        """Logarithmic thickness strain: plastic flow keeps the volume, elastic strains change it slightly."""
         elastic = self.strains(self.x) - self.state.plastic
         nu = self.sheet.material.nu
         strain: Floats = -self.state.plastic.sum(axis=1) - nu / (1.0 - nu) * elastic.sum(axis=1)

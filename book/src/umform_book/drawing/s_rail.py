@@ -143,7 +143,7 @@ class Made:
     forces: Floats
 
     def row(self) -> tuple[float, ...]:
-        """What tables show of it."""
+        """Its row in tables."""
         return (self.elements, self.increments, self.force, *self.draw_in, self.thinning, self.uneven)
 
 
@@ -211,9 +211,9 @@ def run(page: Page) -> None:
         page.check(f"{label}: stroke, mm", float(rail.stroke[-1]), STROKE, 1e-9)
         page.at_most(f"{label}: both halves, largest difference over the thickness", rail.uneven, EVEN)
     for label in [label for label in found if label != COARSE]:
-        page.check(f"{label}: force beside {COARSE}, kN", found[label].force, found[COARSE].force, FORCE)
+        page.check(f"{label}: force against {COARSE}, kN", found[label].force, found[COARSE].force, FORCE)
         apart = float(np.abs(found[label].draw_in - found[COARSE].draw_in).max())
-        page.at_most(f"{label}: draw-in beside {COARSE}, largest difference, mm", apart, DRAW_IN)
+        page.at_most(f"{label}: draw-in against {COARSE}, largest difference, mm", apart, DRAW_IN)
 
 
 CASE = Case(

@@ -1,4 +1,4 @@
-"""A disc drawn by a spherical punch through a round die, between die and a holder that keeps its distance."""
+"""A disc drawn by a spherical punch through a round die, between die and a holder at a fixed distance."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ class Drawn:
         return float(np.abs(self.rim - self.rim[::-1]).max())
 
     def row(self) -> tuple[float, ...]:
-        """What tables show of it."""
+        """Its row in tables."""
         ends = float(self.strain[0]), float(self.strain.min()), float(self.strain[-1])
         return self.elements, *self.drawn.tolist(), self.force, *ends
 

@@ -66,7 +66,7 @@ def run(page: Page) -> None:
     """Fill the page."""
     if page.short:
         cup, _ = made(page, "10 mm", Setup(MISES, 5.0, 4, "ANS3DEAS"), 10.0)
-        page.at_most("10 mm: draw-in at theta less that at 90 degrees - theta, mm", cup.asymmetry, SYMMETRIC)
+        page.at_most("10 mm: difference of draw-in at theta and 90 degrees - theta, mm", cup.asymmetry, SYMMETRIC)
         page.at_most("10 mm: relative change of the volume", abs(cup.volume), VOLUME)
         return
     band = table("spherical_punch_codes.csv")
@@ -94,7 +94,7 @@ def run(page: Page) -> None:
         excuse: dict[str, Any] = {"known": _KNOWN, "cause": _CAUSE} if metal == "Mises" else {}
         page.at_most(what, float(off.max()), OUTSIDE, **excuse)
     mises = found["Mises"]
-    page.at_most("Mises: draw-in at theta less that at 90 degrees - theta, mm", mises.asymmetry, SYMMETRIC)
+    page.at_most("Mises: difference of draw-in at theta and 90 degrees - theta, mm", mises.asymmetry, SYMMETRIC)
     for metal in METALS:
         page.at_most(f"{metal}: relative change of the volume", abs(found[metal].volume), VOLUME)
 
@@ -110,7 +110,7 @@ def _budget(page: Page, found: dict[str, Drawn]) -> None:
         ways = (100.0 * (cup.force / base.force - 1.0), *(cup.drawn - base.drawn))
         rows.append((label, other, *ways, float(change[base.place <= PUNCH].max()), float(change.max())))
     columns = ("", "less", "force, %", "draw-in at 0, mm", "45", "90 degrees", f"strain within {PUNCH:g} mm", "all")
-    page.table("Budget: what each change does; strains at most, along x", columns, rows)
+    page.table("Budget: effect of each change; largest strains, along x", columns, rows)
 
 
 def _figures(page: Page, found: dict[str, Drawn], band: dict[str, Floats]) -> None:

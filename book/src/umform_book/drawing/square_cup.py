@@ -113,7 +113,7 @@ class Made:
     after: Floats
 
     def row(self) -> tuple[int, float, float, float, float, float]:
-        """What tables show of it."""
+        """Its row in tables."""
         return self.elements, self.x, self.y, self.diagonal, self.force, self.thinning
 
 
@@ -246,7 +246,7 @@ def _budget(page: Page, found: dict[str, Made]) -> None:
         if label != BASE
     ]
     columns = ("", "sides, mm", "corner, mm", "force, %")
-    title = f"Budget at {STROKE:g} mm: what each change does to the run with elements of {BASE}"
+    title = f"Budget at {STROKE:g} mm: effect of each change on the run with elements of {BASE}"
     page.table(title, columns, rows)
 
 

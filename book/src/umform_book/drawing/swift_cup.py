@@ -39,7 +39,7 @@ def run(page: Page) -> None:
                  float(np.abs(height - height[::-1]).max()), SYMMETRIC)  # fmt: skip
     both = [found[label].ears.height for label in list(cases)[1:]]
     page.at_most(
-        "Yld2004 of exponent 2 less Hill48: largest difference of heights, mm",
+        "Yld2004 of exponent 2 minus Hill48: largest difference of heights, mm",
         float(np.abs(both[0] - both[1]).max()),
         0.01,
     )

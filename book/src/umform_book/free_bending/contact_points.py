@@ -47,12 +47,12 @@ def sweep(page: Page) -> Found:
 
 
 def smooth_jump(found: Iterable[Smoothness], mesh: Discretisation) -> float:
-    """J that the slope of the curve itself has: the least of all runs on a mesh."""
+    """J from the slope of the curve alone: the least of all runs on a mesh."""
     return min(run.jump for run in found if run.mesh is mesh)
 
 
 def tables(page: Page, found: Found) -> None:
-    """J and roughness, one row a mesh and penalty."""
+    """J and roughness, one row per mesh and penalty."""
     rules = [points for points in ALL_RULES if any(key[1] == points for key in found)]
     for what, name in (("J", "jump"), ("roughness", "roughness")):
         rows: list[tuple[str | float | None, ...]] = []

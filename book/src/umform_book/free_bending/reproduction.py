@@ -78,7 +78,7 @@ def first_stiffness(bending: Bending) -> float:
 
 
 def springback(page: Page, found: dict[str, Bending]) -> None:
-    """What of the springback is not checked, and why."""
+    """The part of the springback that is not checked, and the reason."""
     ratios = []
     for bending in found.values():
         assert bending.zero_force is not None and bending.forces[-1] is not None

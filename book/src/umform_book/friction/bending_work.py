@@ -51,7 +51,7 @@ class Drawn:
 
 
 def draw(page: Page, mu: float, divisions: int, increments: int) -> Result:
-    """Hang the tension to one end, draw the other away from the edge."""
+    """Apply the tension at one end, draw the other away from the edge."""
     length = BEFORE + BEHIND
     strip = mesh.strip(length, 1.0, THICKNESS, (divisions, 1), cell=ELEMENT.cell)
     strip = strip.transformed(lambda X: X - np.array([BEFORE, 0.0, 0.0]))
@@ -115,8 +115,8 @@ def run(page: Page) -> None:
         drawn = result["step"] > 1
         curves.append(Curve(label, -result["pull"][drawn], -result["pull_force"][drawn]))
         page.check(f"{label}: force over the sum of Swift", found.force, exact, 0.02)
-        page.check(f"{label}: force less weight against friction and flow", found.force - found.weight, parts, 0.01)
-        page.at_most(f"{label}: what balance misses over the work of the force", abs(found.missing), 1e-3)
+        page.check(f"{label}: force minus weight, against friction and flow", found.force - found.weight, parts, 0.01)
+        page.at_most(f"{label}: error of the balance over the work of the force", abs(found.missing), 1e-3)
     columns = ("", "force", "over the sum", "weight", "friction", "flow", "swing %")
     page.table("Mean force over the last part of the path, and the work per length that it does", columns, rows)
     page.figure("force", plot(curves, "way", "force", level=swift_sum(0.1)), "Force; level: the sum for mu = 0.1")

@@ -1,4 +1,4 @@
-"""Block on a plane: stick, slip and reversal at a given way, creep under a given force, slip around a circle."""
+"""Block on a plane: stick, slip and reversal at a given displacement, creep under a force, slip around a circle."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class Block:
 
 
 def block(variant: Variant, divisions: int, points: int | str, *, augmented: bool = False) -> Block:
-    """The block, which stands on the plane; its nodes are moved along the plane as one."""
+    """The block on the plane; its nodes move along the plane together."""
     cells = variant.cells(divisions)
     body = mesh.strip(LENGTH, WIDTH, HEIGHT, (cells, max(cells // 2, 1)), cell=variant.cell)
     model = Model(body, variant.element, material=SVK(E=E, nu=0.0))
@@ -82,7 +82,7 @@ def stiffness(contact: Contact, pressure: float) -> float:
 
 
 def hysteresis(way: Floats, pressure: Floats, stiff: Floats) -> Floats:
-    """Traction on the plane along a way: t = bound(t_n + stiff * change of way), exact along straight ways."""
+    """Traction on the plane along a path: t = bound(t_n + stiff * change of path), exact along straight paths."""
     traction = np.zeros_like(way)
     for k in range(1, len(way)):
         bound = MU * pressure[k]
@@ -91,7 +91,7 @@ def hysteresis(way: Floats, pressure: Floats, stiff: Floats) -> Floats:
 
 
 def back_and_forth(page: Page, variant: Variant, divisions: int, points: int | str, augmented: bool) -> Result:
-    """Press, push to and fro; press twice as hard in the end, while it slips."""
+    """Press, push back and forth; press twice as hard at the end, while it slips."""
     made = block(variant, divisions, points, augmented=augmented)
     cosine, sine = 0.8, 0.6
     steps = [Move(made.press, -PRESSED, steps=2)]
@@ -104,7 +104,7 @@ def back_and_forth(page: Page, variant: Variant, divisions: int, points: int | s
 
 
 def deviation(result: Result) -> tuple[float, float, float]:
-    """Largest deviation of the force from the closed form and across the way, over the bound; elastic slip."""
+    """Largest deviation of the force from the closed form and across the path, over the bound; elastic slip."""
     contact, area = result.model.contacts[0], LENGTH * WIDTH
     way = 0.8 * result["way"] + 0.6 * result["across"]
     pressure = -result["plane_fz"] / area
@@ -122,7 +122,7 @@ def deviation(result: Result) -> tuple[float, float, float]:
 
 
 def rigid(way: Floats, pressure: Floats) -> Floats:
-    """Traction without any elastic slip: the bound, along the way of the increment."""
+    """Traction without any elastic slip: the bound, along the motion of the increment."""
     return MU * pressure * np.sign(np.diff(way, prepend=0.0))
 
 
@@ -143,7 +143,7 @@ def by_way(page: Page) -> None:
                     found.append(deviation(result))
                     rows.append((label, divisions, *found[-1]))
                 off, sideways, slip = np.max(found, axis=0)
-                page.at_most(f"{label}, all meshes: force off by, over the bound", max(off, sideways), EXACT)
+                page.at_most(f"{label}, all meshes: deviation of the force over the bound", max(off, sideways), EXACT)
                 if augmented:
                     page.at_most(f"{label}, all meshes: elastic slip over allowed", slip, 1.0)
                 if variant is EIGHT and points != "nodes" and len(drawn) < 2:
@@ -153,11 +153,11 @@ def by_way(page: Page) -> None:
     columns = (
         "element, rule",
         "intervals",
-        "force off by, over the bound",
+        "deviation of the force over the bound",
         "across the way",
         "elastic slip over allowed",
     )
-    page.table("Pushed to and fro, then pressed twice as hard while it slips", columns, rows)
+    page.table("Pushed back and forth, then pressed twice as hard while it slips", columns, rows)
     figure = plot(drawn, "way over the allowed elastic slip", "force over mu N of the first part")
     page.figure("loop", figure, "Stick, slip, reversal; at the end the normal force doubles on the way")
 
@@ -180,22 +180,22 @@ def by_force(page: Page) -> None:
             rows.append((kind, divisions, part, way / SLIP, exact / SLIP, int(result["foot_slipping"][-1])))
             if augmented:
                 page.at_most(
-                    f"{kind}, {divisions} intervals: way under 0.9 of the bound, over allowed", way / SLIP, 1.0
+                    f"{kind}, {divisions} intervals: displacement under 0.9 of the bound, over allowed", way / SLIP, 1.0
                 )
             else:
-                page.check(f"{kind}, {divisions} intervals: way under 0.9 of the bound", way, exact, EXACT)
+                page.check(f"{kind}, {divisions} intervals: displacement under 0.9 of the bound", way, exact, EXACT)
     columns = ("", "intervals", "force over bound", "way over allowed", "traction over stiffness", "points that slip")
     page.table("The plane pushed by a force below the bound", columns, rows)
 
 
 def normal_force(made: Block, augmented: bool) -> float:
-    """Normal force to expect: block and penalty as springs in a row; multipliers leave the block alone."""
+    """Expected normal force: block and penalty as springs in series; with multipliers the block alone."""
     soft = 0.0 if augmented else 1.0 / made.contact.penalty
     return PRESSED * LENGTH * WIDTH / (HEIGHT / E + soft)
 
 
 def around(page: Page) -> None:
-    """A circle: the elastic slip is dragged behind like a weight on a string."""
+    """A circle: the elastic slip trails the motion at a constant angle."""
     radius = 10.0 * SLIP
     rows: list[tuple[str | float | int, ...]] = []
     for increments in page.pick((50, 100, 200, 400), (50, 100)):

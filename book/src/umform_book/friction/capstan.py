@@ -73,7 +73,7 @@ def wrapped(strip: Strip, divisions: int, variant: Variant) -> Mesh:
 
 
 def turn(page: Page, strip: Strip, variant: Variant, divisions: int, points: int | str) -> Result:
-    """Hang the tension to one end, hold the other, turn the cylinder until all points slip."""
+    """Apply the tension at one end, hold the other, turn the cylinder until all points slip."""
     model = Model(wrapped(strip, divisions, variant), variant.element, material=SVK(E=E, nu=0.0))
     model.fix(np.arange(len(model.mesh.points)), "y")
     model.prescribe("x0", "x", "hold")
@@ -89,7 +89,7 @@ def turn(page: Page, strip: Strip, variant: Variant, divisions: int, points: int
 
 @dataclass(frozen=True)
 class Found:
-    """Ratio of the tensions, what the moment on the cylinder misses of mu R N, the part of the points that slips."""
+    """Ratio of the tensions, deviation of the moment on the cylinder from mu R N, the part of the points that slips."""
 
     ratio: float
     moment: float

@@ -1,4 +1,4 @@
-"""Draw bead of real geometry beside the sum of bending and friction, and beside the equivalent bead."""
+"""Draw bead of real geometry, compared with the sum of bending and friction and with the equivalent bead."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def real(page: Page, elements: float, friction: float) -> Drawn:
 
 
 def equivalent(page: Page, drawn: Drawn) -> tuple[np.ndarray, np.ndarray]:
-    """Draw the same strip over a flat with the equivalent bead: way and force."""
+    """Draw the same strip over a flat with the equivalent bead: path and force."""
     case = drawn.case
     X = case.sheet().points[:, 0]
     left, right = float(X.min()), float(X.max())

@@ -1,4 +1,4 @@
-"""Elastic strip drawn over an edge with friction: the closed form of what bending adds, and the runs."""
+"""Elastic strip drawn over an edge with friction: the closed form of the effect of bending, and the runs."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def sliding(weight: float, radius: float, angle: float, mu: float) -> Sliding:
 
 
 def draw(page: Page, edge: Edge, variant: Variant, divisions: int, points: int | str, mu: float = MU) -> Result:
-    """Hang the weight to one end of the flat strip, then draw the other one away from the edge."""
+    """Apply the weight at one end of the flat strip, then draw the other one away from the edge."""
     strip = mesh.strip(ENDS[1] - ENDS[0], WIDTH, THICKNESS, (variant.cells(divisions), 1), cell=variant.cell)
     strip = strip.transformed(lambda X: X + np.array([ENDS[0], 0.0, 0.0]))
     model = Model(strip, variant.element, material=SVK(E=E, nu=0.0))

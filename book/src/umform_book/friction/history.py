@@ -1,4 +1,4 @@
-"""What friction remembers: 1000 increments at rest, the bound at every point, a closed loop on a sphere."""
+"""History of friction: 1000 increments at rest, the bound at every point, a closed loop on a sphere."""
 
 from __future__ import annotations
 
@@ -77,7 +77,9 @@ def rest(page: Page) -> None:
                 work,
             )
         )
-        page.at_most(f"{divisions} intervals, {count} increments at rest: way over allowed elastic slip", moved, 1e-6)
+        page.at_most(
+            f"{divisions} intervals, {count} increments at rest: displacement over allowed elastic slip", moved, 1e-6
+        )
         page.at_most(f"{divisions} intervals, {count} increments at rest: change of tractions", changed, limit)
     columns = ("intervals", "increments", "points", "stick", "way over allowed slip", "traction", "work of friction")
     page.table("At rest: changes at the end, the last two relative", columns, rows)
@@ -121,14 +123,14 @@ def bound(page: Page) -> None:
 
 @dataclass(frozen=True)
 class Loop:
-    """Elastic slip that a place has collected around a circle of latitude, along and across its way."""
+    """Elastic slip of a point around a circle of latitude, along and across its path."""
 
     found: Floats
     exact: Floats
 
 
 def loops(page: Page, divisions: int, increments: int) -> list[Loop]:
-    """A patch that is held while a sphere turns once beneath it, so rough that nothing slips."""
+    """A held patch on a sphere that turns once, with so much friction that nothing slips."""
     patch = mesh.strip(4.0, 3.0, 1.0, (divisions, divisions), cell="hex8")
     tilt = np.radians(35.0)
     turn = np.array([[np.cos(tilt), 0.0, np.sin(tilt)], [0.0, 1.0, 0.0], [-np.sin(tilt), 0.0, np.cos(tilt)]])

@@ -59,7 +59,7 @@ class Found:
 
 
 def push(page: Page, variant: Variant, divisions: int, nu: float) -> list[Found]:
-    """Press the cylinder in, push it along the block, and look at every increment."""
+    """Press the cylinder in, push it along the block, and measure in every increment."""
     size = 1.0 / variant.cells(divisions)
     half = growing(size, 1.5 if size < 0.5 else 2.0, END, GROWTH)
     across, depth = np.concatenate([-half[:0:-1], half]), -growing(size, 1.0, END, GROWTH)[::-1]

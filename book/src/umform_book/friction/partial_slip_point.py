@@ -63,7 +63,7 @@ def stick_of(moment: float) -> float:
 
 
 def push(page: Page, divisions: int) -> list[Found]:
-    """Press the sphere in, push it along the block, and look at every increment."""
+    """Press the sphere in, push it along the block, and measure in every increment."""
     size = 1.0 / divisions
     half = growing(size, 1.5 if size < 0.5 else 2.0, END, GROWTH)
     body = mesh.grid(np.concatenate([-half[:0:-1], half]), half, -growing(size, 1.0, END, GROWTH)[::-1], EIGHT.cell)

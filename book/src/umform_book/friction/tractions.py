@@ -55,7 +55,7 @@ class Tractions:
 def pushed(
     model: Model, contact: Contact, along: Control, ways: Floats, directions: int, options: NewtonOptions
 ) -> Iterator[Tractions]:
-    """Push a tool along x and look at the tractions after each way, over one or two directions of the plane."""
+    """Push a tool along x; the tractions after each displacement, over one or two directions of the plane."""
     for moved in ways:
         solve(model, Move(along, float(moved), steps=1), progress=False, frames=0, options=options)
         held = contact.found.held

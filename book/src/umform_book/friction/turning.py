@@ -93,7 +93,9 @@ def with_the_sheet(page: Page) -> None:
                 off, work, iterations = carried(page, kind, variant, divisions, steps)
                 rows.append((f"{kind}, {variant.label}", divisions, 90.0 / steps, off, work, iterations))
             worst = np.abs([row[3:5] for row in rows if row[0] == f"{kind}, {variant.label}"]).max(axis=0)
-            page.at_most(f"{kind}, {variant.label}: places off by, over the allowed elastic slip", worst[0], EXACT)
+            page.at_most(
+                f"{kind}, {variant.label}: deviation of positions over the allowed elastic slip", worst[0], EXACT
+            )
             page.at_most(f"{kind}, {variant.label}: work of friction over elastic energy", worst[1], LOST)
     columns = (
         "tool, element",

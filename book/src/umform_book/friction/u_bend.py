@@ -119,7 +119,7 @@ def model_of(setup: Setup) -> tuple[Model, list[Move]]:
 
 
 def draw(page: Page, setup: Setup, label: str) -> tuple[Model, Result]:
-    """Close the holder and draw; the support that will hold the part when the tools are gone is taken away first."""
+    """Close the holder and draw, without the support that holds the part after the release."""
     model, steps = model_of(setup)
     centre = model.fix(lambda x, y, z: (x < 1e-9) & (z < 1e-9), "z")
     model.remove(centre)
@@ -129,7 +129,7 @@ def draw(page: Page, setup: Setup, label: str) -> tuple[Model, Result]:
 
 
 def release(page: Page, model: Model, label: str) -> Result:
-    """Take all tools away at once, and let the forces that they exerted fade; the middle of the bottom stays."""
+    """Remove all tools at once and reduce their forces to zero; the middle of the bottom is held."""
     loads = [model.remove(contact) for contact in list(model.contacts)]
     return page.solve(f"{label}: released", model, Move(loads, [0.0] * len(loads), steps=10))
 
@@ -217,7 +217,7 @@ def run(page: Page) -> None:
     budget = [(label, *(getattr(found[label], n) - getattr(middle, n) for n in names)) for label in list(found)[2:]]
     total = [sum(abs(float(row[k])) for row in budget) for k in range(1, len(names) + 1)]
     page.table(
-        "Budget of errors: what each change does to the run with 125 intervals", columns, [*budget, ("sum", *total)]
+        "Budget of errors: effect of each change on the run with 125 intervals", columns, [*budget, ("sum", *total)]
     )
     for k, (name, limit) in enumerate(LIMITS.items()):
         scale = 1.0 if name.startswith("theta") else abs(getattr(middle, name))

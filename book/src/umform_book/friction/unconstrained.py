@@ -149,12 +149,12 @@ def setups(mu: float) -> dict[str, Setup]:
 
 
 def budget(page: Page, mu: float, found: dict[str, Measured], columns: tuple[str, ...]) -> None:
-    """Sum of what each change does to the run with 150 intervals."""
+    """Sum of effect of each change on the run with 150 intervals."""
     middle = np.array(astuple(found["150 intervals"]))
     changes = {label: np.array(astuple(found[label])) - middle for label in list(found)[2:]}
     total = sum(np.abs(change) for change in changes.values())
     rows = [(label, *change.tolist()) for label, change in {**changes, "sum": total}.items()]
-    page.table(f"mu = {mu:g}: budget of errors, what each change does to the run with 150 intervals", columns, rows)
+    page.table(f"mu = {mu:g}: budget of errors, effect of each change on the run with 150 intervals", columns, rows)
     for k, (name, limit) in enumerate(LIMITS.items()):
         scale = middle[0] if k == 0 else 1.0
         what = f"mu = {mu:g}, {name}: sum of the budget" + (", over it" if k == 0 else ", degrees")

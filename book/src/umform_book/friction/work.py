@@ -79,7 +79,7 @@ def run(page: Page) -> None:
     )
     page.at_most(f"strip, {counts[1]} increments per stroke: drift", drifts[1], 0.5 * WARNED)
     if len(counts) > 2:
-        page.at_most("strip: work at 40 increments off the finest, over that at 10", off[2] / off[0], 1.0 / 8.0)
+        page.at_most("strip: error of the work at 40 increments over that at 10", off[2] / off[0], 1.0 / 8.0)
         page.at_most("strip: drift at 80 increments over that at 20", drifts[3] / drifts[1], 1.0 / 8.0)
 
 

@@ -61,7 +61,7 @@ def run(page: Page) -> None:
         for pair in page.each(pairs, lambda pair: f"{pair[0].label}, {pair[1]}")
     }
     columns = ("element, intervals", *(f"R/h = {ratio:g}" for ratio in slender))
-    for place, title in enumerate(("Flexibility v E h^3 / (F R^2)", "Outward less inward displacement, relative")):
+    for place, title in enumerate(("Flexibility v E h^3 / (F R^2)", "Outward minus inward displacement, relative")):
         page.table(
             title,
             columns,
@@ -87,7 +87,7 @@ def _check(page: Page, found: Found, divisions: Sequence[int], slender: Sequence
     if 1e4 in slender:
         for ratio in (1e3, 3e3):
             errors = [found[variant, fine][ratio][1] for variant in TIED if variant.cell == "hex8"]
-            what = f"R/h = {ratio:g}: outward less inward displacement, 4-node faces, {fine} intervals"
+            what = f"R/h = {ratio:g}: outward minus inward displacement, 4-node faces, {fine} intervals"
             page.at_most(what, max(errors), 1e-3)
         refused = sum(math.isnan(row[1e4][0]) for row in found.values())
         what = "R/h = 10000: matrices refused as singular"

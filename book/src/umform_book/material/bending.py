@@ -38,7 +38,7 @@ _BACK = 1.5
 
 @dataclass(frozen=True)
 class Bent:
-    """Arrays over the increments; the last corner is the way back.
+    """Arrays over the increments; the last corner is the unloading.
 
     Attributes
     ----------
@@ -59,7 +59,7 @@ class Bent:
 
     @property
     def released(self) -> float:
-        """Curvature without moment behind the last corner."""
+        """Curvature without moment after the last corner."""
         last = self.corners[-2]
         return zero_moment(self.curvature[last:], self.moment[last:])
 
@@ -143,7 +143,7 @@ def run(page: Page) -> None:
 
 
 def _own(page: Page) -> None:
-    """How far the reference has converged."""
+    """Convergence of the reference."""
     for name in page.pick(list(HARDENING), ["Yoshida-Uemori"]):
         corners = [(1.0, CURVATURE), (1.0, 0.5 * CURVATURE)]
         coarse, fine = (

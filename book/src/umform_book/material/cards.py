@@ -141,7 +141,7 @@ def _over_the_angle(page: Page, card: SheetMetal, law: Metal, kinds: Sequence[st
             limit = (_MEASURED_STRESS, _MEASURED_R)[column]
             first = found[kinds[0]]
             error = max(abs(first[angle][column] - measured[angle]) / max(measured[angle], 0.2) for angle in seen)
-            page.at_most(f"{card.name}: {what} of one element over the angle, from what was measured", error, limit)
+            page.at_most(f"{card.name}: {what} of one element over the angle, against measurements", error, limit)
     if page.images is not None:
         page.figure(_key(card.name), _figure(card, law, found[kinds[0]]), f"{card.name}: over the angle, {kinds[0]}")
 

@@ -49,7 +49,7 @@ def run(page: Page) -> None:
     if page.short:
         return
     orders = [row.newton.order for row in page.balances if row.newton.order is not None]
-    page.at_most("order of Newton's method, median over the runs: two less it", max(0.0, 2.0 - median(orders)), 0.2)
+    page.at_most("2 minus the order of Newton's method, median over the runs", max(0.0, 2.0 - median(orders)), 0.2)
     drift = max(row.drift for row in page.balances)
     page.at_most("work and energies: largest drift of a run", drift, 0.02)
 

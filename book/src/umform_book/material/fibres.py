@@ -23,7 +23,7 @@ _THIRD = np.full((3, 3), 1.0 / 3.0)
 
 @dataclass(frozen=True)
 class State:
-    """What n fibres remember: principal logarithmic strains and their plastic parts, back stresses, sizes.
+    """History of n fibres: principal logarithmic strains and their plastic parts, back stresses, sizes.
 
     Attributes
     ----------
@@ -113,7 +113,7 @@ def _back_rates(metal: Metal, state: State, direction: Floats) -> Floats:
 
 
 def _flowed(metal: Metal, state: State, along: Floats, dp: Floats, n: Floats, backs: Floats) -> State:
-    """The state behind a strain along the sheet, with sigma_33 = 0 again."""
+    """The state after a strain along the sheet, with sigma_33 = 0 again."""
     eqps = state.eqps + dp
     plastic, back = state.plastic + dp[:, None] * n, state.back + dp[:, None] * backs
     strain = state.strain + np.outer(along, [1.0, 0.0, 0.0])
@@ -207,7 +207,7 @@ class Fibres:
 
 
 def path_of(section: Fibres, corners: Sequence[tuple[float, float]], increments: int) -> tuple[Floats, Floats, Floats]:
-    """Curvature, force and moment on straight ways between corners of stretch and curvature, from the flat sheet on."""
+    """Curvature, force and moment on straight paths between corners of stretch and curvature, from the flat sheet."""
     rows, last = [(0.0, 0.0, 0.0)], (1.0, 0.0)
     for corner in corners:
         for part in np.linspace(0.0, 1.0, increments + 1)[1:]:

@@ -87,7 +87,7 @@ def _simple_shear(page: Page) -> None:
         for g in (0.1, 1.0, 2.0)
     ]
     page.table(
-        "Shear stress in logarithmic space less that of J2, %",
+        "Shear stress in logarithmic space minus that of J2, %",
         ("shear 0.1", "1", "2"),
         [tuple(f"{100 * value:.2f}" for value in far)],
     )

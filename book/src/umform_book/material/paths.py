@@ -28,7 +28,7 @@ def run(page: Page) -> None:
 
 
 def corners_of(metal: Metal, stresses: Sequence[tuple[float, float]], steps: int) -> Floats:
-    """Strains 11 and 12 (of the tensor) and plastic strain behind each corner of a path in stresses 11 and 12."""
+    """Strains 11 and 12 (of the tensor) and plastic strain after each corner of a path in stresses 11 and 12."""
     corners = np.array([[0.0, 0.0], *stresses])
     rows = np.concatenate([np.linspace(a, b, steps + 1)[1:] for a, b in itertools.pairwise(corners)])
     stress = np.zeros((len(rows), 6))
@@ -113,7 +113,7 @@ def _cycles(page: Page) -> None:
 
 
 def _with_turns(strains: Floats) -> tuple[Floats, Floats]:
-    """Strains with those where the bar turns put in, and the rows of the ones that were given."""
+    """Strains with the reversals inserted, and the rows of the given ones."""
     turns, at = [0.05, -0.05, 0.05, -0.05, 0.05], 0
     path: list[float] = []
     rows: list[int] = []

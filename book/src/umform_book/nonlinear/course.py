@@ -1,4 +1,4 @@
-"""What the pages of this chapter share: every element on every mesh along the load, against reference curves."""
+"""Common part of the pages of this chapter: every element on every mesh along the load, against reference curves."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ class Problem:
 
 @dataclass
 class Found:
-    """What came out.
+    """Results of the course.
 
     Attributes
     ----------
@@ -156,7 +156,7 @@ def enter_shape(
 
 
 def needed_text(found: Found, enough: float = EXPECTED) -> str:
-    """From which mesh on each element meets the reference at full load."""
+    """Coarsest mesh from which on each element meets the reference at full load."""
     what, shares = found.first_measure()
     met: dict[str, list[str]] = {}
     for variant, row in shares.items():
@@ -170,7 +170,7 @@ def needed_text(found: Found, enough: float = EXPECTED) -> str:
 
 
 def locking_text(found: Found) -> str:
-    """How little the elements that lock move."""
+    """Displacements of the elements that lock, over the reference."""
     what, shares = found.first_measure()
     row = {variant.name: numbers[found.finest] for variant, numbers in shares.items() if variant in LOCKING}
     parts = (f"{name} {100 * share:.0f} %" if share == share else f"{name} nothing" for name, share in row.items())

@@ -54,7 +54,7 @@ def run(page: Page) -> None:
 
 
 def _folding_text(page: Page) -> str:
-    """What becomes of the path on the coarsest mesh."""
+    """The path on the coarsest mesh."""
     variant, mesh = TIED[0], min(PROBLEM.meshes)
     label = f"{variant.label}, {mesh}, arc length"
     rising = np.diff(trace_arc(build(variant, mesh), PROBLEM.reference[LOAD], partial(page.solve, label))[LOAD]) > 0.0

@@ -24,7 +24,7 @@ LOAD = "load_fraction"
 
 
 class Solve(Protocol):
-    """What solves a step: :func:`umform.solve`, or that of a page, which keeps the balance."""
+    """Function that solves a step: :func:`umform.solve`, or that of a page, which records the balance."""
 
     def __call__(self, model: Model, steps: Move | Arc, *, frames: int) -> Result:
         """Solve."""

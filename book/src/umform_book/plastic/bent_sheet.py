@@ -32,7 +32,7 @@ WIDTH = 1.0
 
 @dataclass(frozen=True)
 class Bent:
-    """What a run of a sheet found: arrays over the increments up and back.
+    """Results of a sheet: arrays over the increments up and back.
 
     Attributes
     ----------
@@ -106,7 +106,7 @@ def bend(
 
 
 def _curvatures(result: Result, path: BendingPath) -> Floats:
-    """Curvature of each row of the history: step 1 is the way up, step 2 the way back."""
+    """Curvature of each row of the history: step 1 is loading, step 2 unloading."""
     time = result["time"]
     up = np.interp(time, np.linspace(0.0, 1.0, len(path.curvature)), path.curvature)
     back = np.interp(time - 1.0, np.linspace(0.0, 1.0, len(path.curvature_back)), path.curvature_back)
@@ -114,7 +114,7 @@ def _curvatures(result: Result, path: BendingPath) -> Floats:
 
 
 def _section_forces(result: Result, curvature: Floats, chords: int) -> tuple[Floats, Floats]:
-    """Moment and force per width: what does work on the curvature, and the resultant along the sheet."""
+    """Moment (work conjugate of the curvature) and force along the sheet, per width."""
     d = 1e-6
     by_curvature = [
         np.subtract(end_section(k + d, chords), end_section(k - d, chords)) / (2.0 * d * LENGTH) for k in curvature

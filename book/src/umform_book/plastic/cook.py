@@ -1,4 +1,4 @@
-"""Cook's membrane with finite plastic strains: what holding the volume does to the membrane of each element."""
+"""Cook's membrane with finite plastic strains: effect of the constant volume on the membrane of each element."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def membrane(variant: Variant, divisions: int) -> Model:
 
 @dataclass(frozen=True)
 class Bent:
-    """What a run found: force and vertical displacement of the upper corner of the tip, and hourglass patterns."""
+    """Results of a run: force and vertical displacement of the upper corner of the tip, and hourglass patterns."""
 
     force: Floats
     displacement: Floats

@@ -1,4 +1,4 @@
-"""Hourglass patterns in a structured mesh of one layer, seen in numbers."""
+"""A measure of hourglass patterns in a structured mesh of one layer."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from umform.model import Model
 
 
 def alternation(model: Model, cells: tuple[int, int]) -> float:
-    """How much of the hourglass deformation of the cells changes its sign from cell to cell.
+    """Share of the hourglass deformation of the cells that changes its sign from cell to cell.
 
     The hourglass vector x1 - x2 + x3 - x4 of the corners of a cell is of the size of a second derivative for a smooth
     displacement, and neighbours agree; in a pattern neighbours are opposite, along one direction or both.

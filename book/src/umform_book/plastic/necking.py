@@ -1,4 +1,4 @@
-"""Strips with a small imperfection: they neck behind the largest force, and some elements hourglass."""
+"""Strips with a small imperfection: they neck after the largest force, and some elements hourglass."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ STRIPS = (
 
 @dataclass(frozen=True)
 class Necked:
-    """What a run found.
+    """Results of a run.
 
     Attributes
     ----------

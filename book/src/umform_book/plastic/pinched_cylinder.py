@@ -1,4 +1,4 @@
-"""Pinched cylinder with rigid diaphragms in the plastic range: a thin shell that buckles its way in."""
+"""Pinched cylinder with rigid diaphragms in the plastic range: a thin shell that buckles inward."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def eighth(variant: Variant, divisions: int) -> tuple[Model, Prescribed]:
 
 @dataclass(frozen=True)
 class Pinched:
-    """What a run found: displacement and whole force of each increment, and iterations."""
+    """Results of a run: displacement and whole force of each increment, and iterations."""
 
     way: Floats
     force: Floats

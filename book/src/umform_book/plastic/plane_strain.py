@@ -134,7 +134,7 @@ class Section:
 
 @dataclass(frozen=True)
 class BendingPath:
-    """Bending to a curvature and back to zero moment: arrays over the states of the way up and of the way back."""
+    """Bending to a curvature and back to zero moment: arrays over the states of loading and unloading."""
 
     curvature: Floats
     moment: Floats
@@ -160,7 +160,7 @@ def bending_path(
     steps: int = 150,
     rule: tuple[Floats, Floats] | None = None,
 ) -> BendingPath:
-    """Bend a section to a curvature and a quarter more than back to zero moment."""
+    """Bend a section to a curvature and unload it to a quarter beyond zero moment."""
     section = Section(material, thickness, rule)
     up = np.linspace(0.0, curvature, steps + 1)
     moment = np.array([section.bend(k) for k in up])

@@ -109,7 +109,7 @@ def _wall(
         for (law, R, T), found in exact.items()
         if R <= 20.0
     ]
-    page.table("Thinning of the wall behind the radius", columns, rows)
+    page.table("Thinning of the wall after the radius", columns, rows)
 
 
 def _limits(page: Page, errors: dict[str, dict[tuple[str, float, float], Floats]]) -> None:

@@ -58,7 +58,7 @@ def quarter(variant: Variant, divisions: int) -> Model:
 
 @dataclass(frozen=True)
 class Expanded:
-    """What a run found: arrays over the increments."""
+    """Results of a run: arrays over the increments."""
 
     inner_displacement: Floats
     pressure: Floats

@@ -1,4 +1,4 @@
-"""Points through the thickness: what their number and their rule do to the plastic moment and to springback."""
+"""Points through the thickness: effect of their number and rule on plastic moment and springback."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ TOLERANCE = 0.02
 
 
 def plastic_moment(points: int, rule: str, shift: float = 0.0) -> float:
-    """Fully plastic moment that a rule finds, over the exact one. eqs. (2.21), (2.22)
+    """Fully plastic moment of a rule, over the exact one. eqs. (2.21), (2.22)
 
     Stress +-1 with its jump at t = shift, times t, summed over the rule; the integral is 1 - shift^2.
     """
@@ -140,7 +140,7 @@ def _judge(page: Page, name: str, errors: Errors) -> None:
 
 
 def _curves(page: Page) -> None:
-    """The moment wavers over the curvature as one point after the other begins to flow."""
+    """The moment oscillates over the curvature as one point after the other begins to flow."""
     law = LAWS["perfect"]
     exact = bending_path(law, THICKNESS, CURVATURE)
     y = "moment over the exact one"

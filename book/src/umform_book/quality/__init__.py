@@ -1,4 +1,4 @@
-"""What every element must do before any problem is worth solving: patch tests, eigenvalues, invariance."""
+"""Requirements on every element: patch tests, eigenvalues, invariance."""
 
 from umform_book.case import Chapter
 from umform_book.quality import eigenvalues, invariance, patch_tests

@@ -205,7 +205,7 @@ def _spectra(
 
 
 def _duties(page: Page) -> None:
-    """What each element must satisfy, and what theory exempts it from."""
+    """Requirements on each element, and failures that theory predicts."""
     rows = []
     for name in SEVEN:
         volume = "-" if Variant(name).cell == "hex18" else "must" if name == "EAS3DEAS" else "need not"

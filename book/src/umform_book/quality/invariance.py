@@ -167,7 +167,7 @@ def run(page: Page) -> None:
         else f"Not all elements are invariant: the largest change is {shown(largest, 2)}."
     )
     more = max(abs(count - row[0]) for row in iterations.values() for count in row)
-    page.at_most("all elements: iterations more or less in any of them", more, 0.0)
+    page.at_most("all elements: largest difference of iterations", more, 0.0)
     page.shape("shape", Shape.displaced(sheet(variant.cell), u), f"Deformed sheet, {variant.label}")
 
 

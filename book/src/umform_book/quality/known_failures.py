@@ -1,4 +1,4 @@
-"""Which element fails which patch test: what theory predicts, with the sizes measured."""
+"""Failures in patch tests that theory predicts, by element, with the sizes measured."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ _THEORY = "[theory 2.9](../theory/2-elements.md), eq. (2.30)"
 
 
 class ExpectedFailure(NamedTuple):
-    """A failure that theory predicts: its largest size as measured, why, and the source."""
+    """A failure that theory predicts: its largest measured size, cause and source."""
 
     limit: float
     cause: str

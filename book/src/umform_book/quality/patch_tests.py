@@ -39,7 +39,7 @@ Test = tuple[Row, str, str]
 
 
 def failure(row: Row, mesh: str, field: str) -> float:
-    """Largest error of displacements or energy over the thickness orders, and with what a plastic law takes."""
+    """Largest error of displacements or energy over the thickness orders, and with the setting of a plastic law."""
     models = [patch_model(mesh, row.name, **options) for options in row.options()]
     if row.modes == element(row.name).options["thickness_modes"]:  # that of the catalogue
         models.append(plastic_patch_model(mesh, row.name, **row.common()))

@@ -1,4 +1,4 @@
-"""What is bent from flat in increments of curvature, and the moment that it is compared with."""
+"""Bending from flat in increments of curvature, and the moment for comparison."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A wide cantilever that is bent a little more than to its yield moment, and released: its section, and its model."""
+"""A wide cantilever that is bent slightly beyond its yield moment, and released: its section, and its model."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def fibres(largest: float = 3.0, number: int = 160, count: int = 1000) -> tuple[
 
 
 def permanent_sets(curve: tuple[Floats, Floats], levels: Sequence[float]) -> Floats:
-    """Permanent deflections of the tip, over LENGTH, behind forces P with P LENGTH over the yield moment. eq. (2.45)
+    """Permanent deflections of the tip, over LENGTH, after forces P with P LENGTH over the yield moment. eq. (2.45)
 
     The loaded shape is that of the elastica: its rotation shortens the arm of the force. Unloading is elastic.
     """
@@ -73,7 +73,7 @@ def _integral(values: Floats, step: float) -> Floats:
 def cantilever_sets(
     page: Page, label: str, element: str | Element, levels: Sequence[float], **through: object
 ) -> Floats:
-    """Permanent deflections of a model, loaded to one level after the other and released behind each."""
+    """Permanent deflections of a model, loaded to one level after the other and released after each."""
     cell = catalogue_element(element).cell
     half = 1 if cell == "hex8" else 2
     root, rest = np.linspace(0.0, 1.0 / 3.0, FINE // half + 1), np.linspace(1.0 / 3.0, 1.0, COARSE // half + 1)

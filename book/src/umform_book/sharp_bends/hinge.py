@@ -1,4 +1,4 @@
-"""Three-point bending without contact: force and radius of the hinge, against continuum meshes; and what to take."""
+"""Three-point bending without contact: force and radius of the hinge, against continuum meshes; advice."""
 
 from __future__ import annotations
 
@@ -151,7 +151,7 @@ def _advice(page: Page, worst: dict[float, tuple[float, list[tuple[str, float]]]
 
 
 def _without_hardening(page: Page) -> None:
-    """Why no element is judged without hardening: continuum meshes do not agree themselves."""
+    """Without hardening no element is checked: the continuum meshes do not agree."""
     coarse, fine = (m for m in calculix.STORED if m.over == "supports" and m.hardening == 0.0)
     u, force = 10.0, [float(np.interp(10.0, *calculix.forces(mesh)[:2])) for mesh in (coarse, fine)]
     page.heading("Without hardening")

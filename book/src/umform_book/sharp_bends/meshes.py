@@ -93,7 +93,7 @@ def _in_plane(page: Page) -> None:
 
 
 def _trapezoids(X: Floats, length: float) -> Floats:
-    """Lines across the strip lean to the left and to the right in turns: parallel sides of 1/2 and 3/2 length."""
+    """Lines across the strip lean alternately to the left and to the right: parallel sides of 1/2 and 3/2 length."""
     return X + np.outer(0.5 * length * _turn_by_turn(X, length) * (X[:, 1] - 0.5), [1, 0, 0])
 
 
@@ -103,7 +103,7 @@ def _parallelograms(X: Floats, length: float) -> Floats:
 
 
 def _leaning(X: Floats, length: float) -> Floats:
-    """Directors lean to the left and to the right in turns, by a quarter of the length over the thickness."""
+    """Directors lean alternately to the left and to the right, by a quarter of the length over the thickness."""
     return X + np.outer(0.25 * length * _turn_by_turn(X, length) * X[:, 2], [1, 0, 0])
 
 
@@ -117,7 +117,7 @@ def _inside(X: Floats, length: float) -> Floats:
 
 
 def _turn_by_turn(X: Floats, length: float) -> Floats:
-    """1 and -1 in turns at the lines between elements, linear between them, 0 at the ends."""
+    """Alternately 1 and -1 at the lines between elements, linear between them, 0 at the ends."""
     lines = np.linspace(0.0, HINGE.length, round(HINGE.length / length) + 1)
     values = (-1.0) ** np.arange(len(lines))
     values[[0, -1]] = 0.0

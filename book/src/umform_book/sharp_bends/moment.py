@@ -1,4 +1,4 @@
-"""Pure plastic bending of one element in plane strain: the moment that it finds, with directors held and free."""
+"""Pure plastic bending of one element in plane strain: its moment with directors held and free."""
 
 from __future__ import annotations
 

@@ -80,7 +80,7 @@ def _check_paper(page: Page, runs: Runs, stacks: Mapping[int, Bend]) -> None:
 
 
 def _without_hardening(page: Page, runs: Runs) -> None:
-    """How far the meshes of one element lie apart: no check, since the problem has no solution to compare with."""
+    """Differences between meshes of one element: no check, since the problem has no solution."""
     u = MARKS[2]
     said = []
     sharp = {label: found.radius for (label, _), found in runs.items()}

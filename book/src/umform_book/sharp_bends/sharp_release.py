@@ -71,7 +71,7 @@ def _arc(candidate: Candidate) -> Bending:
 
 
 def _released(sheet: Bending, strain: float) -> tuple[float, float]:
-    """Moment of a bend to a surface strain, and the curvature without moment behind it."""
+    """Moment of a bend to a surface strain, and the curvature after release."""
     target = 2.0 * strain / THICKNESS
     for curvature in np.linspace(0.0, target, 61)[1:]:
         sheet.bend_to(float(curvature))

@@ -44,7 +44,7 @@ def fold(radius: float) -> Fold:
 
 
 def _chosen(page: Page, radius: float) -> list[tuple[Candidate, float]]:
-    """What is laid over a cylinder, with the length of its elements; the reference first."""
+    """Candidates over a cylinder with the length of their elements; the reference first."""
     length = 0.25 if radius < RADII[-1] else 0.5
     stacks = [(stack("EAS3DEAS", n, p, k), length) for n, p, k in ((4, 2, 4), (2, 2, 4), (2, 1, 4))]
     eight = [(of_order("ANS3DEAS", p), 0.5) for p in (1, 2, 3)] + [(BEND8, 0.5)]

@@ -1,4 +1,4 @@
-"""Permanent set of mild and sharp bends: what thickness order and thickness points do to springback."""
+"""Permanent set of mild and sharp bends: effect of thickness order and thickness points on springback."""
 
 from __future__ import annotations
 
@@ -109,11 +109,11 @@ def _orders(page: Page, exact: Floats) -> None:
             rows.append((f"{n} {rule}, order {order}", *map(float, errors)))
             last[rule, n, order] = errors
     columns = ("section", *(f"{level:g} My" for level in LEVELS))
-    page.table("Error in % of the permanent set, orders 1 to points less one, in a section", columns, rows)
+    page.table("Error in % of the permanent set, orders 1 to points minus one, in a section", columns, rows)
     for (rule, n, order), errors in last.items():
         if order == n - 1:
             free = _percent(_section_sets(_rule(n, rule), None, LEVELS), exact)
-            what = f"{n} {rule}: order {order} less sigma_33 = 0 at each point, in % of the set"
+            what = f"{n} {rule}: order {order} minus sigma_33 = 0 at each point, in % of the set"
             page.at_most(what, float(np.abs(errors - free).max()), 0.5)
     low = last["split", 12, 1]
     page.text(

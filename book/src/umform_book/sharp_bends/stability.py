@@ -90,7 +90,7 @@ def _eigenvalues(page: Page) -> None:
 
 
 def _check_eigenvalues(page: Page, law: str, found: dict[Patch, Counts]) -> None:
-    """No more negative eigenvalues than the element that it is made of, nor than the continuum."""
+    """No more negative eigenvalues than the base element, nor than the continuum."""
     continuum = found[CONTINUUM]
     for base, name, count, distorted in COMPARED:
         patch = Patch(Variant(name), count, distorted=distorted)

@@ -26,7 +26,7 @@ EDGE = 4.0
 
 @dataclass(frozen=True)
 class State:
-    """Stretches along the axes, and the axes along which there shall be no stress: these stretches are adjusted."""
+    """Stretches along the axes; along axes without stress they are adjusted."""
 
     name: str
     stretches: tuple[float, float, float]

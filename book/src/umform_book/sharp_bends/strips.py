@@ -84,7 +84,7 @@ class Distortion:
 
 @dataclass(frozen=True)
 class Bend:
-    """What came out of a strip.
+    """Results of a strip.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Other ways to let E_33 vary through the thickness: what each of them gives in a sharp bend, and at what price."""
+"""Candidates for the variation of E_33 through the thickness: accuracy and cost in a sharp bend."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def _logarithm(page: Page, less: Floats) -> None:
     columns = ("", *(f"{x:g}" for x in STRAINS))
     leading = [2.0 / 3.0 * x**2 for x in STRAINS]
     rows: list[tuple[str | float, ...]] = [("measured", *less.tolist()), ("estimate (2/3) x²", *leading)]
-    page.table("Moment of free E_33 less that of the logarithm, order 3, over Hill's", columns, rows)
+    page.table("Moment of free E_33 minus that of the logarithm, order 3, over Hill's", columns, rows)
     at = STRAINS.index(0.2)
     page.check("logarithm: moment lost at 0.2 against the estimate (2.39)", float(less[at]), leading[at], 0.3)
 
@@ -126,7 +126,7 @@ def _hinge(page: Page) -> None:
 
 
 def _squeezed(page: Page) -> None:
-    """Whose the negative eigenvalues of a squeezed patch are: of the order or of the tying?"""
+    """Whether the order or the tying causes the negative eigenvalues of a squeezed patch."""
     page.heading("Negative eigenvalues that a stabilisation would address")
     law = NeoHooke(E=1000.0, nu=0.3)
     state = next(s for s in STATES if s.name == "through the thickness 0.5")
@@ -142,7 +142,7 @@ def _squeezed(page: Page) -> None:
     columns = ("ANS3DEAS", "negative eigenvalues", "lowest, MPa mm")
     page.table("Patch of 4 x 4 elements squeezed elastically to half its thickness", columns, rows)
     for tied in (False, True):
-        what = f"E_33 {'tied' if tied else 'not tied'}: negative eigenvalues at order 4 less those at order 1"
+        what = f"E_33 {'tied' if tied else 'not tied'}: negative eigenvalues at order 4 minus those at order 1"
         page.check(what, counts[tied, 4] - counts[tied, 1], 0.0, 0.5, relative=False)
 
 

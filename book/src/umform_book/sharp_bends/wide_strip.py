@@ -1,4 +1,4 @@
-"""A thick strip with free edges over a small cylinder: what the surface mesh does to its force."""
+"""A thick strip with free edges over a small cylinder: effect of the surface mesh on its force."""
 
 from __future__ import annotations
 
