@@ -193,10 +193,10 @@ def _cause(page: Page) -> None:
         "cause", plot(curves, "distance from the middle over h", "moment over pure bending", level=1.0), _CAPTION
     )
     page.text(
-        "One layer is a beam: its moment is everywhere that of pure bending at its curvature. In layers the moment is "
-        f"{100 * (rows[2][2] - 1):.0f} % larger under the punch, and equal from one thickness on: under the punch the "
-        "pressure, and the shear that changes its sign, leave the section neither straight nor free of stress through "
-        "the thickness. The moment of this metal grows with about the fifth root of the curvature, so "
+        "One layer is a beam: its moment is everywhere that of pure bending at its curvature. In several layers the "
+        f"moment is {100 * (rows[2][2] - 1):.0f} % larger under the punch, and equal from a distance of one thickness "
+        "on. Under the punch the pressure and the change of sign of the shear bend the section and cause a stress "
+        "through the thickness. The moment of this metal grows with about the fifth root of the curvature, so "
         f"{100 * (rows[2][2] - 1):.0f} % of moment are {100 * (rows[2][2] ** 5 - 1):.0f} % of curvature: the hinge of "
         "one layer is too sharp, less so in a wider die. Layers help; order and number of points do not. Two layers "
         "are 1 to 5 % too stiff in pure bending at R/h = 5 to 2 ([air-bend-wide-sheet](air-bend-wide-sheet.md)), so "

@@ -128,7 +128,7 @@ def run(page: Page) -> None:
     )
     if page.images is not None:
         result = draw(page, WIDE, EIGHT, 60, 2, frames=1)
-        page.shape("shape", result, "The strip at the end of its way", values="contact_pressure", view=(-80.0, 15.0))
+        page.shape("shape", result, "The strip at the end of its path", values="contact_pressure", view=(-80.0, 15.0))
 
 
 CASE = Case(

@@ -159,7 +159,7 @@ def by_way(page: Page) -> None:
     )
     page.table("Pushed back and forth, then pressed twice as hard while it slips", columns, rows)
     figure = plot(drawn, "way over the allowed elastic slip", "force over mu N of the first part")
-    page.figure("loop", figure, "Stick, slip, reversal; at the end the normal force doubles on the way")
+    page.figure("loop", figure, "Stick, slip, reversal; at the end the normal force doubles during the slip")
 
 
 def by_force(page: Page) -> None:

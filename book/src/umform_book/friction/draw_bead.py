@@ -132,7 +132,7 @@ def run(page: Page) -> None:
             "force",
             level=exact,
         ),
-        "Force over the way; level: the sum of three arcs",
+        "Force over the path; level: the sum of three arcs",
     )
 
 

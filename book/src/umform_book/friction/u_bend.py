@@ -246,7 +246,7 @@ its points 15, 35 and 55 mm above the bottom.
 """,
     reference="""
 Material, holder force and friction: "Springback of two-dimensional draw bending", Abaqus Example Problems; tools and
-hardening curve as widely used. There are no measured angles that may be quoted; the numbers come with a budget of
+hardening curve as widely used. No measured angles can be quoted, so the results have a budget of
 errors. Force after Swift: 2 [exp(mu pi/2 R/r) (2 mu H + M/r) + M'/r] with the rigid-plastic moments of bending and
 unbending. Uncertainty 15 %: the angle on the die is less than 90 degrees; elastic zones and tension reduce the moments.
 """,

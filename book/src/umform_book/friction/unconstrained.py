@@ -205,8 +205,8 @@ slip 0.005 thicknesses, unless the table says otherwise. Measured: angle between
 """,
     reference="""
 Tools, metal and friction: MD Nastran's Demonstration Problems, and OptiStruct's verification problem OS-V 0250 (NAFEMS
-contact benchmark 3), which gives the angles of two codes. After release these are 6 to 26 % apart: a band, so the
-numbers found come with a budget of errors.
+contact benchmark 3), which gives the angles of two codes. After release these are 6 to 26 % apart. Since they
+are only a band, the results have a budget of errors.
 """,
     run=run,
     cost=60.0,

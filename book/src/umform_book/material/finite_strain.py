@@ -154,7 +154,7 @@ def _return_maps(page: Page) -> None:
     page.table(title, ("yield function", *hardening), rows)
     page.at_most("return maps: median order below 2, the worst combination", max(short), 0.15)
     page.text(
-        f"Increments of 0.1 to 10 % behind one of 2 % in another direction. The slowest took {slowest} iterations. "
+        f"Increments of 0.1 to 10 % after one of 2 % in another direction. The slowest took {slowest} iterations. "
         "A dash: the scalar equation is so nearly linear that no three residuals lie above round-off."
     )
 

@@ -66,7 +66,7 @@ of BEND8 along half of the blank. Isotropic hardening, Chaboche, Yoshida-Uemori,
 from 206 to 152 GPa.
 """,
     reference="""
-No measured angles or radii that may be quoted were found, and the steels of the benchmark have no published constants
+No measured angles or radii can be quoted, and the steels of the benchmark have no published constants
 of these laws: the table compares laws. Checks: the forces agree, and a falling modulus increases the curl of the wall.
 Each law is checked against integration through the thickness in [bending](material-bending.md).
 """,

@@ -135,7 +135,7 @@ def run_course(page: Page, problem: Problem) -> Found:
     if jumps:
         page.text(
             f"In {jumps} of {len(page.balances)} runs the balance of work drifts by more than {100 * _JUMP:g} %: the "
-            "load had a maximum, the shell jumped to another equilibrium, and the work on the way is not stored."
+            "load had a maximum, the shell jumped to another equilibrium, and the work of the jump is not stored."
         )
     if not page.short:
         page.text(locking_text(found))

@@ -241,7 +241,7 @@ One free element with edges of about 1, E = 1, linear at u = 0.
 """,
     reference="""
 Exact: six rigid motions; one change of volume for a hexahedron. Bending modes of the thin plate: unknowns of deflection
-and rotations (12 and 27), less three rigid motions, less the tied shears (4: Bathe & Dvorkin, Int. J. Numer. Meth.
+and rotations (12 and 27), minus three rigid motions, minus the tied shears (4: Bathe & Dvorkin, Int. J. Numer. Meth.
 Engng. 21 (1985) 367-383; 12: Bucalem & Bathe, Int. J. Numer. Meth. Engng. 36 (1993) 3729-3754).
 """,
     run=run,

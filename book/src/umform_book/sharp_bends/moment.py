@@ -93,7 +93,7 @@ def _formula(page: Page, found: Mapping[tuple[str, int], Mapping[float, float]])
         what = f"{rows[-1][0]}: excess at {x:g} against formula (2.29)"
         page.check(what, measured, formula, FORMULA_WITHIN[order])
     page.table(
-        "False moment over Hill's: measured (order p less order 4, 15 Gauss points) and formula (2.29)",
+        "False moment over Hill's: measured (order p minus order 4, 15 Gauss points) and formula (2.29)",
         ("element", "surface strain", "measured", "formula"),
         rows,
     )

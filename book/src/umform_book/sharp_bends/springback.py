@@ -154,7 +154,7 @@ def _points(page: Page, curve: tuple[Floats, Floats]) -> None:
 
 
 def _uniform(page: Page) -> None:
-    page.heading("Pure bending: one border of flow all along")
+    page.heading("Pure bending: the border of flow at one depth")
     ks = np.concatenate([[0.5], curvatures(3.6, 960)[2:], np.geomspace(3.7, 25.0, 30)])
     exact = _moments(ks, None)
     flows = ks >= FIRST_CURVATURE
@@ -176,7 +176,7 @@ def _uniform(page: Page) -> None:
         f"{n} {rule}": (MOMENTS, errors[n, rule][1]) for n, rule in ((12, "split"), (18, "graded"), (12, "staggered"))
     }
     figure = lines_figure("moment over the yield moment", {"error in %": lines})
-    page.figure("moment", figure, "Error in % of the permanent curvature behind a uniform moment")
+    page.figure("moment", figure, "Error in % of the permanent curvature after a uniform moment")
     for (n, rule), name in JUDGED.items():
         for what, found in zip(("bent to a curvature", "by a moment"), errors[n, rule], strict=True):
             label = f"{name}, {what}: worst error of the permanent curvature"
