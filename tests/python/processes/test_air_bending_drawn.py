@@ -9,8 +9,8 @@ import pytest
 from typer.testing import CliRunner
 
 from umform.cli import app
-from umform.deck import Deck
 from umform.errors import InvalidValue, OpenSection, UmformError
+from umform.problem import Problem
 from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.drawn_tools import DrawnDie, DrawnPunch, read_die, read_punch
@@ -66,7 +66,7 @@ def test_bend_with_drawn_tools_is_that_of_their_numbers():
     assert bend.measures.force == pytest.approx(numbers.force, rel=1e-6)
     written = json.loads(json.dumps(record(bend)))["parameters"]
     assert written["opening"] == pytest.approx(16.0) and "lines and arcs" in written["die_section"]
-    again = Deck.read(deck_of(drawn)).build().solve(progress=False)
+    again = Problem.read(deck_of(drawn)).build().solve(progress=False)
     assert again["stroke_force"].tolist() == bend.result["stroke_force"].tolist()
 
 

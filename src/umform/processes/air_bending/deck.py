@@ -7,12 +7,12 @@ from typing import Any
 
 from umform.elements import element
 from umform.errors import InvalidValue
+from umform.problem.material_keys import law_keys
+from umform.problem.written import Entry, deck_text
 from umform.processes.air_bending.brake import OPTIONS, loading, unloading_keys
 from umform.processes.air_bending.goal import needed_stroke
 from umform.processes.air_bending.sheet import lines_of
 from umform.processes.air_bending.spec import AirBending
-from umform.processes.decks import Entry, deck_text
-from umform.processes.material_keys import law_keys
 from umform.surfaces import Profile
 from umform.surfaces.segments import Arc, Segment
 

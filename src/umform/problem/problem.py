@@ -1,0 +1,171 @@
+"""A deck: one TOML file that describes a problem."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from umform.model import Model
+from umform.problem.before import merged
+from umform.problem.building import build, sheet
+from umform.problem.contents import Contents
+from umform.problem.errors import DeckError, DeckKey
+from umform.problem.messages import messages
+from umform.problem.prepared import Prepared
+from umform.problem.references import unknown_names
+from umform.problem.source import Source, parse, read_file
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A deck with valid keys, types and names.
+
+    Attributes
+    ----------
+    contents : Contents
+        Its content.
+    source : Source
+        Its text, and the place of each key.
+    before : Deck or None
+        The deck of the previous operation.
+    """
+
+    contents: Contents
+    source: Source
+    before: Problem | None = None
+
+    @classmethod
+    def read(
+        cls,
+        text: str,
+        name: str = "deck",
+        folder: str | Path = ".",
+        changes: Mapping[str, Any] | None = None,
+    ) -> Problem:
+        """Read a deck from its text.
+
+        Parameters
+        ----------
+        text : str
+            TOML.
+        name : str
+            For messages.
+        folder : str or Path
+            Folder of the files that it names.
+        changes : mapping of str to object, optional
+            Other values of some keys: ``{"steps.0.increments": 3}``.
+
+        Raises
+        ------
+        DeckError
+            With all mistakes in it.
+        """
+        return cls._read(parse(text, name, Path(folder), changes))
+
+    @classmethod
+    def _read(cls, source: Source, after: tuple[Path, ...] = ()) -> Problem:
+        """Read a deck of a previous operation of the decks ``after``."""
+        before = _before(source, after)
+        if before is not None:
+            source = merged(source, before.source)
+        errors = _idle_trim(source)
+        contents = None
+        try:
+            contents = Contents.model_validate(source.data)
+        except ValidationError as error:
+            errors += messages(error, source)
+        errors += unknown_names(source)
+        if errors or contents is None:
+            raise DeckError(errors)
+        return cls(contents, source, before)
+
+    def build(self, solver: str | None = None) -> Prepared:
+        """Build the model, its controls and its steps.
+
+        Parameters
+        ----------
+        solver : str, optional
+            Another sparse solver than that of the deck.
+
+        Raises
+        ------
+        DeckError
+            With all mistakes.
+        """
+        return build(self.contents, self.source, solver, self.before)
+
+    def sheet(self) -> Model:
+        """The model without tools and supports, before the first step.
+
+        Raises
+        ------
+        DeckError
+            With all mistakes.
+        """
+        return sheet(self.contents, self.source, self.before)
+
+
+def _idle_trim(source: Source) -> list[DeckKey]:
+    """The error of a deck with a trim but without a previous operation."""
+    if "before" in source.data or not source.data.get("trim"):
+        return []
+    return [
+        DeckKey(
+            "a deck trims the part of the operation before, and names none",
+            where=source.place(("trim",)),
+            cause="the table before is missing",
+            remedy="[before] with deck, state and control",
+        )
+    ]
+
+
+def _before(source: Source, after: tuple[Path, ...]) -> Problem | None:
+    """The deck of the previous operation, if the deck names one."""
+    table = source.data.get("before")
+    named = table.get("deck") if isinstance(table, dict) else None
+    if not isinstance(named, str):
+        return None
+    path, chain = source.folder / named, (*after, (source.folder / source.name).resolve())
+    if path.resolve() in chain:
+        raise DeckError(
+            [
+                DeckKey(
+                    "a deck cannot be the operation before itself",
+                    where=source.place(("before", "deck")),
+                    value=named,
+                    cause="decks that name each other as the operation before" if len(chain) > 1 else "",
+                    remedy="the deck whose run comes first",
+                )
+            ]
+        )
+    return Problem._read(parse(read_file(path), path.name, path.parent), chain)
+
+
+def load(path: str | Path, changes: Mapping[str, Any] | None = None) -> Problem:
+    """Read a deck from a file.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+    changes : mapping of str to object, optional
+        Other values of some keys: ``{"steps.0.increments": 3}``.
+
+    Raises
+    ------
+    FileProblem
+        If the file cannot be read.
+    DeckError
+        With all mistakes in the deck.
+
+    Examples
+    --------
+    >>> from umform.problem import load
+    >>> result = load("deck.toml").build().solve()  # doctest: +SKIP
+    """
+    path = Path(path)
+    return Problem.read(read_file(path), path.name, path.parent, changes)
