@@ -14,6 +14,7 @@ from umform.problem.contents import Contents
 from umform.problem.errors import ANY_CAUSE, ANY_REMEDY, DeckKey, nearest, shortened, slip
 from umform.problem.lines import Path
 from umform.problem.source import Source
+from umform.spec import sentences
 
 _UNIONS = (Union, types.UnionType)
 _BEYOND = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
@@ -78,9 +79,8 @@ def _message(found: Mapping[str, Any], source: Source) -> DeckKey:
             remedy="entries are counted from 0; " + ANY_REMEDY,
         )
     if kind == "missing":
-        field = fields_at(loc[:-1]).get(str(loc[-1]))
-        meaning = f": {field.description}" if field and field.description else ""
-        return _missing(source, path, str(loc[-1]), meaning)
+        sentence = sentences(part_at(loc[:-1])).get(str(loc[-1]), "")
+        return _missing(source, path, str(loc[-1]), sentence and f": {sentence}")
     if kind in ("union_tag_not_found", "union_tag_invalid") or "key" in context:
         return _wrong_kind(source, path, given, context)
     words = _quoted(context.get("expected", ""))
@@ -165,11 +165,17 @@ def path_in(data: Any, loc: tuple[str | int, ...]) -> Path:
 
 def fields_at(loc: tuple[str | int, ...]) -> dict[str, FieldInfo]:
     """Known keys at a location of pydantic."""
+    kind = part_at(loc)
+    return dict(kind.model_fields) if issubclass(kind, BaseModel) else {}
+
+
+def part_at(loc: tuple[str | int, ...]) -> type:
+    """Class of the table at a location of pydantic; `object` if there is none."""
     kind: Any = Contents
     for part in loc:
         kind = _inside(kind, part)
     kind = _bare(kind)
-    return dict(kind.model_fields) if isinstance(kind, type) and issubclass(kind, BaseModel) else {}
+    return kind if isinstance(kind, type) else object
 
 
 def _inside(kind: Any, part: str | int) -> Any:

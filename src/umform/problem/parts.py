@@ -2,18 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Strict, Tag
+
+from umform.spec import sentences
 
 
 class Part(BaseModel):
     """A table of a deck. Numbers are finite, words are not converted to numbers, and unknown keys are errors."""
 
-    model_config = ConfigDict(
-        extra="forbid", strict=True, allow_inf_nan=False, frozen=True, use_attribute_docstrings=True
-    )
+    # Python starts quickly: validators are built when a table is read, sentences are read when they are shown.
+    model_config = ConfigDict(defer_build=True, extra="forbid", strict=True, allow_inf_nan=False, frozen=True)
+
+
+def describe() -> None:
+    """Give all keys of all parts their sentences, for a schema."""
+    parts = list(_below(Part))
+    for part in parts:
+        for name, sentence in sentences(part).items():
+            if name in part.model_fields:
+                part.model_fields[name].description = sentence
+    for part in parts:
+        part.model_rebuild(force=True)
+
+
+def _below(part: type[Part]) -> Iterator[type[Part]]:
+    for kind in part.__subclasses__():
+        yield kind
+        yield from _below(kind)
 
 
 Positive = Annotated[float, Field(gt=0)]
@@ -75,6 +93,7 @@ __all__ = [
     "Positive",
     "Vector",
     "Way",
+    "describe",
     "number_or_array",
     "number_or_table",
     "tagged_by",
