@@ -155,6 +155,8 @@ class _Builder(SheetBuilder):
         options = NewtonOptions()
         with self.at("solution"):
             options = self.contents.solution.build()
+        if self.source.made:
+            return options
         if self.solver == "petsc":  # each rank has the pattern of its share
             from umform.parallel.petsc import petsc
 

@@ -166,6 +166,8 @@ class ContactPart(Part):
     """Allowed elastic slip; by default 1/200 of the thickness."""
     motion: MotionPart | None = None
     """Motion in time."""
+    may_bottom: bool = False
+    """Whether the tool may press the sheet onto another one: no warning that it bottoms."""
 
     @model_validator(mode="after")
     def _is_one(self) -> ContactPart:
@@ -192,6 +194,7 @@ class ContactPart(Part):
             slip=self.slip,
             name=name,
         )
+        contact.tool.may_bottom = self.may_bottom
         if self.motion is not None:
             model.set_motion(contact, self.motion.build(), self.motion.about)
         return contact

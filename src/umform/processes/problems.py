@@ -23,8 +23,8 @@ def deck_of(case: FreeBending | AirBending) -> str:
         It gives the same numbers as :func:`umform.processes.free_bending` and
         :func:`umform.processes.air_bending.air_bending`.
     """
-    from umform.processes.air_bending import deck as air_bending
+    from umform.processes.air_bending import problem as air_bending
     from umform.processes.air_bending.spec import AirBending
-    from umform.processes.bending import deck as free_bending
+    from umform.processes.bending import problem as free_bending
 
     return air_bending.deck_of(case) if isinstance(case, AirBending) else free_bending.deck_of(case)

@@ -20,11 +20,11 @@ from umform.processes.air_bending import (
     branches,
     find_stroke,
 )
-from umform.processes.air_bending.brake import INCREMENTS, build, loading
+from umform.processes.air_bending.brake import INCREMENTS, loading
 from umform.processes.air_bending.branches import Brake
-from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.formulas import shop_forces, tensile_strength
 from umform.processes.air_bending.measures import QUANTITIES
+from umform.processes.air_bending.problem import build, deck_of
 from umform.processes.air_bending.sheet import lines_along
 from umform.run.open_run import OpenRun
 

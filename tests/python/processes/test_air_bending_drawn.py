@@ -12,9 +12,9 @@ from umform.cli import app
 from umform.errors import InvalidValue, OpenSection, UmformError
 from umform.problem import Problem
 from umform.processes.air_bending import AirBending, air_bending
-from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.drawn_tools import DrawnDie, DrawnPunch, read_die, read_punch
 from umform.processes.air_bending.files import record
+from umform.processes.air_bending.problem import deck_of
 from umform.surfaces import Profile, Punch, VDie
 
 COARSE = AirBending(stroke=3.0, elements_per_thickness=1.0, layers=1, increment=0.02)

@@ -12,7 +12,7 @@ from umform.errors import InvalidValue
 from umform.problem import Problem
 from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.air_bending.bottoming import press_to_force, with_travel
-from umform.processes.air_bending.deck import deck_of
+from umform.processes.air_bending.problem import deck_of
 
 COARSE = AirBending(
     die_angle=88.0, punch_angle=88.0, elements_per_thickness=2.0, layers=1, increment=0.0125, bottoming=True

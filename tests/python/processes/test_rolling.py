@@ -14,8 +14,8 @@ from umform.cli import app
 from umform.errors import InvalidValue
 from umform.problem import Problem
 from umform.processes.air_bending import AirBending, air_bending
-from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.formulas import shop_forces
+from umform.processes.air_bending.problem import deck_of
 from umform.processes.draw_bead.case import build
 from umform.processes.draw_bead.spec import DrawBead
 from umform.sheet_metals import get, uniaxial

@@ -1,14 +1,13 @@
-"""The deck of a bend."""
+"""The problem of a bend: what a deck of it holds."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
-from umform.elements import element
-from umform.errors import InvalidValue
+from umform.model import Model
+from umform.model.control import Control
 from umform.problem.material_keys import law_keys
-from umform.problem.written import Entry, deck_text
+from umform.problem.problem import Problem
 from umform.processes.air_bending.brake import OPTIONS, loading, unloading_keys
 from umform.processes.air_bending.goal import needed_stroke
 from umform.processes.air_bending.sheet import lines_of
@@ -30,7 +29,17 @@ def deck_of(case: AirBending) -> str:
     InvalidValue
         If the case has no stroke, or if a deck cannot express its hardening or its element.
     """
-    stroke = needed_stroke(case)
+    return problem_of(case, needed_stroke(case)).toml()
+
+
+def build(case: AirBending) -> tuple[Model, Control]:
+    """Model of a case, and the control that moves the punch down."""
+    made = problem_of(case, case.way).build()
+    return made.model, made.controls["stroke"]
+
+
+def problem_of(case: AirBending, stroke: float) -> Problem:
+    """Half of the sheet in its tools: down by a stroke, and back to zero force."""
     if case.width is None:
         modelled, kind = case.thickness, "in plane strain"
     else:
@@ -41,35 +50,35 @@ def deck_of(case: AirBending) -> str:
         f"Half of the sheet, {modelled:g} mm of its width: the force for each mm of the bend is stroke_force times "
         f"{2.0 / modelled:.6g}.",
     ]
-    return deck_text("Air bending", remarks, _entries(case, stroke))
-
-
-def _entries(case: AirBending, stroke: float) -> Iterator[Entry]:
-    lines = dict(zip("xyz", (line.tolist() for line in lines_of(case)), strict=True))
-    yield "[mesh]", {"generator": "grid", **lines}
-    yield (
-        "[element]",
-        {
-            "name": _element_name(case),
+    moves = [{"kind": "move", "to": {"stroke": end}, "increments": count} for end, count in loading(case, stroke)]
+    tables = {
+        "title": "Air bending",
+        "mesh": {"generator": "grid", **dict(zip("xyz", (line.tolist() for line in lines_of(case)), strict=True))},
+        "element": {
+            "name": case.element,
             "thickness_points": case.thickness_points,
             "plane_strain": case.plane_strain,
         },
-    )
-    rolling = None if case.rolling is None else {"angle": float(case.rolling)}
-    yield "[material]", law_keys(case.material, rolling)
-    yield "[tools.die]", _die(case)
-    yield "[tools.punch]", _punch(case)
-    for tool, faces in (("die", "lower"), ("punch", "upper")):
-        how = {"penalty": case.penalty, "penetration": case.penetration, "points": case.contact_points}
-        yield f"[contacts.{tool}]", {"tool": tool, "faces": faces, **how}
-    yield "[[supports]]", {"kind": "symmetry", "nodes": "x0", "normal": "x"}
-    yield "[[supports]]", _across(case)
-    yield "[controls.stroke]", {"kind": "tool", "contact": "punch", "direction": "-z"}
-    for end, count in loading(case, stroke):
-        yield "[[steps]]", {"kind": "move", "to": {"stroke": end}, "increments": count}
-    yield "[[steps]]", {"kind": "release", "control": "stroke", **unloading_keys(case)}
-    tolerances = {"residual": OPTIONS.residual, "increment": OPTIONS.increment}
-    yield "[solution]", {**tolerances, "line_search": OPTIONS.line_search, "extrapolate": OPTIONS.extrapolate}
+        "material": law_keys(case.material, None if case.rolling is None else {"angle": float(case.rolling)}),
+        "tools": {"die": _die(case), "punch": _punch(case)},
+        "contacts": {"die": _contact(case, "die", "lower"), "punch": _contact(case, "punch", "upper")},
+        "supports": [{"kind": "symmetry", "nodes": "x0", "normal": "x"}, _across(case)],
+        "controls": {"stroke": {"kind": "tool", "contact": "punch", "direction": "-z"}},
+        "steps": [*moves, {"kind": "release", "control": "stroke", **unloading_keys(case)}],
+        "solution": {
+            "residual": OPTIONS.residual,
+            "increment": OPTIONS.increment,
+            "line_search": OPTIONS.line_search,
+            "extrapolate": OPTIONS.extrapolate,
+        },
+    }
+    return Problem.of(tables, remarks)
+
+
+def _contact(case: AirBending, tool: str, faces: str) -> dict[str, Any]:
+    pressed = case.bottoming and tool == "punch"
+    how = {"penalty": case.penalty, "penetration": case.penetration, "points": case.contact_points}
+    return {"tool": tool, "faces": faces, **how, "may_bottom": pressed or None}
 
 
 def _die(case: AirBending) -> dict[str, Any]:
@@ -97,18 +106,6 @@ def _segment(segment: Segment) -> dict[str, Any]:
     if isinstance(segment, Arc):
         return {"kind": "arc", **ends, "centre": segment.centre, "clockwise": bool(segment.clockwise)}
     return {"kind": "line", **ends}
-
-
-def _element_name(case: AirBending) -> str:
-    if not isinstance(case.element, str):
-        raise InvalidValue(
-            "a deck has no words for this element",
-            where="element",
-            value=case.element.name,
-            cause="a deck names an element of the catalogue; this one is your own",
-            remedy="take one of `umform elements`, or run the bend in Python",
-        )
-    return element(case.element).name
 
 
 def _across(case: AirBending) -> dict[str, Any]:
