@@ -8,12 +8,11 @@ from umform.model import Model
 from umform.model.control import Control
 from umform.problem.material_keys import law_keys
 from umform.problem.problem import Problem
+from umform.problem.profiles import profile_table
 from umform.processes.air_bending.brake import OPTIONS, loading, unloading_keys
 from umform.processes.air_bending.goal import needed_stroke
 from umform.processes.air_bending.sheet import lines_of
 from umform.processes.air_bending.spec import AirBending
-from umform.surfaces import Profile
-from umform.surfaces.segments import Arc, Segment
 
 
 def deck_of(case: AirBending) -> str:
@@ -83,29 +82,17 @@ def _contact(case: AirBending, tool: str, faces: str) -> dict[str, Any]:
 
 def _die(case: AirBending) -> dict[str, Any]:
     if case.die_section is not None:
-        return {"shape": "Extruded", "profile": _profile(case.die_section.profile)}
+        return {"shape": "Extruded", "profile": profile_table(case.die_section.profile)}
     return {"shape": "VDie", "opening": case.opening, "angle": case.die_angle, "shoulder_radius": case.die_radius}
 
 
 def _punch(case: AirBending) -> dict[str, Any]:
     if case.punch_section is not None:
-        shape: dict[str, Any] = {"shape": "Extruded", "profile": _profile(case.punch_section.profile)}
+        shape: dict[str, Any] = {"shape": "Extruded", "profile": profile_table(case.punch_section.profile)}
     else:
         tip = {"tip_radius": case.punch_radius, "angle": case.punch_angle, "width": case.punch_width}
         shape = {"shape": "Punch", **tip}
     return {**shape, "origin": case.punch.origin}
-
-
-def _profile(profile: Profile) -> dict[str, Any]:
-    """A drawn section by its lines and arcs: the deck needs no drawing beside it."""
-    return {"segments": [_segment(segment) for segment in profile.segments], "closed": profile.closed}
-
-
-def _segment(segment: Segment) -> dict[str, Any]:
-    ends = {"start": segment.start, "end": segment.end}
-    if isinstance(segment, Arc):
-        return {"kind": "arc", **ends, "centre": segment.centre, "clockwise": bool(segment.clockwise)}
-    return {"kind": "line", **ends}
 
 
 def _across(case: AirBending) -> dict[str, Any]:
