@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from umform.model.contact import ContactPoints
 from umform.processes.air_bending import AirBend, AirBending, air_bending
-from umform.processes.air_bending.brake import OPTIONS, against_flank, build, force_per_width
+from umform.processes.air_bending.brake import OPTIONS, against_flank, force_per_width
+from umform.processes.air_bending.problem import build
 from umform.processes.air_bending.section import Section
 from umform.run import Result
 from umform.steps import Move

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.polynomial import Polynomial
 
 from umform.processes.air_bending import AirBending
-from umform.processes.air_bending.brake import OPTIONS, build, force_per_width
+from umform.processes.air_bending.brake import OPTIONS, force_per_width
+from umform.processes.air_bending.problem import build
 from umform.processes.bending.measures import SMOOTH_DEGREE, jump
 from umform.run import Result
 from umform.steps import Move
