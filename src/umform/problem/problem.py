@@ -12,19 +12,18 @@ import numpy as np
 from pydantic import ValidationError
 
 from umform.errors import InvalidValue
-from umform.materials import J2, Metal
 from umform.mesh import Mesh
 from umform.model import Model
 from umform.problem.before import merged
 from umform.problem.building import build, sheet
 from umform.problem.contents import Contents
 from umform.problem.errors import DeckError, DeckKey
-from umform.problem.material import FromLibrary
-from umform.problem.material_keys import law_keys
+from umform.problem.material_keys import written_out
 from umform.problem.messages import messages
 from umform.problem.prepared import Prepared
 from umform.problem.references import unknown_names
 from umform.problem.source import Source, change, parse, read_file
+from umform.problem.written import plain
 from umform.spec import Scalar, scalars
 
 
@@ -107,7 +106,7 @@ class Problem:
         DeckError
             If a key does not exist, or its value has another type.
         """
-        data = _plain(tables)
+        data = plain(tables)
         return cls._read(Source(data.get("title", "problem"), Path(), "", data, {}, {}, tuple(remarks), made=True))
 
     def with_(self, changes: Mapping[str, Any], *, same_topology: bool = False) -> Problem:
@@ -128,7 +127,7 @@ class Problem:
         InvalidValue
             The mesh has another topology, and must not.
         """
-        source, changes = self.source, {**self._law(changes), **changes}
+        source = self.source
         if source.made:
             data = deepcopy(source.data)
             change(data, changes)
@@ -139,10 +138,15 @@ class Problem:
             _refuse_other_topology(self.sheet().mesh, changed.sheet().mesh, changes)
         return changed
 
+    def at(self, folder: Path) -> Problem:
+        """The same, with the files that it names in another folder, or with an absolute path."""
+        return replace(self, source=replace(self.source, folder=folder))
+
     def paths(self) -> list[Scalar]:
         """All numbers of the problem that can be changed: path, value, unit, sentence; defaults included."""
-        written = self._law(["material.E"])
-        named = self.with_(written) if written else self
+        material = self.source.data["material"]
+        law = written_out(material)
+        named = self if law is material else self.with_({"material": law})
         return [one for one in scalars(named.contents) if not one.path.startswith("output.")]
 
     def toml(self) -> str:
@@ -154,16 +158,6 @@ class Problem:
             A value that was made by a program has no notation in TOML.
         """
         return self.source.written
-
-    def _law(self, paths: Iterable[str]) -> dict[str, Any]:
-        """The law of a sheet metal of the library, if paths lead into it."""
-        part = self.contents.material
-        inside = [path for path in paths if path.startswith("material.") and path.split(".")[1] not in _OF_A_METAL]
-        if not inside or not isinstance(part, FromLibrary):
-            return {}
-        law = part.build()
-        assert isinstance(law, J2 | Metal)
-        return {"material": _plain(law_keys(law, self.source.data["material"].get("rolling")))}
 
     def build(self, solver: str | None = None) -> Prepared:
         """Build the model, its controls and its steps.
@@ -189,19 +183,6 @@ class Problem:
             With all mistakes.
         """
         return sheet(self.contents, self.source, self.before)
-
-
-#: Keys of a sheet metal of the library.
-_OF_A_METAL = ("library", "rolling", "law")
-
-
-def _plain(value: Any) -> Any:
-    """Data as TOML has them: arrays are lists, numbers those of Python, and nothing is None."""
-    if isinstance(value, Mapping):
-        return {str(key): _plain(one) for key, one in value.items() if one is not None}
-    if isinstance(value, list | tuple):
-        return [_plain(one) for one in value]
-    return value.item() if isinstance(value, np.generic) else value
 
 
 def _refuse_other_topology(before: Mesh, after: Mesh, changes: Mapping[str, Any]) -> None:
