@@ -75,9 +75,9 @@ Technology read_technology() {
 template <class Law, int Nodes>
 void answer(const Law& law, const SolidShell<Nodes, Counted>& element,
             typename SolidShell<Nodes, Counted>::Workspace& w) {
-    std::array<double, std::max(Law::state_size, 1)> initial{};
+    std::array<double, std::max(Law::table.size(), 1)> initial{};
     law.initial(initial.data());
-    std::array<Counted, std::max(Law::state_size, 1)> state, trial;
+    std::array<Counted, std::max(Law::table.size(), 1)> state, trial;
     std::copy(initial.begin(), initial.end(), state.begin());
     for (int q = 0; q < element.points(); ++q) law.respond(w.E[q], state.data(), w.S[q], w.CC[q], trial.data());
 }

@@ -51,7 +51,7 @@ class Material:
     def state_size(self) -> int: ...
 
     @property
-    def state(self) -> dict[str, int]:
+    def quantities(self) -> dict[str, int]:
         """Parts of the history of a point, in their order."""
 
     @property
@@ -424,7 +424,7 @@ class ShellBlock:
     def state_size(self) -> int: ...
 
     @property
-    def state_names(self) -> dict[str, int]:
+    def quantities(self) -> dict[str, int]:
         """Parts of the history of a point, in their order."""
 
     @property
@@ -623,10 +623,6 @@ class ContactLaw:
     def symmetric(self) -> bool:
         """Whether its tangent is symmetric."""
 
-    @property
-    def quantities(self) -> dict[str, int]:
-        """Names and sizes of what a place remembers."""
-
 class FrictionLaw:
     """The largest tangential traction that a tool can bear."""
 
@@ -793,10 +789,12 @@ class ContactBlock:
     def multipliers(self, values: NDArray[float64], /) -> None: ...
 
     @property
+    def quantities(self) -> dict[str, int]:
+        """Parts of the history of a point, in their order."""
+
+    @property
     def state(self) -> NDArray[float64]:
-        """
-        Converged history (points, size) in the order of the quantities of the law.
-        """
+        """Converged history (points, size) in the order of the quantities."""
 
     @property
     def read(self) -> NDArray[float64]:
