@@ -131,7 +131,7 @@ void bind_blocks(nb::module_& m) {
     nb::class_<Tying>(m, "Tying", "One row of an assumed-strain rule.")
         .def(nb::init<int, std::vector<double>, std::vector<double>, bool>(), nb::arg("component"), nb::arg("r"),
              nb::arg("s"), nb::arg("at_layer"));
-    nb::class_<Term>(m, "Term", "factor * r^a s^b P_c(t) of an enhanced mode in one covariant component.")
+    nb::class_<Polynomial>(m, "Polynomial", "factor * r^a s^b P_c(t) of an enhanced mode in one covariant component.")
         .def(nb::init<int, double, int, int, int>(), nb::arg("component"), nb::arg("factor"), nb::arg("a"),
              nb::arg("b"), nb::arg("c"));
     nb::class_<Technology>(m, "Technology", "Which strains are tied where, and which are enhanced by what.")

@@ -387,7 +387,7 @@ class Tying:
 
     def __init__(self, component: int, r: Sequence[float], s: Sequence[float], at_layer: bool) -> None: ...
 
-class Term:
+class Polynomial:
     """
     factor * r^a s^b P_c(t) of an enhanced mode in one covariant component.
     """
@@ -397,7 +397,7 @@ class Term:
 class Technology:
     """Which strains are tied where, and which are enhanced by what."""
 
-    def __init__(self, tying: Sequence[Tying], modes: Sequence[Sequence[Term]]) -> None: ...
+    def __init__(self, tying: Sequence[Tying], modes: Sequence[Sequence[Polynomial]]) -> None: ...
 
 class ShellBlock:
     """All solid-shell elements of one kind with their history."""

@@ -222,7 +222,7 @@ class _Probe:
         modes = body.element.modes
         self.alpha = np.zeros((len(rows), len(modes)))
         self.E, self.frame = _strains(body, rows, u, self.alpha, mesh)
-        self._thick = [k for k, mode in enumerate(modes) if all(term.component == "33" for term in mode)]
+        self._thick = [k for k, mode in enumerate(modes) if all(p.component == "33" for p in mode.polynomials)]
 
     def meet(self, trace: Floats) -> None:
         """Find the modes of the thickness strain for a trace of the logarithmic strain, by least squares. eq. (1.33)"""
