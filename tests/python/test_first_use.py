@@ -8,7 +8,14 @@ import pytest
 import umform as uf
 from umform.renamed import RENAMED
 
-LAZY = ["umform.deck", "umform.io", "umform.materials", "umform.processes", "umform.results.forming", "umform.surfaces"]
+LAZY = [
+    "umform.problem",
+    "umform.io",
+    "umform.materials",
+    "umform.processes",
+    "umform.results.forming",
+    "umform.surfaces",
+]
 
 
 @pytest.mark.parametrize("package", LAZY)

@@ -151,9 +151,9 @@ def bend(
 
 def _print_deck(case: AirBending, angle: float | None, force_per_metre: float | None, tolerance: float) -> None:
     """Print a bend as a deck, with the stroke that its angle or its force needs."""
-    from umform.deck import deck_of
     from umform.processes.air_bending.bottoming import press_to_force
     from umform.processes.air_bending.search import find_stroke
+    from umform.processes.problems import deck_of
 
     if force_per_metre is not None:
         case = press_to_force(case, force_per_metre, frames=1).case
@@ -179,8 +179,8 @@ def _bent(
 
 def _refuse_implausible(model: Model, *, force: bool) -> None:
     """Refuse numbers that are certainly wrong, and warn of unusual ones, before the run."""
-    from umform.deck.findings import accept
-    from umform.deck.plausible import of_model
+    from umform.problem.findings import accept
+    from umform.problem.plausible import of_model
 
     for warning in accept(of_model(model, millimetres=True), force=force):
         typer.echo(f"umform: {warning}", err=True)

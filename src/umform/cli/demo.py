@@ -77,7 +77,7 @@ def free_bending(
     base = FreeBending(**{name: value for name, value in given.items() if value is not None})
     runs = selection.runs(base, sharp=all(given[name] is None for name in _THROUGH))
     if print_deck:
-        from umform.deck import deck_of
+        from umform.processes.problems import deck_of
 
         typer.echo(deck_of(runs[0]), nl=False)
         return

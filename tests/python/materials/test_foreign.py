@@ -16,9 +16,9 @@ import pytest
 
 import umform as uf
 from umform import materials as mt
-from umform.deck import Deck
-from umform.deck.errors import DeckError
 from umform.errors import FileProblem, InvalidValue, NoConvergence, NotFinite
+from umform.problem import Problem
+from umform.problem.errors import DeckError
 from umform.quantities import history_of, named
 from umform.report.materials import material_text
 
@@ -455,7 +455,7 @@ properties = [121e3, 80e3, 1e9, 1e9, 1e9]"""
 @needs_compiler
 def test_decks(kinematic, elastic):
     for text, law in ((UMAT, "Umat"), (COMPILED, "CompiledLaw")):
-        problem = Deck.read(DECK % text, "deck.toml", kinematic.parent).build()
+        problem = Problem.read(DECK % text, "deck.toml", kinematic.parent).build()
         assert type(problem.model.material).__name__ == law
         result = problem.solve(progress=False)
         assert result["time"][-1] == 0.5
@@ -475,4 +475,4 @@ def test_decks(kinematic, elastic):
 )
 def test_bad_decks(kinematic, old, new, text):
     with pytest.raises(DeckError, match=text):
-        Deck.read(DECK % UMAT.replace(old, new), "deck.toml", kinematic.parent).build()
+        Problem.read(DECK % UMAT.replace(old, new), "deck.toml", kinematic.parent).build()

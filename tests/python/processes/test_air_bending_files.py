@@ -19,11 +19,10 @@ from umform.errors import InvalidValue
 from umform.materials import J2, Perfect
 from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.air_bending import budget as budget_module
-from umform.processes.air_bending.brake import build
 from umform.processes.air_bending.budget import Budget, error_budget, refinements
-from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.files import parameters, write_files
 from umform.processes.air_bending.measures import QUANTITIES
+from umform.processes.air_bending.problem import build, deck_of
 from umform.processes.air_bending.words import summary, summary_header
 from umform.spec import parameters as parameters_of
 

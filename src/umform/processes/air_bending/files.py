@@ -14,9 +14,9 @@ from umform.errors import InvalidValue
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
 from umform.processes.air_bending.bend import AirBend
-from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.formulas import shop_forces, strength
 from umform.processes.air_bending.measures import Measures
+from umform.processes.air_bending.problem import deck_of
 from umform.processes.air_bending.remarks import coarse_mesh
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.air_bending.words import columns

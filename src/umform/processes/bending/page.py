@@ -8,8 +8,8 @@ from pathlib import Path
 from umform.plotting import save
 from umform.processes.bending import table
 from umform.processes.bending.case import Bending
-from umform.processes.bending.deck import deck_of
 from umform.processes.bending.figure import curves, shapes
+from umform.processes.bending.problem import deck_of
 from umform.processes.bending.spec import RECONSTRUCTION
 from umform.report import parts
 from umform.report.live import style

@@ -16,7 +16,7 @@ from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
 from umform.pool import check_processes, run_all
 from umform.processes.bending.case import Bending, cell_of, check, failed, failure_text, free_bending
-from umform.processes.bending.deck import deck_of
+from umform.processes.bending.problem import deck_of
 from umform.processes.bending.spec import RECONSTRUCTION, ContactRule, FreeBending
 from umform.progress import progress_bar
 from umform.report.versions import versions

@@ -1,0 +1,278 @@
+"""A deck: one TOML file that describes a problem."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from copy import deepcopy
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pydantic import ValidationError
+
+from umform.errors import InvalidValue
+from umform.materials import J2, Metal
+from umform.mesh import Mesh
+from umform.model import Model
+from umform.problem.before import merged
+from umform.problem.building import build, sheet
+from umform.problem.contents import Contents
+from umform.problem.errors import DeckError, DeckKey
+from umform.problem.material import FromLibrary
+from umform.problem.material_keys import law_keys
+from umform.problem.messages import messages
+from umform.problem.prepared import Prepared
+from umform.problem.references import unknown_names
+from umform.problem.source import Source, change, parse, read_file
+from umform.spec import Scalar, scalars
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A deck with valid keys, types and names.
+
+    Attributes
+    ----------
+    contents : Contents
+        Its content.
+    source : Source
+        Its text, and the place of each key.
+    before : Deck or None
+        The deck of the previous operation.
+    """
+
+    contents: Contents
+    source: Source
+    before: Problem | None = None
+
+    @classmethod
+    def read(
+        cls,
+        text: str,
+        name: str = "deck",
+        folder: str | Path = ".",
+        changes: Mapping[str, Any] | None = None,
+    ) -> Problem:
+        """Read a deck from its text.
+
+        Parameters
+        ----------
+        text : str
+            TOML.
+        name : str
+            For messages.
+        folder : str or Path
+            Folder of the files that it names.
+        changes : mapping of str to object, optional
+            Other values of some keys: ``{"steps.0.increments": 3}``.
+
+        Raises
+        ------
+        DeckError
+            With all mistakes in it.
+        """
+        return cls._read(parse(text, name, Path(folder), changes))
+
+    @classmethod
+    def _read(cls, source: Source, after: tuple[Path, ...] = ()) -> Problem:
+        """Read a deck of a previous operation of the decks ``after``."""
+        before = _before(source, after)
+        if before is not None:
+            source = merged(source, before.source)
+        errors = _idle_trim(source)
+        contents = None
+        try:
+            contents = Contents.model_validate(source.data)
+        except ValidationError as error:
+            errors += messages(error, source)
+        errors += unknown_names(source)
+        if errors or contents is None:
+            raise DeckError(errors)
+        return cls(contents, source, before)
+
+    @classmethod
+    def of(cls, tables: Mapping[str, Any], remarks: Iterable[str] = ()) -> Problem:
+        """A problem from tables of a program; errors are raised as they are.
+
+        Parameters
+        ----------
+        tables : mapping
+            What a deck holds; arrays may be tuples, keys with the value None are left out.
+        remarks : iterable of str
+            Paragraphs at the head of its text.
+
+        Raises
+        ------
+        DeckError
+            If a key does not exist, or its value has another type.
+        """
+        data = _plain(tables)
+        return cls._read(Source(data.get("title", "problem"), Path(), "", data, {}, {}, tuple(remarks), made=True))
+
+    def with_(self, changes: Mapping[str, Any], *, same_topology: bool = False) -> Problem:
+        """The problem with other values at some paths; the mesh follows.
+
+        Parameters
+        ----------
+        changes : mapping of str to object
+            Values by path, such as ``{"tools.die.radius": 2.1}``; see :meth:`paths`. A path into the law of a sheet
+            metal of the library writes the law out.
+        same_topology : bool
+            Refuse a change that gives another number of nodes or other elements.
+
+        Raises
+        ------
+        DeckError
+            With all mistakes.
+        InvalidValue
+            The mesh has another topology, and must not.
+        """
+        source, changes = self.source, {**self._law(changes), **changes}
+        if source.made:
+            data = deepcopy(source.data)
+            change(data, changes)
+            changed = type(self)._read(replace(source, data=data))
+        else:
+            changed = type(self).read(source.text, source.name, source.folder, {**source.changes, **changes})
+        if same_topology:
+            _refuse_other_topology(self.sheet().mesh, changed.sheet().mesh, changes)
+        return changed
+
+    def paths(self) -> list[Scalar]:
+        """All numbers of the problem that can be changed: path, value, unit, sentence; defaults included."""
+        written = self._law(["material.E"])
+        named = self.with_(written) if written else self
+        return [one for one in scalars(named.contents) if not one.path.startswith("output.")]
+
+    def toml(self) -> str:
+        """Text of the deck.
+
+        Raises
+        ------
+        InvalidValue
+            A value that was made by a program has no notation in TOML.
+        """
+        return self.source.written
+
+    def _law(self, paths: Iterable[str]) -> dict[str, Any]:
+        """The law of a sheet metal of the library, if paths lead into it."""
+        part = self.contents.material
+        inside = [path for path in paths if path.startswith("material.") and path.split(".")[1] not in _OF_A_METAL]
+        if not inside or not isinstance(part, FromLibrary):
+            return {}
+        law = part.build()
+        assert isinstance(law, J2 | Metal)
+        return {"material": _plain(law_keys(law, self.source.data["material"].get("rolling")))}
+
+    def build(self, solver: str | None = None) -> Prepared:
+        """Build the model, its controls and its steps.
+
+        Parameters
+        ----------
+        solver : str, optional
+            Another sparse solver than that of the deck.
+
+        Raises
+        ------
+        DeckError
+            With all mistakes.
+        """
+        return build(self.contents, self.source, solver, self.before)
+
+    def sheet(self) -> Model:
+        """The model without tools and supports, before the first step.
+
+        Raises
+        ------
+        DeckError
+            With all mistakes.
+        """
+        return sheet(self.contents, self.source, self.before)
+
+
+#: Keys of a sheet metal of the library.
+_OF_A_METAL = ("library", "rolling", "law")
+
+
+def _plain(value: Any) -> Any:
+    """Data as TOML has them: arrays are lists, numbers those of Python, and nothing is None."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(one) for key, one in value.items() if one is not None}
+    if isinstance(value, list | tuple):
+        return [_plain(one) for one in value]
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _refuse_other_topology(before: Mesh, after: Mesh, changes: Mapping[str, Any]) -> None:
+    if np.array_equal(before.connectivity, after.connectivity) and len(before.points) == len(after.points):
+        return
+    raise InvalidValue(
+        "the mesh has another topology with this value",
+        where=", ".join(changes),
+        value=f"{len(after.connectivity)} elements in place of {len(before.connectivity)}",
+        cause="the number of elements follows from it",
+        remedy="a smaller change, or a mesh whose numbers of elements are given",
+    )
+
+
+def _idle_trim(source: Source) -> list[DeckKey]:
+    """The error of a deck with a trim but without a previous operation."""
+    if "before" in source.data or not source.data.get("trim"):
+        return []
+    return [
+        DeckKey(
+            "a deck trims the part of the operation before, and names none",
+            where=source.place(("trim",)),
+            cause="the table before is missing",
+            remedy="[before] with deck, state and control",
+        )
+    ]
+
+
+def _before(source: Source, after: tuple[Path, ...]) -> Problem | None:
+    """The deck of the previous operation, if the deck names one."""
+    table = source.data.get("before")
+    named = table.get("deck") if isinstance(table, dict) else None
+    if not isinstance(named, str):
+        return None
+    path, chain = source.folder / named, (*after, (source.folder / source.name).resolve())
+    if path.resolve() in chain:
+        raise DeckError(
+            [
+                DeckKey(
+                    "a deck cannot be the operation before itself",
+                    where=source.place(("before", "deck")),
+                    value=named,
+                    cause="decks that name each other as the operation before" if len(chain) > 1 else "",
+                    remedy="the deck whose run comes first",
+                )
+            ]
+        )
+    return Problem._read(parse(read_file(path), path.name, path.parent), chain)
+
+
+def load(path: str | Path, changes: Mapping[str, Any] | None = None) -> Problem:
+    """Read a deck from a file.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+    changes : mapping of str to object, optional
+        Other values of some keys: ``{"steps.0.increments": 3}``.
+
+    Raises
+    ------
+    FileProblem
+        If the file cannot be read.
+    DeckError
+        With all mistakes in the deck.
+
+    Examples
+    --------
+    >>> from umform.problem import load
+    >>> result = load("deck.toml").build().solve()  # doctest: +SKIP
+    """
+    path = Path(path)
+    return Problem.read(read_file(path), path.name, path.parent, changes)
