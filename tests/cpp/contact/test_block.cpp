@@ -22,7 +22,7 @@ struct Skewed {
 
     static constexpr bool symmetric = false, follows_places = false;
     static constexpr QuantityTable table = ContactHistory::table.then({{"place", 3}});
-    enum Part { Multiplier = table["multiplier"], Where = table["place"] };
+    enum { Multiplier = table["multiplier"], Where = table["place"] };
     double stiffness(const double*) const { return penalty; }
     double reach(const double* trial) const { return trial[Multiplier] / penalty; }
 

@@ -28,7 +28,6 @@ template <std::size_t Count>
 class QuantityTable {
   public:
     constexpr QuantityTable() = default;
-    // NOLINTNEXTLINE(google-explicit-constructor): a table is written as its rows
     constexpr QuantityTable(const QuantityRow (&rows)[Count]) { append(rows, 0); }
 
     constexpr int size() const {

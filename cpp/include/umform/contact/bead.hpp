@@ -37,7 +37,7 @@ struct Bead {
                                                                        {"work of the lift"},
                                                                        {"work above the mean"},
                                                                        {"bound"}});
-    enum Part {
+    enum {
         Held = table["held"],
         Where = table["place"],
         Share = table["share"],

@@ -145,7 +145,7 @@ class OverCells : public FacetCells<Nodes> {
     double contact_work(const double* row) const { return row[Work]; }
 
   private:
-    enum Part {
+    enum {
         Gap = table["gap of the cell"],
         Pressure = table["pressure"],
         Energy = table["contact energy"],

@@ -12,7 +12,7 @@ namespace umform {
 /// What the history of every contact law begins with.
 struct ContactHistory {
     static constexpr QuantityTable table{{{"multiplier"}}};
-    enum Place { Multiplier = table["multiplier"] };
+    enum { Multiplier = table["multiplier"] };
 };
 
 /// A place of a face (a Gauss point or a node) against the tool, in space. A law that knows a slip keeps it in the frame of the

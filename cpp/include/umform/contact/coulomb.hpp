@@ -29,7 +29,7 @@ struct Coulomb {
                                                                        {"tangential stiffness"},
                                                                        {"friction work above the mean"},
                                                                        {"bound"}});
-    enum Part {
+    enum {
         Multiplier = table["multiplier"],
         Held = table["held"],
         Where = table["place"],

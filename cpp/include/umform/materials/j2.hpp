@@ -14,7 +14,7 @@ struct J2 {
     Hardening hardening;
 
     static constexpr QuantityTable table{{{"Cp_inv", 6}, {"eqps"}}};
-    enum Part { Metric = table["Cp_inv"], Eqps = table["eqps"] };
+    enum { Metric = table["Cp_inv"], Eqps = table["eqps"] };
     static constexpr int size = table.size();
     void initial(double* state) const {
         std::fill_n(state, size, 0.0);

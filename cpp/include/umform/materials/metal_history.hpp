@@ -1,6 +1,11 @@
 // What a metal from parts remembers: plastic strain and eqps always, the rest as its parts need it.
 #pragma once
 
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "umform/assembly/quantities.hpp"
 #include "umform/materials/plastic_increment.hpp"
 
@@ -11,7 +16,7 @@ namespace umform {
 class MetalHistory {
   public:
     static constexpr QuantityTable always{{{"plastic_strain", 6}, {"eqps"}}};
-    enum Part { PlasticStrain = always["plastic_strain"], Eqps = always["eqps"] };
+    enum { PlasticStrain = always["plastic_strain"], Eqps = always["eqps"] };
 
     int kinematic_work = -1;
     std::array<int, Chaboche::largest> back_stress;
