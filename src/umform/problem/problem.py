@@ -12,19 +12,19 @@ import numpy as np
 from pydantic import ValidationError
 
 from umform.errors import InvalidValue
-from umform.materials import J2, Metal
 from umform.mesh import Mesh
 from umform.model import Model
-from umform.problem.before import merged
+from umform.problem.before import TAKEN, merged
 from umform.problem.building import build, sheet
 from umform.problem.contents import Contents
 from umform.problem.errors import DeckError, DeckKey
-from umform.problem.material import FromLibrary
-from umform.problem.material_keys import law_keys
+from umform.problem.material_keys import written_out
 from umform.problem.messages import messages
 from umform.problem.prepared import Prepared
 from umform.problem.references import unknown_names
 from umform.problem.source import Source, change, parse, read_file
+from umform.problem.written import deck_text, plain
+from umform.run import Result
 from umform.spec import Scalar, scalars
 
 
@@ -45,6 +45,7 @@ class Problem:
     contents: Contents
     source: Source
     before: Problem | None = None
+    start: Result | None = None
 
     @classmethod
     def read(
@@ -92,7 +93,7 @@ class Problem:
         return cls(contents, source, before)
 
     @classmethod
-    def of(cls, tables: Mapping[str, Any], remarks: Iterable[str] = ()) -> Problem:
+    def of(cls, tables: Mapping[str, Any], remarks: Iterable[str] = (), start: Result | None = None) -> Problem:
         """A problem from tables of a program; errors are raised as they are.
 
         Parameters
@@ -101,14 +102,17 @@ class Problem:
             What a deck holds; arrays may be tuples, keys with the value None are left out.
         remarks : iterable of str
             Paragraphs at the head of its text.
+        start : Result, optional
+            The run of the previous operation of the same sheet, from whose last state this one starts.
 
         Raises
         ------
         DeckError
             If a key does not exist, or its value has another type.
         """
-        data = _plain(tables)
-        return cls._read(Source(data.get("title", "problem"), Path(), "", data, {}, {}, tuple(remarks), made=True))
+        data = plain(tables)
+        source = Source(data.get("title", "problem"), Path(), "", data, {}, {}, tuple(remarks), made=True)
+        return replace(cls._read(source), start=start)
 
     def with_(self, changes: Mapping[str, Any], *, same_topology: bool = False) -> Problem:
         """The problem with other values at some paths; the mesh follows.
@@ -128,42 +132,52 @@ class Problem:
         InvalidValue
             The mesh has another topology, and must not.
         """
-        source, changes = self.source, {**self._law(changes), **changes}
+        source = self.source
         if source.made:
             data = deepcopy(source.data)
             change(data, changes)
-            changed = type(self)._read(replace(source, data=data))
+            changed = replace(type(self)._read(replace(source, data=data)), start=self.start)
         else:
             changed = type(self).read(source.text, source.name, source.folder, {**source.changes, **changes})
         if same_topology:
             _refuse_other_topology(self.sheet().mesh, changed.sheet().mesh, changes)
         return changed
 
+    def at(self, folder: Path) -> Problem:
+        """The same, with the files that it names in another folder, or with an absolute path."""
+        return replace(self, source=replace(self.source, folder=folder))
+
     def paths(self) -> list[Scalar]:
         """All numbers of the problem that can be changed: path, value, unit, sentence; defaults included."""
-        written = self._law(["material.E"])
-        named = self.with_(written) if written else self
+        material = self.source.data["material"]
+        law = written_out(material)
+        named = self if law is material else self.with_({"material": law})
         return [one for one in scalars(named.contents) if not one.path.startswith("output.")]
 
-    def toml(self) -> str:
+    def toml(self, before: Mapping[str, str] | None = None) -> str:
         """Text of the deck.
+
+        Parameters
+        ----------
+        before : mapping, optional
+            Names of the files ``deck`` and ``state`` of the previous operation, for a problem that starts from a run.
 
         Raises
         ------
         InvalidValue
-            A value that was made by a program has no notation in TOML.
+            A value that was made by a program has no notation in TOML, or the files of the start have no name.
         """
-        return self.source.written
-
-    def _law(self, paths: Iterable[str]) -> dict[str, Any]:
-        """The law of a sheet metal of the library, if paths lead into it."""
-        part = self.contents.material
-        inside = [path for path in paths if path.startswith("material.") and path.split(".")[1] not in _OF_A_METAL]
-        if not inside or not isinstance(part, FromLibrary):
-            return {}
-        law = part.build()
-        assert isinstance(law, J2 | Metal)
-        return {"material": _plain(law_keys(law, self.source.data["material"].get("rolling")))}
+        if self.start is None:
+            return self.source.written
+        if before is None:
+            raise InvalidValue(
+                "a deck names the files of the operation before",
+                where="before",
+                cause="a problem that starts from a run in memory",
+                remedy='before={"deck": "first.toml", "state": "first/state.h5"}',
+            )
+        own = {key: value for key, value in self.source.data.items() if key not in TAKEN}
+        return deck_text({"before": dict(before)} | own, self.source.remarks)
 
     def build(self, solver: str | None = None) -> Prepared:
         """Build the model, its controls and its steps.
@@ -178,7 +192,7 @@ class Problem:
         DeckError
             With all mistakes.
         """
-        return build(self.contents, self.source, solver, self.before)
+        return build(self.contents, self.source, solver, self.before, self.start)
 
     def sheet(self) -> Model:
         """The model without tools and supports, before the first step.
@@ -188,20 +202,7 @@ class Problem:
         DeckError
             With all mistakes.
         """
-        return sheet(self.contents, self.source, self.before)
-
-
-#: Keys of a sheet metal of the library.
-_OF_A_METAL = ("library", "rolling", "law")
-
-
-def _plain(value: Any) -> Any:
-    """Data as TOML has them: arrays are lists, numbers those of Python, and nothing is None."""
-    if isinstance(value, Mapping):
-        return {str(key): _plain(one) for key, one in value.items() if one is not None}
-    if isinstance(value, list | tuple):
-        return [_plain(one) for one in value]
-    return value.item() if isinstance(value, np.generic) else value
+        return sheet(self.contents, self.source, self.before, self.start)
 
 
 def _refuse_other_topology(before: Mesh, after: Mesh, changes: Mapping[str, Any]) -> None:

@@ -11,8 +11,12 @@ from typing import Any
 from umform.errors import FileProblem
 from umform.problem.errors import DeckError, DeckKey, shortened, written
 from umform.problem.lines import Path, lines_of, nearest_line
+from umform.problem.material_keys import written_out
 from umform.problem.syntax import no_toml
-from umform.problem.written import deck_text
+from umform.problem.written import deck_text, plain
+
+#: Keys of a sheet metal of the library.
+_OF_A_METAL = ("material.library", "material.rolling", "material.law")
 
 
 @dataclass(frozen=True)
@@ -119,13 +123,15 @@ def parse(text: str, name: str, folder: File, changes: Mapping[str, Any] | None 
 
 
 def change(data: dict[str, Any], changes: Mapping[str, Any]) -> None:
-    """Give keys of parsed data other values, in place.
+    """Give keys of parsed data other values, in place; a key of the law of a library metal writes the law out.
 
     Raises
     ------
     DeckError
         If a key does not exist.
     """
+    if any(key.startswith("material.") and key not in _OF_A_METAL for key in changes):
+        data["material"] = plain(written_out(data.get("material")))
     wrong = [problem for key, value in changes.items() if (problem := _change(data, key, value))]
     if wrong:
         raise DeckError(wrong)

@@ -80,3 +80,12 @@ def toml(value: Any) -> str:
         cause="an object of Python: an element, a law or a surface of your own",
         remedy="give it in the deck by its name, or run the problem in Python",
     )
+
+
+def plain(value: Any) -> Any:
+    """Data as TOML has them: arrays are lists, numbers those of Python, and nothing is None."""
+    if isinstance(value, Mapping):
+        return {str(key): plain(one) for key, one in value.items() if one is not None}
+    if isinstance(value, list | tuple):
+        return [plain(one) for one in value]
+    return value.item() if hasattr(value, "dtype") and not getattr(value, "ndim", 1) else value

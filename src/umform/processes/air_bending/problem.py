@@ -15,30 +15,21 @@ from umform.processes.air_bending.sheet import lines_of
 from umform.processes.air_bending.spec import AirBending
 
 
-def deck_of(case: AirBending) -> str:
-    """Deck of a bend; it gives the same history as `air_bending`, to the last bit.
-
-    Parameters
-    ----------
-    case : AirBending
-        The parameters, with a stroke.
-
-    Raises
-    ------
-    InvalidValue
-        If the case has no stroke, or if a deck cannot express its hardening or its element.
-    """
-    return problem_of(case, needed_stroke(case)).toml()
-
-
 def build(case: AirBending) -> tuple[Model, Control]:
     """Model of a case, and the control that moves the punch down."""
     made = problem_of(case, case.way).build()
     return made.model, made.controls["stroke"]
 
 
-def problem_of(case: AirBending, stroke: float) -> Problem:
-    """Half of the sheet in its tools: down by a stroke, and back to zero force."""
+def problem_of(case: AirBending, stroke: float | None = None) -> Problem:
+    """Half of the sheet in its tools: down by a stroke, by default that of the case, and back to zero force.
+
+    Raises
+    ------
+    InvalidValue
+        There is no stroke.
+    """
+    stroke = needed_stroke(case) if stroke is None else stroke
     if case.width is None:
         modelled, kind = case.thickness, "in plane strain"
     else:

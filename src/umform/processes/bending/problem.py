@@ -8,13 +8,8 @@ from umform.problem.problem import Problem
 from umform.processes.bending.spec import RECONSTRUCTION, FreeBending
 
 
-def deck_of(case: FreeBending) -> str:
-    """Deck of a case of free bending; what it builds gives the same numbers as `free_bending`, to the last bit."""
-    return problem_of(case).toml()
-
-
 def problem_of(case: FreeBending) -> Problem:
-    """Half of the strip over the cylinder: pushed down, and released."""
+    """Half of the strip over the cylinder: pushed down, and released; the history is that of `free_bending`."""
     release = [{"kind": "release", "control": "punch"}] if case.unload else []
     tables = {
         "title": "Free bending of a strip over a cylinder",
