@@ -7,6 +7,7 @@ import os
 from typing import TYPE_CHECKING
 
 from umform import errors
+from umform.renamed import message
 
 # Before the kernels are loaded: threads that wait actively take the processors from other programs and from each other.
 os.environ.setdefault("OMP_WAIT_POLICY", "passive")
@@ -14,7 +15,7 @@ os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 if TYPE_CHECKING:
     from umform import elements, mesh, processes, sheet_metals, surfaces
     from umform._core import set_threads, threads
-    from umform.elements import Element, Term, Tying
+    from umform.elements import Element, Mode, Tying
     from umform.errors import UmformError
     from umform.materials import (
         J2,
@@ -82,7 +83,7 @@ __version__ = "0.1.0"
 
 _HOME = {
     "umform._core": ("set_threads", "threads"),
-    "umform.elements": ("Element", "Term", "Tying", "rolling_at"),
+    "umform.elements": ("Element", "Mode", "Tying", "rolling_at"),
     "umform.errors": ("UmformError",),
     "umform.materials": (
         "Chaboche",
@@ -182,6 +183,7 @@ __all__ = [
     "Mesh",
     "Metal",
     "Mises",
+    "Mode",
     "Model",
     "Move",
     "NeoHooke",
@@ -201,7 +203,6 @@ __all__ = [
     "Sweep",
     "Swift",
     "Table",
-    "Term",
     "Torus",
     "Transformation",
     "Triangulated",
@@ -249,7 +250,7 @@ def __getattr__(name: str) -> object:
     elif name in _MODULES:
         value = importlib.import_module(_MODULES[name])
     else:
-        raise AttributeError(f"module 'umform' has no attribute {name!r}")
+        raise AttributeError(message(name) or f"module 'umform' has no attribute {name!r}")
     globals()[name] = value
     return value
 

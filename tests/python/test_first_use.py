@@ -5,6 +5,9 @@ from pathlib import Path
 
 import pytest
 
+import umform as uf
+from umform.renamed import RENAMED
+
 LAZY = [
     "umform.problem",
     "umform.io",
@@ -33,3 +36,12 @@ def test_no_file_hides_a_name(package):
 def test_an_unknown_name_is_refused():
     with pytest.raises(AttributeError, match=r"module 'umform\.surfaces' has no attribute 'Cone'"):
         _ = import_module("umform.surfaces").Cone
+
+
+@pytest.mark.parametrize("name", RENAMED)
+def test_an_old_name_says_what_it_is_now_called(name):
+    new, remedy = RENAMED[name]
+    assert name not in uf.__all__ and new in uf.__all__
+    with pytest.raises(AttributeError, match=rf"umform\.{name} is now called umform\.{new}") as caught:
+        getattr(uf, name)
+    assert remedy in str(caught.value)

@@ -13,7 +13,7 @@ from umform.elements.catalogue import (
 )
 from umform.elements.complete_order import at_order, at_order_by_column, column_modes
 from umform.elements.rolling import Rolling, rolling_at, rolling_directions
-from umform.elements.technology import COMPONENTS, Element, Mode, Term, Tying
+from umform.elements.technology import COMPONENTS, Element, Mode, Polynomial, Tying
 from umform.elements.through_thickness import thickness_rule
 
 __all__ = [
@@ -26,8 +26,8 @@ __all__ = [
     "MITC9_SHEAR",
     "Element",
     "Mode",
+    "Polynomial",
     "Rolling",
-    "Term",
     "Tying",
     "at_order",
     "at_order_by_column",

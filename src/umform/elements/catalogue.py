@@ -1,7 +1,7 @@
 """The catalogue of elements, with the names of the literature: tying rules and enhanced modes.
 
 An element is data. A tying rule is a list of :class:`Tying` rows (docs/theory, eq. (2.2)), an enhancement a list of
-modes, each a sum of :class:`Term` (eq. (2.10)); the kernels need nothing else. A new element is a few rows here, or in
+modes (:class:`Mode`, eq. (2.10)); the kernels need nothing else. A new element is a few rows here, or in
 the user's own script: ``Element("MINE", "hex8", tying=(...), modes=(...))``.
 """
 
@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import TypedDict
 
 from umform.elements.plane_strain import in_plane_strain
-from umform.elements.technology import Element, Mode, Term, Tying
+from umform.elements.technology import Element, Mode, Polynomial, Tying
 from umform.elements.through_thickness import MOST_POINTS
 from umform.errors import InvalidValue
 
@@ -50,7 +50,9 @@ def _nodal(component: str, order: int) -> dict[tuple[int, int], Mode]:
     half, square = 0.5 / _B, 0.5 / _B**2
     of_point = (((1, -half), (2, square)), ((0, 1.0), (2, -2.0 * square)), ((1, half), (2, square)))
     return {
-        (i, j): tuple(Term(component, a, b, order, factor=f * g) for b, g in of_point[j] for a, f in of_point[i])
+        (i, j): Mode.of(
+            Polynomial(component, a, b, order, factor=f * g) for b, g in of_point[j] for a, f in of_point[i]
+        )
         for j in range(3)
         for i in range(3)
     }
@@ -81,7 +83,7 @@ def thickness_modes(count: int, order: int, order_count: int = 1) -> tuple[Mode,
         raise InvalidValue(f"the thickness order must be 1 to {MOST_POINTS - 1}", value=order)
     counts = {1: count} | dict.fromkeys(range(2, order + 1), order_count)
     few: tuple[Mode, ...] = tuple(
-        (Term("33", a, b, p),)
+        Mode("33", a, b, p)
         for p, modes in counts.items()
         if modes < 9
         for b in range(math.isqrt(modes))
@@ -93,13 +95,13 @@ def thickness_modes(count: int, order: int, order_count: int = 1) -> tuple[Mode,
 
 def membrane_modes(count: int) -> tuple[Mode, ...]:
     """Modes of the in-plane strains: 4 or 5 (Simo & Rifai 1990), or 7 (Andelfinger & Ramm 1993)."""
-    four: tuple[Mode, ...] = ((Term("11", 1),), (Term("22", 0, 1),), (Term("12", 1),), (Term("12", 0, 1),))
-    coupled: Mode = (Term("11", 1, 1), Term("22", 1, 1, factor=-1.0), Term("12", 2), Term("12", 0, 2, factor=-1.0))
+    four = (Mode("11", 1), Mode("22", 0, 1), Mode("12", 1), Mode("12", 0, 1))
+    coupled = Mode("11", 1, 1) + Mode("22", 1, 1, factor=-1.0) + Mode("12", 2) + Mode("12", 0, 2, factor=-1.0)
     modes: dict[int, tuple[Mode, ...]] = {
         0: (),
         4: four,
         5: (*four, coupled),
-        7: (*four, (Term("11", 1, 1),), (Term("22", 1, 1),), (Term("12", 1, 1),)),
+        7: (*four, Mode("11", 1, 1), Mode("22", 1, 1), Mode("12", 1, 1)),
     }
     if count not in modes:
         raise InvalidValue("the number of membrane modes must be 0, 4, 5 or 7", value=count)
@@ -281,7 +283,7 @@ def element(
 __all__ = [
     "CATALOGUE",
     "Element",
-    "Term",
+    "Mode",
     "Tying",
     "element",
     "membrane_modes",

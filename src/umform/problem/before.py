@@ -186,7 +186,7 @@ def write_state(model: Model, path: File, tables: Mapping[str, Any]) -> None:
         name: {
             "faces": kept.faces,
             "history": kept.history,
-            "names": json.dumps(kept.names),
+            "names": json.dumps(kept.quantities),
             "penalty": kept.penalty,
         }
         for name, kept in rubbed.items()

@@ -35,7 +35,7 @@ def corners_of(metal: Metal, stresses: Sequence[tuple[float, float]], steps: int
     stress[:, 0], stress[:, 3] = rows.T
     found = point_path(metal, np.full_like(stress, np.nan), stress)
     ends = slice(steps - 1, None, steps)
-    return np.stack([found.strain[ends, 0], 0.5 * found.strain[ends, 3], found.state[ends, 6]], axis=1)
+    return np.stack([found.strain[ends, 0], 0.5 * found.strain[ends, 3], found.history["eqps"][ends, 0]], axis=1)
 
 
 def limit_of(metal: Metal, stresses: Sequence[tuple[float, float]], steps: int) -> Floats:
