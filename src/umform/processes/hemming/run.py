@@ -68,8 +68,7 @@ def hemming(case: Hemming, *, tolerance: float = 0.1, frames: int = FRAMES, prog
     released = Strip.of(model.mesh, model.u)
     result = run.close()
     whole = result["stroke_force"] / case.sheet.thickness
-    warnings = (*first.warnings, *result.warnings)
-    return Hem(case, first, measured(case, force, strip, released), result["stroke"], whole, released, warnings, result)
+    return Hem(case, first, measured(case, force, strip, released), result["stroke"], whole, released, result)
 
 
 def in_press(case: Hemming, first: Part) -> tuple[Model, Control, float]:
