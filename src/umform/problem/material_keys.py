@@ -57,6 +57,17 @@ def law_keys(law: J2 | Metal, rolling: object = None) -> dict[str, Any]:
     return keys
 
 
+def written_out(material: Any) -> Any:
+    """The table of a sheet metal of the library with its law in place of its name; any other as it is."""
+    from umform import sheet_metals
+
+    if not isinstance(material, Mapping) or not isinstance(material.get("library"), str):
+        return material
+    law = sheet_metals.get(material["library"]).law
+    assert isinstance(law, J2 | Metal)
+    return law_keys(law, material.get("rolling"))
+
+
 def _elastic(law: J2 | Metal) -> dict[str, float]:
     E, nu = float(f"{law.E:.12g}"), float(f"{law.nu:.12g}")
     again = J2(E, nu, hardening=law.hardening)

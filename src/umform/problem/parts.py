@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Strict, Tag
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, InstanceOf, Strict, Tag
+from pydantic.json_schema import SkipJsonSchema
 
 from umform.spec import sentences
 
@@ -34,6 +35,9 @@ def _below(part: type[Part]) -> Iterator[type[Part]]:
         yield from _below(kind)
 
 
+_T = TypeVar("_T")
+#: An object of Python as a value of a problem; no notation in TOML.
+Own = SkipJsonSchema[InstanceOf[_T]]
 Positive = Annotated[float, Field(gt=0)]
 NotNegative = Annotated[float, Field(ge=0)]
 Count = Annotated[int, Field(ge=1)]
@@ -88,6 +92,7 @@ __all__ = [
     "Count",
     "Name",
     "NotNegative",
+    "Own",
     "Pair",
     "Part",
     "Positive",
