@@ -156,7 +156,9 @@ def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     watch.phase("end", 1.0)
     result = outcome.result
     last = {name: float(value) for name, value in result.rows[-1].items() if abs(float(value)) < float("inf")}
-    return {**result.summary(), "last": last, "resumed": taken_up}
+    record = outcome.record()
+    numbers = {kind: record[kind] for kind in ("quantities", "checks")}
+    return {**result.summary(), **numbers, "last": last, "resumed": taken_up}
 
 
 if __name__ == "__main__":

@@ -113,7 +113,7 @@ def test_curve_is_that_of_the_file(bench, done):
 def test_table_of_jobs_as_csv(bench, done):
     answer = bench.client.get(f"/api/jobs.csv?ids={done['id']},nobody,..")
     [row] = csv.DictReader(io.StringIO(answer.text))
-    assert float(row["angle deg"]) == done["summary"]["measures"]["angle"]
+    assert float(row["angle degrees"]) == done["summary"]["measures"]["angle"]
     assert row["opening"] == "16.0"
 
 

@@ -2,7 +2,7 @@
 // Numbers of a job as the server names them: label, unit, decimals, error, limit; all tables take them from here.
 
 import { make } from "./dom.js";
-import { number, t } from "./texts.js";
+import { language, number, t } from "./texts.js";
 
 /**
  * @typedef {{name: string, label: string, unit: string, decimals: number | null, digits: number, value: number | null, missed: boolean,
@@ -12,9 +12,12 @@ import { number, t } from "./texts.js";
 /** @param {Quantity} one */
 const unitOf = ({ unit }) => (unit === "degrees" ? "°" : unit);
 
-/** A value, an error or another number of a quantity. @param {Quantity} one @param {number | null} value */
-const shown = ({ decimals, digits }, value) =>
-  (decimals === null ? number(value === null ? null : Number(value.toPrecision(digits)), undefined) : number(value, decimals));
+/** A value, an error or another number, as the terminal shows it: by its decimals, else to the second digit of its error. @param {Quantity} one @param {number | null} value */
+function shown({ decimals, digits, band }, value) {
+  const places = decimals ?? (band?.error ? Math.max(1 - Math.floor(Math.log10(band.error)), 0) : null);
+  if (places !== null || value === null) return number(value, places ?? undefined);
+  return value.toLocaleString(language, { useGrouping: false, maximumSignificantDigits: digits });
+}
 
 /** @param {Quantity} one */
 export const best = ({ value, band }) => band?.middle ?? value;

@@ -173,7 +173,8 @@ export class Result {
     const rows = Object.entries(job.summary.last).map(([name, value]) => make("tr", {}, make("th", { scope: "row" }, name), make("td", {}, number(/** @type {number} */ (value)))));
     const notes = [...job.summary.warnings.map((/** @type {string} */ text) => make("p", { class: "note warn" }, text)),
       ...job.summary.events.map((/** @type {string} */ text) => make("p", { class: "note" }, text))];
-    return make("div", {}, ...notes, make("details", { open: true }, make("summary", {}, t("deck.end")), make("div", { class: "wide" }, make("table", {}, make("tbody", {}, ...rows)))));
+    const { quantities = [], checks = [] } = job.summary;
+    return make("div", {}, ...notes, table([...quantities, ...checks]), make("details", { open: true }, make("summary", {}, t("deck.end")), make("div", { class: "wide" }, make("table", {}, make("tbody", {}, ...rows)))));
   }
 
   /** @param {any} job */
