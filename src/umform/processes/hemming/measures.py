@@ -9,9 +9,10 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.problem.problem import Problem
 from umform.processes.air_bending.remarks import coarse_mesh, extrapolated, tools_text
 from umform.processes.air_bending.section import Section
-from umform.processes.bend_sequence.part import Part
+from umform.processes.bend_sequence.part import Part, after
 from umform.processes.bend_sequence.sides import Strip
 from umform.processes.hemming.spec import Hemming
 from umform.results.outcome import Outcome
@@ -65,6 +66,8 @@ class Hem(Outcome):
         The section after unloading, the base on z = 0.
     result : Result
         History and frames of the flattening.
+    problem : Problem
+        The flattening as a problem of its own.
     """
 
     case: Hemming
@@ -74,6 +77,12 @@ class Hem(Outcome):
     force: Floats
     strip: Strip
     result: Result
+    problem: Problem
+
+    def decks(self) -> dict[str, str]:
+        """Decks of bend and flattening by the names of their files: `umform run` of both repeats the runs."""
+        decks = self.first.decks()
+        return decks | {"hem.toml": self.problem.toml(after(*decks))}
 
     @property
     def title(self) -> str:
