@@ -226,11 +226,17 @@ class _Api:
     def table(self, request: Request) -> Response:
         """Some jobs as a table with all quantities."""
         names = request.query_params.get("ids", "")[:20000].split(",")[:500]
-        jobs = [job for job in map(self.queue.index.job, names) if job is not None and "quantities" in job.summary]
+        jobs = [
+            job
+            for job in map(self.queue.index.job, names)
+            if job is not None and job.summary.keys() & {"quantities", "measures"}
+        ]
         shown = ("material", "thickness", "opening", "die_angle", "punch_angle", "punch_radius", "length")
         text = io.StringIO()
         table = csv.writer(text)
-        rows = [[Quantity.of(one) for kind in ("quantities", "checks") for one in job.summary[kind]] for job in jobs]
+        rows = [
+            [Quantity.of(one) for kind in ("quantities", "checks") for one in job.summary.get(kind, ())] for job in jobs
+        ]
         found = columns(rows, units=True)
         table.writerow(["job", "title", *shown, "wanted_angle", *found])
         for number, job in enumerate(jobs):

@@ -17,8 +17,8 @@ from umform.results.forming import lay_by_best_fit
 from umform.results.quantity import Quantity
 from umform.run import Result
 
-#: A user-defined function: a number from a result. Other processes must be able to import it.
-Function = Callable[[Result], float]
+#: A user-defined function: a number or a quantity from a result. Other processes must be able to import it.
+Function = Callable[[Result], float | Quantity]
 #: Record of a job, as JSON.
 Record = Mapping[str, Any]
 
@@ -91,8 +91,9 @@ class Measure:
             The job has no such column or quantity, or no springback.
         """
         known = {one["name"]: one for kind in _KINDS for one in record.get(kind, ())}
-        if self.name in known:
-            return Quantity.of(known[self.name])
+        found = known.get(self.name, record["functions"].get(self.name))
+        if isinstance(found, Mapping):
+            return replace(Quantity.of(found), name=self.name)
         return Quantity(self.name, value=self._number(record, known), digits=_DIGITS)
 
     def _number(self, record: Record, known: Mapping[str, Any]) -> float | None:
@@ -193,6 +194,7 @@ def _finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def number_of(function: Function, result: Result) -> float | None:
-    """Value of a user-defined function for a result."""
-    return _finite(float(function(result)))
+def number_of(function: Function, result: Result) -> float | dict[str, Any] | None:
+    """Value of a user-defined function for a result: a number, or a quantity as JSON data."""
+    found = function(result)
+    return found.record() if isinstance(found, Quantity) else _finite(float(found))

@@ -121,7 +121,8 @@ def sweep(
     measures : sequence of str or callable, optional
         ``"punch_force:max"`` (last, min, max, peak, sum of a column of the history), a quantity such as
         ``"hat.theta1.released"`` (measure of the deck, number, state) or ``"penetration of die"``, ``"springback"``, or
-        functions of a module that make a number from a :class:`umform.Result`. Default: the peak of each force,
+        functions of a module that make a number, or a :class:`umform.results.quantity.Quantity`, from a
+        :class:`umform.Result`. Default: the peak of each force,
         springback, all quantities, and the last value of each column.
     out : str or Path, optional
         Folder; default: results/ and the name of the deck, with "-sweep".
