@@ -65,6 +65,6 @@ export function forShop(one, length) {
     return { ...one, ...what, value: changed(one.value), band };
   };
   if (one.name === "largest_force") return of((value) => (value * length) / 1e3, length / 1e3, { unit: "kN", decimals: 1 });
-  if (one.name === "thinning") return of((value) => 100 * (1 - value), 100, { unit: "%", decimals: 1 });
+  if (one.name === "thinning") return of((value) => 100 * (1 - value), 100, { name: "thinned", unit: "%", decimals: 1 });
   return one.name === "outer_strain" ? { ...one, decimals: 3 } : one;
 }

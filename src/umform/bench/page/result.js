@@ -136,7 +136,10 @@ export class Result {
   numbers(job) {
     const { measures, quantities = [], checks = [], shop_forces: shop, warnings = [], coarse_mesh: coarse = [], length, press } = job.summary;
     const heroes = HEROES.flatMap((name) => quantities.filter((/** @type {any} */ one) => one.name === name))
-      .map((one) => tile(forShop(one, length), "hero", t(`means.${one.name}`, { length, each: number(one.value, 1) })));
+      .map((one) => {
+        const shown = forShop(one, length);
+        return tile(shown, "hero", t(`means.${shown.name}`, { length, each: number(one.value, 1) }));
+      });
     const notes = press ? [t("note.press", { press: number(press.force, 1), low: number(shop[0], 0), high: number(shop[1], 0) })] : [];
     const ratio = measures.largest_force / (0.5 * (shop[0] + shop[1]));
     if (ratio < 0.93) notes.push(t("note.below", { percent: Math.round(100 * (1 - ratio)) }));

@@ -33,7 +33,7 @@ function part({ bends, columns = [], sizes = [], quantities = [], checks = [], f
     make("div", { class: "wide" }, make("table", { class: "columns", id: "strip-table" }, make("thead", {}, head), make("tbody", {},
       given("position", (bend) => `${number(bend.position, 1)} mm`), given("way", (bend) => t(bend.over ? "bends.down" : "bends.up")),
       given("wanted", (bend) => `${number(bend.wanted, 1)}°`), ...rows))),
-    all([...quantities, ...checks], "strip"),
+    all([...quantities, ...checks], "measure"),
     make("p", { class: "note" }, t("strip.note")),
   ];
 }
