@@ -10,6 +10,7 @@ import json
 import select
 import sys
 import traceback
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +30,7 @@ from umform.problem.findings import accept
 from umform.problem.plausible import of_model
 from umform.processes.air_bending.bottoming import press_to_force
 from umform.processes.air_bending.branches import FRAMES, Brake
-from umform.processes.air_bending.budget import Budget, error_budget
+from umform.processes.air_bending.budget import error_budget
 from umform.processes.air_bending.case import air_bending
 from umform.processes.air_bending.files import FILES, record, write_files
 from umform.processes.air_bending.search import find_stroke
@@ -114,19 +115,15 @@ def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
             if len(brake.run.result) > 1:
                 write_csv(folder / RESULTS / "history.csv", brake.run.result.table())
             raise
-        budget: Budget | None = None
         if wanted.budget:
             watch.phase("budget", 0.75)
-            budget = error_budget(done.case, done.measures, progress=False)
+            done = replace(done, budget=error_budget(done.case, done.measures, progress=False))
         watch.phase("files", 0.95)
         watch.shape(done.result)
-        write_files(folder / RESULTS, done, (), budget, note=note)
-    summary = record(done, (), budget)
-    summary["spread"] = {} if budget is None else {name: budget.total(name) for name in summary["measures"]}
-    summary["spread"] = {name: value for name, value in summary["spread"].items() if value == value}
+        write_files(folder / RESULTS, done, note)
     watch.phase("end", 1.0)
     needed = press(after(wanted, case, {wanted.work: done.measures.largest_force}))
-    return {**summary, "length": wanted.length, "note": note, "press": needed.over(wanted.length)}
+    return {**record(done), "length": wanted.length, "note": note, "press": needed.over(wanted.length)}
 
 
 def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
@@ -159,7 +156,9 @@ def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     watch.phase("end", 1.0)
     result = outcome.result
     last = {name: float(value) for name, value in result.rows[-1].items() if abs(float(value)) < float("inf")}
-    return {**result.summary(), "last": last, "resumed": taken_up}
+    record = outcome.record()
+    numbers = {kind: record[kind] for kind in ("quantities", "checks")}
+    return {**result.summary(), **numbers, "last": last, "resumed": taken_up}
 
 
 if __name__ == "__main__":

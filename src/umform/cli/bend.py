@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from umform.cli.bend_screen import show_bend
 from umform.cli.check import Force
 from umform.cli.drawn_tools import drawn_tools
 from umform.cli.given import Given, given_by
@@ -30,6 +29,7 @@ from umform.cli.options import (
     option,
     print_deck,
 )
+from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.sequence import run_sequence
 from umform.cli.timing import Timed, show_timing
@@ -95,6 +95,7 @@ def bend(
     from umform.processes.air_bending.bottoming import with_travel
     from umform.processes.air_bending.branches import FRAMES, Brake
     from umform.processes.air_bending.files import FILES, RESULTS, write_files
+    from umform.processes.air_bending.remarks import total_force
     from umform.processes.air_bending.search import bending_table
     from umform.timing import Timing, timings
 
@@ -140,21 +141,21 @@ def bend(
     with staging(place, FILES):
         with _what_was_reached(place) as rows:
             rows += bending_table(case, strokes, brake=brake) if strokes else []
-            done = _bent(brake, case, angle, force_per_metre, tolerance)
-        errors = None
+            done = replace(_bent(brake, case, angle, force_per_metre, tolerance), table=tuple(rows))
         try:
             if budget:
                 from umform.processes.air_bending.budget import error_budget
 
-                errors = error_budget(done.case, done.measures, processes=processes)
+                done = replace(done, budget=error_budget(done.case, done.measures, processes=processes))
             with printing(f"the files of the bend are in {place}"):
-                show_bend(done, rows, errors, note, length)
+                total = "" if length is None else total_force(done.measures.largest_force, length)
+                show_outcome(done, total, note)
         except KeyboardInterrupt as stop:
             stop.add_note(f"  results so far are in {place}: all but the budget")
             raise
         finally:  # even if the table cannot be printed
             with done.result.timing.files:
-                files = write_files(place, done, rows, errors, note=note)
+                files = write_files(place, done, note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
@@ -209,14 +210,13 @@ def _what_was_reached(out: Path) -> Iterator[list[Measures]]:
     try:
         yield rows
     except (UmformError, KeyboardInterrupt) as stop:
-        from umform.io.tables import write_csv
-        from umform.processes.air_bending.words import columns
+        from umform.processes.air_bending.files import write_table
 
         reached: Result | None = getattr(stop, "result", None)
         rows = rows or getattr(stop, "rows", rows)
         files = [out / "table.csv"] if rows else []
         if rows:
-            write_csv(out / "table.csv", columns(rows))
+            write_table(out / "table.csv", rows)
         if reached is not None and reached.frames:
             files += [reached.write(out / name) for name in ("history.csv", "bend.vtkhdf")]
         if files:

@@ -12,13 +12,14 @@ import typer
 
 from umform.cli.given import Given, given_by
 from umform.cli.options import SOLUTION, PrintDeck, option, print_deck
+from umform.cli.outcome_screen import print_table
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.timing import Timed, show_timing
 from umform.cli.typed import as_typed, options_of
 from umform.processes.bending.spec import RECONSTRUCTION, FreeBending
 
 if TYPE_CHECKING:
-    from umform.processes.bending.showcase import Outcome
+    from umform.processes.bending.showcase import Demo
 
 demos = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", help="Run an example and show the results.")
 app.add_typer(demos, name="demo")
@@ -86,21 +87,13 @@ def free_bending(
         _show(outcome, place, options_of(context.command), timing=timing)
 
 
-def _show(outcome: Outcome, out: Path, options: Mapping[str, str], *, timing: bool) -> None:
+def _show(outcome: Demo, out: Path, options: Mapping[str, str], *, timing: bool) -> None:
     """Print the table, the files, and failures."""
-    from rich import box
-    from rich.table import Table
-
-    from umform.processes.bending.table import header, legend, rows
+    from umform.processes.bending.table import legend, table
     from umform.report.repeats import counted
 
-    table = Table(title="Free bending of a strip over a cylinder", box=box.SIMPLE_HEAD)
-    for number, name in enumerate(header(outcome.runs)):
-        table.add_column(name, justify="left" if number == 0 else "right", no_wrap=number > 0)
-    for row in rows(outcome.runs):
-        table.add_row(*row)
     screen = console()
-    screen.print(table)
+    print_table(table(outcome.runs), "Free bending of a strip over a cylinder")
     for line in legend(outcome.runs):
         screen.print(line)
     screen.print(RECONSTRUCTION)

@@ -26,10 +26,10 @@ from umform.cli.options import (
     option,
     print_deck,
 )
+from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
-from umform.cli.run_checks import show_checks
 from umform.cli.timing import Timed, show_timing
-from umform.cli.warnings import echo_warnings, print_warnings_once
+from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
 from umform.processes.draw.cup import CLEARANCE, ESAFORM, Cup
 from umform.processes.draw.u_bend import NUMISHEET, UBend
@@ -237,7 +237,7 @@ def _run(
         drawn = how(case, limit=curve)
         try:
             with printing(f"the files of the part are in {place}"):
-                _show(drawn, note)
+                show_outcome(drawn, note)
         finally:  # even if the table cannot be printed
             with drawn.result.timing.files:
                 files = write_files(place, drawn, note, blank)
@@ -246,26 +246,3 @@ def _run(
         show_timing(drawn.result.timing)
     if drawn.released is None:
         raise typer.Exit(1)
-
-
-def _show(drawn: Drawn, note: str) -> None:
-    """Print the measures."""
-    from rich import box
-    from rich.table import Table
-
-    from umform.processes.draw.words import about_errors, summary, title
-
-    columns, *rows = summary(drawn)
-    table = Table(title=title(drawn), box=box.SIMPLE_HEAD)
-    for name in columns:
-        table.add_column(name, justify="left" if name in ("quantity", "unit") else "right")
-    for row in rows:
-        table.add_row(*row)
-    screen = console()
-    screen.print(table)
-    show_checks(screen, drawn.stages)
-    if remark := about_errors(drawn):
-        screen.print(remark, soft_wrap=True)
-    if note:
-        screen.print(note, soft_wrap=True)
-    echo_warnings(drawn.warnings)

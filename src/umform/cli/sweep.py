@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from umform.cli.check import Changes, DeckFile, Force, deck_errors, read
+from umform.cli.outcome_screen import print_table
 from umform.cli.root import Debug, Verbose, app, console
 from umform.cli.warnings import print_warnings_once
 from umform.errors import FileProblem, InvalidValue
@@ -36,7 +37,8 @@ def sweep(
         list[str] | None,
         typer.Option(
             metavar="NAME",
-            help="Column of the history, such as punch_force:max (or last, min, peak, sum), or springback; repeatable.",
+            help="Column of the history, such as punch_force:max (or last, min, peak, sum), springback, or a quantity, "
+            "such as hat.theta1.released; repeatable.",
         ),
     ] = None,
     changes: Changes = None,
@@ -117,24 +119,28 @@ def _say(row: dict[str, Any]) -> None:
 
 def _show(found: Sweep) -> None:
     """The table with the first measures, the causes of failures, and the files."""
-    from rich import box
-    from rich.table import Table
-
+    from umform.studies.sweep.measures import heading
     from umform.studies.sweep.table import telling
 
     screen, measures = console(), telling(found.rows, found.measures)
     counts = Counter(row["outcome"] for row in found.rows)
     title = ", ".join(f"{count} {outcome}" for outcome, count in counts.items())
-    table = Table(title=f"{len(found.rows)} jobs: {title}", box=box.SIMPLE_HEAD)
-    for name in (*found.varied, "outcome", *measures):
-        table.add_column(name, justify="left" if name == "outcome" else "right")
-    for row in found.rows:
-        table.add_row(*(_cell(row[name]) for name in (*found.varied, "outcome", *measures)))
-    screen.print(table)
+    header = [*found.varied, "outcome", *(heading(found.rows, name) for name in measures)]
+    rows = [
+        [*(_cell(row[name]) for name in (*found.varied, "outcome")), *(_measured(row, name) for name in measures)]
+        for row in found.rows
+    ]
+    print_table([header, *rows], f"{len(found.rows)} jobs: {title}")
     for reason, count in Counter(row["reason"] for row in found.rows if row["reason"]).items():
         screen.print(f"{count} x {reason}", soft_wrap=True, markup=False)
     names = ", ".join(file.name for file in found.files)
     screen.print(f"Written to {found.files[0].parent}: {names}", soft_wrap=True, markup=False)
+
+
+def _measured(row: dict[str, Any], name: str) -> str:
+    """A measure of a job, red beyond its limit."""
+    one = row["quantities"][name]
+    return "" if one is None or one.value is None else one.text
 
 
 def _cell(value: Any) -> str:

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from umform.errors import UmformError
 from umform.io.tables import write_csv
-from umform.problem.measures.base import Formed, Measured, Row
+from umform.problem.measures.base import FORMED, RELEASED, Formed, Measured, Row
 from umform.problem.prepared import Prepared
 from umform.problem.problem import Problem
 from umform.problem.unloading import loading_steps
+from umform.results.quantity import Quantity
 from umform.run import Result
 
 if TYPE_CHECKING:
@@ -27,9 +28,18 @@ _OF_ONE = "measure-{}"
 
 @dataclass(frozen=True)
 class Taken:
-    """The measures of a run by name; one that could not be taken is a warning of the run."""
+    """The measures of a run by name; one that could not be taken is a warning of the run.
+
+    Attributes
+    ----------
+    measures : dict of str to Measured
+        The measures.
+    length : str
+        Unit of lengths.
+    """
 
     measures: dict[str, Measured] = field(default_factory=dict)
+    length: str = ""
 
     @classmethod
     def of(cls, deck: Problem, problem: Prepared, result: Result, *, complete: bool) -> Taken:
@@ -48,7 +58,7 @@ class Taken:
         """
         contents = deck.contents
         if not contents.measures or not result.rows:
-            return cls()
+            return cls(length=contents.units.length)
         tools: dict[str, str] = {}
         for name, contact in contents.contacts.items():
             tools.setdefault(contact.tool, name)
@@ -59,7 +69,16 @@ class Taken:
                 measures[name] = wanted.take(name, part)
             except (UmformError, ArithmeticError, ValueError) as error:  # a measure must not lose the run
                 result.warn(f"measure {name} is left out: {error}")
-        return cls(measures)
+        return cls(measures, contents.units.length)
+
+    @property
+    def quantities(self) -> list[Quantity]:
+        """All numbers; their names are those of the measure, of the number and of the state, with points between."""
+        return [
+            replace(one, name=f"{name}.{one.name}.{state}", label=f"{name}: {one.label}, {state}")
+            for name, row in self.rows
+            for state, one in row.items()
+        ]
 
     @property
     def rows(self) -> list[tuple[str, Row]]:
@@ -69,25 +88,26 @@ class Taken:
     @property
     def is_released(self) -> bool:
         """Whether there is a number of a released part."""
-        return any(row.released is not None for _, row in self.rows)
+        return any(RELEASED in row and row[RELEASED].value is not None for _, row in self.rows)
 
     @property
     def table(self) -> list[list[str]]:
         """Rows of text, behind a header; without the column of the released part if there is none."""
-        header = ["measure", "quantity", "formed", *(["released"] if self.is_released else []), "unit"]
+        states = [FORMED, *[RELEASED] * self.is_released]
         rows = []
         for name, row in self.rows:
-            values = [row.formed, row.released] if self.is_released else [row.formed]
-            texts = ("" if value is None else f"{value + 0.0:.5g}" for value in values)
-            rows.append([name, row.quantity, *texts, row.unit])
-        return [header, *rows]
+            first = next(iter(row.values()))
+            rows.append([name, first.label, *(row[state].text if state in row else "" for state in states), first.unit])
+        return [["measure", "quantity", *states, "unit"], *rows]
 
     def write(self, folder: Path) -> None:
         """Write the table of all numbers, and that of each measure."""
         if not self.measures:
             return
         names, rows = zip(*self.rows, strict=True)
-        columns = {key: [getattr(row, key) for row in rows] for key in ("quantity", "formed", "released", "unit")}
+        firsts = [next(iter(row.values())) for row in rows]
+        states = {state: [row[state].value if state in row else None for row in rows] for state in (FORMED, RELEASED)}
+        columns = {"quantity": [one.label for one in firsts], **states, "unit": [one.unit for one in firsts]}
         write_csv(folder / TABLE, {"measure": names, **columns})
         for name, measured in self.measures.items():
             write_csv(folder / f"{_OF_ONE.format(name)}.csv", measured.columns)

@@ -23,6 +23,8 @@ from umform.problem.prepared import Prepared, Solving
 from umform.problem.problem import Problem
 from umform.problem.resolution import coarse
 from umform.problem.results import CHECKPOINT, FILES, RESULTS, says_what_is_kept, write, written_at
+from umform.results.outcome import Outcome
+from umform.results.quantity import Quantity
 from umform.run import Result
 
 _Answer = TypeVar("_Answer")
@@ -30,7 +32,7 @@ log = logging.getLogger("umform")
 
 
 @dataclass(frozen=True)
-class Outcome:
+class ProblemOutcome(Outcome):
     """Outcome of a run.
 
     Attributes
@@ -52,6 +54,36 @@ class Outcome:
     ended_by: BaseException | None
     checkpoint: Path | None = None
     taken: Taken = field(default_factory=Taken)
+
+    @property
+    def title(self) -> str:
+        """Heading of tables."""
+        return "Measures"
+
+    @property
+    def quantities(self) -> list[Quantity]:
+        """The numbers of the measures."""
+        return self.taken.quantities
+
+    @property
+    def tables(self) -> dict[str, list[list[str]]]:
+        """The measures, a column for each state of the part."""
+        return {"Measures": self.taken.table} if self.taken.measures else {}
+
+    @property
+    def stages(self) -> dict[str, Result]:
+        """The run."""
+        return {"run": self.result}
+
+    @property
+    def warnings(self) -> list[str]:
+        """Warnings of the run."""
+        return self.result.warnings
+
+    @property
+    def length(self) -> str:
+        """Unit of lengths."""
+        return self.taken.length
 
 
 def folder_of(deck: Problem) -> Path:
@@ -146,7 +178,7 @@ def run(
     checkpoint: str | Path | None = None,
     every: float = 60.0,
     overwrite: bool = False,
-) -> Outcome:
+) -> ProblemOutcome:
     """Solve the problem of a deck and write its files, each of them atomically.
 
     Parameters
@@ -171,7 +203,7 @@ def run(
 
     Returns
     -------
-    Outcome
+    ProblemOutcome
         Also after Ctrl-C or without convergence, then with the results so far.
 
     Raises
@@ -202,7 +234,7 @@ def resume(
     progress: bool | None = None,
     every: float = 60.0,
     overwrite: bool = False,
-) -> Outcome:
+) -> ProblemOutcome:
     """Resume the run of a deck from its checkpoint, and write its files as after an uninterrupted run.
 
     Parameters
@@ -218,7 +250,7 @@ def resume(
 
     Returns
     -------
-    Outcome
+    ProblemOutcome
         See :func:`run`.
 
     Raises
@@ -242,7 +274,7 @@ def resume(
 
 def _finish(
     kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: Callable[[], Result], solver: str
-) -> Outcome:
+) -> ProblemOutcome:
     """Solve and write the results; with several ranks the first one writes for all."""
     if solver != "petsc":
         return _written(kept, problem, out, checkpoint, solve)
@@ -254,10 +286,10 @@ def _finish(
         if ranks.rank == 0:
             return _written(kept, problem, out, checkpoint, solve)
         result, ended_by = _solved(solve)
-        return Outcome(result, [], ended_by)
+        return ProblemOutcome(result, [], ended_by)
 
 
-def _written(kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: Callable[[], Result]) -> Outcome:
+def _written(kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: Callable[[], Result]) -> ProblemOutcome:
     """Solve, write the results, and remove the checkpoint unless the user asked for it or it is needed."""
     assert isinstance(problem, Prepared)  # one process, or the first of several
     before = written_at(checkpoint)
@@ -276,7 +308,7 @@ def _written(kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: C
         if over and checkpoint.resolve() == (kept.out / CHECKPOINT).resolve():
             checkpoint.unlink(missing_ok=True)
     left = None if over or not checkpoint.exists() else checkpoint
-    return Outcome(result, written.files, ended_by, left, written.taken)
+    return ProblemOutcome(result, written.files, ended_by, left, written.taken)
 
 
 def _solved(solve: Callable[[], Result]) -> tuple[Result, BaseException | None]:

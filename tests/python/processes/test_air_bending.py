@@ -23,9 +23,9 @@ from umform.processes.air_bending import (
 from umform.processes.air_bending.brake import INCREMENTS, loading
 from umform.processes.air_bending.branches import Brake
 from umform.processes.air_bending.formulas import shop_forces, tensile_strength
-from umform.processes.air_bending.measures import QUANTITIES
 from umform.processes.air_bending.problem import build, problem_of
 from umform.processes.air_bending.sheet import lines_along
+from umform.results.quantity import declared
 from umform.run.open_run import OpenRun
 
 COARSE = AirBending(stroke=3.0, elements_per_thickness=2.0, layers=1, increment=0.0125)
@@ -311,6 +311,6 @@ def test_tensile_strength_is_where_a_bar_necks():
 
 def test_all_measures_are_defined_in_the_docs():
     page = (Path(__file__).parents[3] / "docs" / "air-bending.md").read_text(encoding="utf-8")
-    assert set(QUANTITIES) == {field.name for field in fields(Measures)}
-    for name, quantity in QUANTITIES.items():
+    assert set(declared(Measures)) == {field.name for field in fields(Measures)}
+    for name, quantity in declared(Measures).items():
         assert f"| {quantity.label} | `{name}` |" in page

@@ -13,6 +13,7 @@ from umform.model import Model, Tool
 from umform.problem.parts import Part
 from umform.report.symmetry import Mirror, mirrors, whole
 from umform.results.forming import Laid
+from umform.results.quantity import Quantity
 from umform.results.shape import Shape, outer_quads
 from umform.run import Result
 
@@ -31,14 +32,13 @@ FORMED, RELEASED = "formed", "released"
 _WIDE = 0.3
 
 
-@dataclass(frozen=True)
-class Row:
-    """One number of a measure in each state; None where it does not exist."""
+#: One number of a measure in the states where it exists.
+Row = Mapping[str, Quantity]
 
-    quantity: str
-    unit: str
-    formed: float | None = None
-    released: float | None = None
+
+def in_states(label: str, unit: str, **states: float | None) -> Row:
+    """A number by the names of the states."""
+    return {state: Quantity(label, unit, value=value, digits=5) for state, value in states.items()}
 
 
 @dataclass(frozen=True)
@@ -47,8 +47,8 @@ class Measured:
 
     Attributes
     ----------
-    rows : list of Row
-        Numbers.
+    rows : list of mapping of str to Quantity
+        Numbers in the states of the part.
     columns : dict of str to ndarray
         Table of its curve or its map.
     picture : callable

@@ -12,7 +12,7 @@ from pydantic import Discriminator, Field, Strict, Tag
 from umform.errors import InvalidValue
 from umform.mesh import Ids, Mesh
 from umform.model import Model
-from umform.problem.measures.base import FORMED, RELEASED, Formed, Measured, MeasurePart, Row
+from umform.problem.measures.base import FORMED, RELEASED, Formed, Measured, MeasurePart, Row, in_states
 from umform.problem.measures.hat import halves
 from umform.problem.parts import Positive, Vector
 from umform.problem.selection import Selection, nodes_of
@@ -63,10 +63,10 @@ class SectionCurve(_Cut):
     def take(self, name: str, part: Formed) -> Measured:
         """Both skins in each state, and how far the release moves them."""
         cuts, unit = self._cuts(part), part.units.length
-        rows = [Row("length of the mid-surface", unit, **{state: cut.length for state, cut in cuts.items()})]
+        rows = [in_states("length of the mid-surface", unit, **{state: cut.length for state, cut in cuts.items()})]
         if RELEASED in cuts:
             moved = np.linalg.norm(cuts[RELEASED].middle - cuts[FORMED].middle, axis=1)
-            rows.append(Row("largest displacement by the release", unit, released=float(moved.max())))
+            rows.append(in_states("largest displacement by the release", unit, released=float(moved.max())))
         return Measured(rows, columns(cuts), partial(_section_picture, cuts, self.normal, unit), _CAPTION)
 
 
@@ -145,7 +145,7 @@ class DrawIn(MeasurePart):
         elif not edge.is_closed:
             for k in (0, -1):
                 named[f"at {_at(edge.before[k])} of the blank"] = edge.draw_in[k]
-        rows = [Row(f"draw-in, {what}", unit, formed=float(value)) for what, value in named.items()]
+        rows = [in_states(f"draw-in, {what}", unit, formed=float(value)) for what, value in named.items()]
         low, high = np.sort(np.ptp(edge.before, axis=0))
         caption = "Edge of the blank, and where it is at the end of forming."
         return Measured(rows, edge.columns(), partial(outline_picture, edge, unit, equal=low > 0.1 * high), caption)
@@ -182,9 +182,9 @@ class Ears(MeasurePart):
         ids = nodes_of(mesh, self.rim)
         profiles = {state: ear_profile(mesh, u, ids) for state, u in part.states.items()}
         numbers = {state: one.heights() | one.waves() for state, one in profiles.items()}
-        rows = [Row(what, unit, **{s: row[what] for s, row in numbers.items()}) for what in numbers[part.last]]
+        rows = [in_states(what, unit, **{s: row[what] for s, row in numbers.items()}) for what in numbers[part.last]]
         if getattr(part.model.material, "directional", False):
-            rows.append(Row(NUMBER_OF_EARS, "", **{s: float(len(one.ears())) for s, one in profiles.items()}))
+            rows.append(in_states(NUMBER_OF_EARS, "", **{s: float(len(one.ears())) for s, one in profiles.items()}))
         last = profiles[part.last]
         curve, draw = {"angle": last.angle, "height": last.height}, partial(ears_picture, last, unit)
         return Measured(rows, curve, draw, "Height of the cup over the angle to the x-axis.")
@@ -207,6 +207,6 @@ def _angle_rows(states: dict[str, UBendAngles], side: str, unit: str) -> list[Ro
     """Rows of one side of a hat."""
     named = (("theta1", "theta1", "degrees"), ("theta2", "theta2", "degrees"), ("radius of the wall", "radius", unit))
     return [
-        Row(quantity + side, of, **{state: getattr(angles, name) for state, angles in states.items()})
+        in_states(quantity + side, of, **{state: getattr(angles, name) for state, angles in states.items()})
         for quantity, name, of in named
     ]

@@ -12,7 +12,7 @@ from umform.errors import InvalidValue
 from umform.model import Model
 from umform.model.control import Control, Prescribed
 from umform.model.tool_controls import ToolMotion
-from umform.problem.measures.base import Formed, Measured, MeasurePart, Row
+from umform.problem.measures.base import Formed, Measured, MeasurePart, in_states
 from umform.problem.parts import Name
 from umform.report.symmetry import modelled_part
 from umform.run import Result
@@ -42,12 +42,14 @@ class Forces(MeasurePart):
         direction = _direction(part.problem.controls[self.control])
         way = result[self.control][upto]
         forces = {tool.name: np.abs(_along(direction, result, tool.name))[upto] for tool in part.model.tools}
-        rows = [Row(f"largest force of {tool}", units.force, formed=float(f.max())) for tool, f in forces.items()]
+        rows = [in_states(f"largest force of {tool}", units.force, formed=float(f.max())) for tool, f in forces.items()]
         friction, external = result["friction_work"][upto], result["external_work"][upto]
         work = f"{units.force} {units.length}".strip()
-        rows.append(Row("work of friction", work, formed=float(friction[-1])))
+        rows.append(in_states("work of friction", work, formed=float(friction[-1])))
         if external[-1] > 0.0:
-            rows.append(Row("work of friction over all work", "%", formed=100.0 * float(friction[-1] / external[-1])))
+            rows.append(
+                in_states("work of friction over all work", "%", formed=100.0 * float(friction[-1] / external[-1]))
+            )
         columns = {self.control: way, **forces, "external_work": external, "friction_work": friction}
         moves = isinstance(part.problem.controls[self.control], ToolMotion | Prescribed)
         axes = of_unit(self.control, units.length if moves else ""), of_unit("force", units.force)

@@ -12,7 +12,7 @@ from pydantic import Field
 from umform.errors import InvalidValue
 from umform.mesh import Mesh
 from umform.model import Model
-from umform.problem.measures.base import FORMED, RELEASED, Formed, Measured, MeasurePart, Row
+from umform.problem.measures.base import FORMED, RELEASED, Formed, Measured, MeasurePart, in_states
 from umform.problem.parts import Name, Positive, Vector
 from umform.report.symmetry import with_images
 from umform.results.forming import Laid, distance_from, forming_fields, lay_by_best_fit, lay_on_three_points
@@ -46,7 +46,7 @@ class Distance(MeasurePart):
             frame.points[field_of(name)] = self._distance(part, frame.number, x)
         near = {state: d[d <= (self.within or np.inf)] for state, d in found.items()}
         rows = [
-            Row(what, unit, **{state: float(number(d)) if len(d) else None for state, d in near.items()})
+            in_states(what, unit, **{state: float(number(d)) if len(d) else None for state, d in near.items()})
             for what, number in (("least distance", np.min), ("largest distance", np.max), ("mean distance", np.mean))
         ]
         last, limits = found[part.last], None
@@ -120,8 +120,8 @@ class Gauge(MeasurePart):
             frame.points[field_of(name)] = distance
         laid = self._lay(blank, with_images(part.places(RELEASED), planes), gauge)
         rows = [
-            Row("largest distance from the gauge", unit, released=laid.largest),
-            Row("mean distance from the gauge", unit, released=float(laid.distance.mean())),
+            in_states("largest distance from the gauge", unit, released=laid.largest),
+            in_states("mean distance from the gauge", unit, released=float(laid.distance.mean())),
         ]
         how = "by the best fit" if self.points is None else "on three points"
         shape, shown = part.shape(RELEASED), part.shown(laid)
@@ -149,7 +149,7 @@ class Map(MeasurePart):
         found = {state: forming_fields(mesh, u)[self.field] for state, u in part.states.items()}
         unit = "%" if self.field == "thinning" else ""
         label = self.field.replace("_", " ") + (" in %" if unit else "")
-        rows = [Row(f"{what} {self.field}", unit, **{state: float(number(f)) for state, f in found.items()})
+        rows = [in_states(f"{what} {self.field}", unit, **{state: float(number(f)) for state, f in found.items()})
                 for what, number in (("largest", np.max), ("least", np.min))]  # fmt: skip
         middle = mesh.points[mesh.connectivity].mean(axis=1)
         columns = dict(zip("xyz", middle.T, strict=True)) | found

@@ -18,6 +18,7 @@ from umform.processes.bending.problem import problem_of
 from umform.processes.bending.spec import FreeBending
 from umform.report.repeats import counted
 from umform.results.balanced import Balanced, balanced
+from umform.results.quantity import Quantity, values
 from umform.results.run_record import run_record
 from umform.results.shape import Shape
 from umform.run import Result, solve
@@ -113,10 +114,23 @@ class Bending:
         """Deviation (root mean square) from a smooth fit beyond the first mark, relative to the mean force."""
         return roughness(*self.loading, self.case.marks[0])
 
+    @property
+    def quantities(self) -> list[Quantity]:
+        """The measures: forces at the marks, displacement without force, jumps and roughness in per cent."""
+        forces = zip(self.case.marks, self.forces, strict=True)
+        rough = {"J": ("J", self.jump), "rms": ("roughness", self.roughness)}
+        return [
+            *(Quantity(f"F({mark:g})", "N", 2, name=f"F_{mark:g}", value=force) for mark, force in forces),
+            Quantity("u at F = 0", "mm", 3, name="u_zero_force", value=self.zero_force),
+            *(
+                Quantity(label, "%", 2, name=name, value=None if share is None else 100.0 * share)
+                for label, (name, share) in rough.items()
+            ),
+        ]
+
     def record(self) -> dict[str, Any]:
-        """The case and its measures in one flat record."""
+        """The case and its measures in one flat record; there, J and roughness are no per cents."""
         case = self.case
-        forces = {f"F_{mark:g}": force for mark, force in zip(case.marks, self.forces, strict=True)}
         return {
             "run": case.name,
             "mesh": case.mesh_name,
@@ -126,8 +140,8 @@ class Bending:
             "thickness_rule": case.thickness_rule,
             "thickness_order": case.thickness_order,
             "tie_E33": case.tie_E33,
-            **forces,
-            "u_zero_force": self.zero_force,
+            **values(self.quantities),
+            "quantities": [one.record() for one in self.quantities],
             "J": self.jump,
             "roughness": self.roughness,
             "solver": self.solver,

@@ -57,6 +57,7 @@ _LOCKING = (
 def write_page(folder: Path, runs: Sequence[Bending], pictured: Bending) -> list[Path]:
     """Write free_bending.png, .svg and report.html; return their paths."""
     picture = curves(runs)
+    header, *rows = table.table(runs)
     files = [save(picture, folder / f"free_bending.{suffix}") for suffix in ("png", "svg")]
     content = [
         *_failures(runs),
@@ -66,7 +67,7 @@ def write_page(folder: Path, runs: Sequence[Bending], pictured: Bending) -> list
         parts.heading("What is seen"),
         *map(parts.paragraph, _explanations(runs)),
         parts.heading("Numbers"),
-        parts.table(table.header(runs), table.rows(runs)),
+        parts.table(header, rows),
         parts.paragraph(" ".join(["Forces in N at displacements in mm.", *table.legend(runs)])),
         *balance_parts({run.case.name: run.balance for run in runs}),
         *_deformed(_compared(runs, pictured)),

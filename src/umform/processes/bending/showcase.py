@@ -83,7 +83,7 @@ class Selection:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class Demo:
     """All runs, in order, and the files written."""
 
     runs: list[Bending]
@@ -96,7 +96,7 @@ def demo(
     *,
     processes: int | None = None,
     progress: bool | None = None,
-) -> Outcome:
+) -> Demo:
     """Bend the strip of the example with all its meshes, elements and contact rules, and show the results.
 
     The runs go in parallel processes, which are spawned: a script that calls this needs
@@ -116,7 +116,7 @@ def demo(
 
     Returns
     -------
-    Outcome
+    Demo
         The runs, in the order of the cases, and the files. A run that failed, whatever the reason, says so in
         ``failure``.
 
@@ -152,7 +152,7 @@ def demo(
         (stage.waiting / "free_bending.toml").write_text(problem_of(cases[pictured]).toml(), encoding="utf-8")
         files = stage.commit(_DATA)  # a picture that fails does not take the numbers along
         write_page(stage.waiting, finished, finished[pictured])
-        return Outcome(finished, [*files, *stage.commit(_PAGE)])
+        return Demo(finished, [*files, *stage.commit(_PAGE)])
 
 
 def _run(task: tuple[FreeBending, Path | None], progress: bool | None) -> Bending:

@@ -54,18 +54,7 @@ def hemming(case: Hemming, *, tolerance: float = 0.1, frames: int = FRAMES, prog
     released = Strip.of(model.mesh, model.u)
     result = run.close()
     whole = result["stroke_force"] / case.sheet.thickness
-    warnings = (*first.warnings, *result.warnings)
-    return Hem(
-        case,
-        first,
-        measured(case, force, strip, released),
-        result["stroke"],
-        whole,
-        released,
-        warnings,
-        result,
-        problem,
-    )
+    return Hem(case, first, measured(case, force, strip, released), result["stroke"], whole, released, result, problem)
 
 
 def _refuse_touch(case: Hemming, strip: Strip, left: float) -> None:

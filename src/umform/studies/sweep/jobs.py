@@ -19,7 +19,6 @@ from umform.problem import Problem, running
 from umform.problem.kept import Kept
 from umform.problem.results import CHECKPOINT
 from umform.problem.unloading import UNLOADING
-from umform.run import Result
 from umform.studies.sweep.measures import Function, Record, number_of, springback, stats
 
 #: Record of a job in its folder.
@@ -115,7 +114,7 @@ def run_job(job: Job) -> Record:
         if outcome.ended_by is not None and not isinstance(outcome.ended_by, UmformError):
             raise outcome.ended_by
         record = record_of("done", "") if outcome.ended_by is None else record_of("stopped", outcome.ended_by)
-        record |= _numbers(job, outcome.result) if outcome.ended_by is None else {}
+        record |= _numbers(job, outcome) if outcome.ended_by is None else {}
         record["warnings"] = len(outcome.result.warnings)
     except FileProblem:
         raise
@@ -143,7 +142,7 @@ def record_of(outcome: str, reason: BaseException | str) -> dict[str, Any]:
     return {"outcome": outcome, "reason": text, "warnings": 0, "seconds": None, "functions": {}}
 
 
-def _outcome(job: Job) -> running.Outcome:
+def _outcome(job: Job) -> running.ProblemOutcome:
     """Outcome of the run of a job, from its checkpoint if there is a valid one."""
     checkpoint = job.folder / CHECKPOINT
     if checkpoint.is_file():
@@ -156,13 +155,16 @@ def _outcome(job: Job) -> running.Outcome:
     return running.run(job.deck, problem, job.folder, progress=False, overwrite=True)
 
 
-def _numbers(job: Job, result: Result) -> dict[str, Any]:
+def _numbers(job: Job, outcome: running.ProblemOutcome) -> dict[str, Any]:
     """All numbers of a finished job that may become measures."""
+    result = outcome.result
     steps = [step.kind for step in job.deck.contents.steps]
     unloading = next((number for number, kind in enumerate(steps, 1) if kind in UNLOADING), None)
     return {
         "controls": [control.name for control in result.model.controls],
         "history": stats(result),
+        "quantities": [one.record() for one in outcome.quantities],
+        "checks": [one.record() for one in outcome.checks],
         "springback": None if unloading is None else springback(result, unloading),
         "functions": {function.__name__: number_of(function, result) for function in job.functions},
     }

@@ -1,10 +1,10 @@
-"""Measures of a job: numbers of its history, springback, and user-defined functions."""
+"""Measures of a job: its quantities, numbers of its history, springback, and user-defined functions."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -14,14 +14,19 @@ from umform.errors import InvalidValue
 from umform.problem.errors import slip
 from umform.report.symmetry import mirrors, with_images
 from umform.results.forming import lay_by_best_fit
+from umform.results.quantity import Quantity
 from umform.run import Result
 
-#: A user-defined function: a number from a result. Other processes must be able to import it.
-Function = Callable[[Result], float]
+#: A user-defined function: a number or a quantity from a result. Other processes must be able to import it.
+Function = Callable[[Result], float | Quantity]
 #: Record of a job, as JSON.
 Record = Mapping[str, Any]
 
 _SPRINGBACK = "springback"
+#: What a job reports besides its history.
+_KINDS = ("quantities", "checks")
+#: Significant digits of a number of the history.
+_DIGITS = 6
 #: Columns of the history whose last values do not characterise a part.
 _COUNTS = ("step", "time", "iterations")
 _STATS: dict[str, Callable[[NDArray[np.float64]], float]] = {
@@ -42,16 +47,20 @@ class Measure:
     name : str
         Its name in the table.
     column, stat : str
-        Column of the history and its statistic; empty for springback and for functions.
+        Column of the history and its statistic; empty for springback and for functions. Without a statistic in its
+        name it may also be a quantity of the job.
+    missing : bool
+        Whether a job may be without it.
     """
 
     name: str
     column: str = ""
     stat: str = ""
+    missing: bool = False
 
     @classmethod
     def of(cls, wanted: str | Function) -> Measure:
-        """The measure for ``punch_force:max``, ``punch_force`` or ``springback``, or a function.
+        """The measure for ``punch_force:max``, ``punch_force``, a quantity or ``springback``, or a function.
 
         Raises
         ------
@@ -73,27 +82,36 @@ class Measure:
             )
         return cls(column if stat == "last" else wanted, column, stat or "last")
 
-    def value(self, record: Record) -> float | None:
+    def quantity(self, record: Record) -> Quantity:
         """The number of a finished job.
 
         Raises
         ------
         InvalidValue
-            The history has no such column, or the job has no springback.
+            The job has no such column or quantity, or no springback.
         """
+        known = {one["name"]: one for kind in _KINDS for one in record.get(kind, ())}
+        found = known.get(self.name, record["functions"].get(self.name))
+        if isinstance(found, Mapping):
+            return replace(Quantity.of(found), name=self.name)
+        return Quantity(self.name, value=self._number(record, known), digits=_DIGITS)
+
+    def _number(self, record: Record, known: Mapping[str, Any]) -> float | None:
         if self.column:
             history = record["history"]
-            if self.column not in history:
-                raise InvalidValue(
-                    "the history has no such column",
-                    where="measure",
-                    value=self.column,
-                    cause=slip(self.column, history),
-                    remedy=f"one of {', '.join(history)}; finished jobs are kept: run the sweep again",
-                )
-            found: float | None = history[self.column][self.stat]
-            return found
-        if self.name == _SPRINGBACK and record[_SPRINGBACK] is None:
+            if self.column in history:
+                found: float | None = history[self.column][self.stat]
+                return found
+            if self.missing:
+                return None
+            raise InvalidValue(
+                "the history has no such column, and the job no such quantity",
+                where="measure",
+                value=self.column,
+                cause=slip(self.column, [*history, *known]),
+                remedy=f"one of {', '.join([*history, *known])}; finished jobs are kept: run the sweep again",
+            )
+        if self.name == _SPRINGBACK and record[_SPRINGBACK] is None and not self.missing:
             raise InvalidValue(
                 "a sweep without unloading has no springback",
                 where="measure",
@@ -106,16 +124,35 @@ class Measure:
 
 
 def usual(records: Sequence[Record]) -> list[Measure]:
-    """Default measures: peaks of the forces of controls, springback, last values of the history."""
+    """Default measures: peaks of the forces of controls, springback, quantities, last values of the history, checks.
+
+    A job without one of them has no value there.
+    """
     if not records:
         return []
     controls = dict.fromkeys(name for record in records for name in record["controls"])
     columns = list(dict.fromkeys(name for record in records for name in record["history"]))
+    quantities, checks = (
+        dict.fromkeys(one["name"] for record in records for one in record.get(kind, ())) for kind in _KINDS
+    )
     measures = [Measure.of(f"{name}_force:peak") for name in controls]
     if any(record[_SPRINGBACK] is not None for record in records):
         measures.append(Measure(_SPRINGBACK))
     columns = [name for name in columns if name not in _COUNTS]
-    return [*measures, *(Measure.of(name) for name in columns), Measure.of("iterations:sum")]
+    more = [Measure.of(name) for name in (*quantities, *columns, "iterations:sum", *checks)]
+    return [replace(measure, missing=True) for measure in (*measures, *more)]
+
+
+def unit_of(rows: Sequence[Mapping[str, Any]], measure: str) -> str:
+    """Unit of a measure; empty if no job has it, or if it is unknown."""
+    found = (row["quantities"][measure].unit for row in rows if row.get("quantities", {}).get(measure) is not None)
+    return next(found, "")
+
+
+def heading(rows: Sequence[Mapping[str, Any]], name: str) -> str:
+    """A name and its unit, above a column or beside an axis."""
+    unit = unit_of(rows, name)
+    return f"{name}, {unit}" if unit else name
 
 
 def stats(result: Result) -> dict[str, dict[str, float | None]]:
@@ -157,6 +194,7 @@ def _finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def number_of(function: Function, result: Result) -> float | None:
-    """Value of a user-defined function for a result."""
-    return _finite(float(function(result)))
+def number_of(function: Function, result: Result) -> float | dict[str, Any] | None:
+    """Value of a user-defined function for a result: a number, or a quantity as JSON data."""
+    found = function(result)
+    return found.record() if isinstance(found, Quantity) else _finite(float(found))

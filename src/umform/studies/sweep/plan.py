@@ -70,7 +70,7 @@ class Plan:
         return numbers
 
     def row(self, number: int, record: Record, measures: Iterable[Measure]) -> dict[str, Any]:
-        """A row of the table; a job that is not done has no measures.
+        """A row of the table, and its measures as ``quantities``; a job that is not done has none.
 
         Raises
         ------
@@ -78,11 +78,12 @@ class Plan:
             An unknown measure.
         """
         done = record["outcome"] == "done"
-        found = {measure.name: measure.value(record) if done else None for measure in measures}
+        measured = {measure.name: measure.quantity(record) if done else None for measure in measures}
+        found = {name: None if one is None else one.value for name, one in measured.items()}
         folder = self.jobs[number].folder.name if number in self.jobs else ""
         about = {name: record[name] for name in ("outcome", "warnings", "seconds", "reason")}
         varied = {name: _cell(self.values[number].get(name)) for name in self.varied}
-        return {**found, **about, "folder": folder, **varied}
+        return {**found, **about, "folder": folder, "quantities": measured, **varied}
 
     def table(self, records: Mapping[int, Record], wanted: Sequence[Measure]) -> tuple[list[dict[str, Any]], list[str]]:
         """Rows of all jobs, and the names of the measures."""

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from umform.plotting import COLOURS, house_style, save
+from umform.studies.sweep.measures import heading
 
 #: Largest number of lines in a legend.
 _MOST_NAMED = 12
@@ -38,6 +39,7 @@ def plot(rows: Sequence[Row], varied: Sequence[str], measures: Sequence[str], pa
         panels = figure.subplots(len(measures), 1, squeeze=False, sharex=True)[:, 0]
         for axes, measure in zip(panels, measures, strict=True):
             _draw(axes, lines, x, measure)
+            axes.set_ylabel(heading(rows, measure))
         panels[-1].set_xlabel(x)
         figure.align_ylabels()
         if 1 < len(lines) <= _MOST_NAMED:
@@ -67,7 +69,6 @@ def _draw(axes: Axes, lines: Mapping[str, Sequence[Row]], x: str, measure: str) 
         kept = [row for row in line if row[measure] is not None]
         abscissa = [row[x] if _is_number(row[x]) else str(row[x]) for row in kept]
         axes.plot(abscissa, [row[measure] for row in kept], marker="o", markersize=3.5, color=colour, label=name)
-    axes.set_ylabel(measure)
 
 
 def _is_number(value: Any) -> bool:

@@ -35,7 +35,8 @@ class Sweep:
     varied, measures : list of str
         Names of the varied columns, and of the results.
     rows : list of dict
-        One for each job: varied values, ``outcome``, measures, ``warnings``, ``seconds``, ``reason``, ``folder``.
+        One for each job: varied values, ``outcome``, measures, ``warnings``, ``seconds``, ``reason``, ``folder``, and
+        ``quantities``: the measures with unit, error and limit.
     files : list of Path
         Table and plot.
 
@@ -118,9 +119,11 @@ def sweep(
     changes : mapping of str to object, optional
         Other values of keys for all jobs, as ``--set`` gives them.
     measures : sequence of str or callable, optional
-        ``"punch_force:max"`` (last, min, max, peak, sum of a column of the history), ``"springback"``, or functions of
-        a module that make a number from a :class:`umform.Result`. Default: the peak of each force, springback, and the
-        last value of each column.
+        ``"punch_force:max"`` (last, min, max, peak, sum of a column of the history), a quantity such as
+        ``"hat.theta1.released"`` (measure of the deck, number, state) or ``"penetration of die"``, ``"springback"``, or
+        functions of a module that make a number, or a :class:`umform.results.quantity.Quantity`, from a
+        :class:`umform.Result`. Default: the peak of each force,
+        springback, all quantities, and the last value of each column.
     out : str or Path, optional
         Folder; default: results/ and the name of the deck, with "-sweep".
     processes : int, optional

@@ -9,6 +9,7 @@ from typing import Any
 from umform.io.parquet import can_write_parquet, write_parquet
 from umform.io.staging import Staging
 from umform.io.tables import write_csv
+from umform.studies.sweep.measures import unit_of
 
 #: The table, as Parquet too where pyarrow is installed, and the plot.
 TABLE, PARQUET, PLOT = "sweep.csv", "sweep.parquet", "sweep.png"
@@ -21,10 +22,13 @@ _FEW = 4
 Row = Mapping[str, Any]
 
 
-def columns(rows: Sequence[Row], varied: Sequence[str], measures: Sequence[str]) -> dict[str, list[Any]]:
-    """Columns of a sweep by name: varied values, outcome, measures, and remarks."""
+def columns(
+    rows: Sequence[Row], varied: Sequence[str], measures: Sequence[str], *, units: bool = False
+) -> dict[str, list[Any]]:
+    """Columns of a sweep by name: varied values, outcome, measures, and remarks; ``units`` puts them behind names."""
+    titled = {name: f"{name} {unit_of(rows, name)}".strip() if units else name for name in measures}
     names = [*varied, "outcome", *measures, "warnings", "seconds", "reason", "folder"]
-    return {name: [row[name] for row in rows] for name in names}
+    return {titled.get(name, name): [row[name] for row in rows] for name in names}
 
 
 def telling(rows: Sequence[Row], measures: Sequence[str]) -> list[str]:
@@ -41,7 +45,7 @@ def write(stage: Staging, rows: Sequence[Row], varied: Sequence[str], measures: 
     list of Path
         The written files.
     """
-    table = columns(rows, varied, measures)
+    table = columns(rows, varied, measures, units=True)
     write_csv(stage.waiting / TABLE, table)
     if can_write_parquet():
         write_parquet(stage.waiting / PARQUET, table)

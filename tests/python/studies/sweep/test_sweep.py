@@ -14,6 +14,7 @@ from umform.errors import InvalidValue
 from umform.problem import DeckError, load, running
 from umform.problem.templates import write_template
 from umform.results.history import History
+from umform.results.quantity import Quantity
 from umform.studies.sweep import jobs as jobs_module
 
 
@@ -31,6 +32,11 @@ def sweep(deck, vary=None, **options):
 
 def length(result):
     return np.ptp(result.model.mesh.points[:, 0])
+
+
+def stretch(result):
+    """A number of the test with its unit and limit."""
+    return Quantity("stretch of the strip", "mm", 2, value=float(result["pull"].max()), limit=0.15)
 
 
 def fails(result):
@@ -52,6 +58,15 @@ def test_the_table_has_what_each_deck_gives_alone(deck):
         kept = list(csv.DictReader(file))
     assert [float(row["pull_force:max"]) for row in kept] == found["pull_force:max"]
     assert {file.name for file in found.files} >= {"sweep.csv", "sweep.png"}
+
+
+def test_a_function_may_give_a_quantity(deck):
+    found = sweep(deck, {"pull": [0.1, 0.2]}, measures=[stretch])
+    assert found["stretch"] == pytest.approx([0.1, 0.2])
+    quantities = [row["quantities"]["stretch"] for row in found.rows]
+    assert [one.missed for one in quantities] == [False, True] and {one.unit for one in quantities} == {"mm"}
+    with (deck.parent / "results" / "pull-sweep" / "sweep.csv").open() as file:
+        assert "stretch mm" in next(csv.reader(file))
 
 
 def test_springback_is_that_of_the_whole_part_without_its_rigid_motion(deck):
