@@ -20,6 +20,8 @@ Force = Annotated[float, Gt(0.0), About("N", cause=_MISSING)]
 Penalty = Annotated[float, Gt(0.0), About("MPa/mm", cause=_MISSING)]
 #: Another positive number.
 Positive = Annotated[float, Gt(0.0), About(cause=_MISSING)]
+#: A number that is not negative.
+NotNegative = Annotated[float, Ge(0.0), About(cause="a sign")]
 #: An angle between two straight lines.
 Degrees = Annotated[
     float, Gt(0.0), Lt(180.0), About("degrees", cause="radians, a sign, or the angle of bending instead")
