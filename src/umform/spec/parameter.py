@@ -10,7 +10,7 @@ import re
 import sys
 import textwrap
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import Field, dataclass, field, fields
+from dataclasses import MISSING, Field, dataclass, field, fields
 from functools import cache, reduce
 from itertools import pairwise
 from numbers import Integral, Real
@@ -107,13 +107,15 @@ class Parameter:
     kinds : tuple of Kind
         Types that it may have.
     optional : bool
-        Whether it may be None, or left out because others determine it.
+        Whether it may be None.
     about : About
         Unit and likely mistake.
     rules : tuple
         Further conditions, in the order of the annotation: each has ``fits(value)``.
     hint : object
         The annotation.
+    factory : callable or None
+        Makes the default.
     """
 
     name: str
@@ -124,12 +126,18 @@ class Parameter:
     about: About = field(default_factory=About)
     rules: tuple[Any, ...] = ()
     hint: Any = None
+    factory: Callable[[], Any] | None = None
 
     def fits(self, value: Any) -> bool:
         """Whether a value is valid."""
         if value is None:
-            return self.optional
+            return self.absent
         return any(kind.fits(value) for kind in self.kinds) and all(rule.fits(value) for rule in self.rules)
+
+    @property
+    def absent(self) -> bool:
+        """Whether a value may be missing: it is optional, or others determine it."""
+        return self.optional or self.default is None
 
     @property
     def most(self) -> Any:
@@ -142,6 +150,11 @@ class Parameter:
         """The first clause of the sentence, within a sentence."""
         clause = self._clauses[0]
         return clause if clause[:2].isupper() else clause[:1].lower() + clause[1:]
+
+    @property
+    def subject(self) -> str:
+        """The same with its article, which the name of a person does not have."""
+        return self._clauses[0] if re.match(r"[A-Z]\w*'s ", self.sentence) else f"the {self.noun}"
 
     @property
     def text(self) -> str:
@@ -185,8 +198,9 @@ def _parameter(spec: type, one: Field[Any], sentence: str) -> Parameter:
     abouts = [extra for extra in extras if isinstance(extra, About)]
     about = reduce(_over, abouts, About())
     rules = tuple(extra for extra in extras if hasattr(extra, "fits"))
-    optional = one.default is None or len(kinds) < len(arms)
-    return Parameter(one.name, one.default, sentence, kinds, optional, about, rules, hint)
+    optional = len(kinds) < len(arms)
+    factory = None if one.default_factory is MISSING else one.default_factory
+    return Parameter(one.name, one.default, sentence, kinds, optional, about, rules, hint, factory)
 
 
 def _over(under: About, over: About) -> About:
