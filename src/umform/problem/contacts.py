@@ -15,6 +15,7 @@ from umform.model import Model
 from umform.model.contact import Contact
 from umform.model.contact.friction import Friction, FrictionByRegion, Region
 from umform.model.tool import Motion
+from umform.model.tool import Tool as RigidTool
 from umform.problem.parts import Name, NotNegative, Part, Positive, Vector, number_or_array
 from umform.problem.selection import Selection, faces_of
 from umform.surfaces import Tool
@@ -152,6 +153,11 @@ class ContactPart(Part):
     """Contact pressure per penetration; by default it follows from the allowed penetration."""
     penetration: Positive | None = None
     """Allowed penetration; by default 1/200 of the thickness."""
+    allowed: (
+        Annotated[Annotated[Positive, Tag("number")] | Annotated[Literal["any"], Tag("word")], Discriminator(_points)]
+        | None
+    ) = None
+    """Penetration above which a penalty grows, or the run warns; by default that of penetration; any: no limit."""
     augmented: bool = False
     """Remove excess penetration by multipliers."""
     points: Points | None = None
@@ -166,6 +172,8 @@ class ContactPart(Part):
     """Allowed elastic slip; by default 1/200 of the thickness."""
     motion: MotionPart | None = None
     """Motion in time."""
+    may_bottom: bool = False
+    """Whether the tool may press the sheet onto another one: no warning that it bottoms."""
 
     @model_validator(mode="after")
     def _is_one(self) -> ContactPart:
@@ -177,8 +185,8 @@ class ContactPart(Part):
             raise PydanticCustomError("ripple", "a ripple needs cells = auto and must be below 1")
         return self
 
-    def add_to(self, model: Model, tool: Tool, name: str) -> Contact:
-        """Add the contact to the model."""
+    def add_to(self, model: Model, tool: Tool | RigidTool, name: str) -> Contact:
+        """Add the contact to the model, with a tool of its own or a shared one."""
         contact = model.contact(
             faces_of(model.mesh, self.faces),
             tool,
@@ -192,6 +200,9 @@ class ContactPart(Part):
             slip=self.slip,
             name=name,
         )
+        if self.allowed is not None:
+            contact.allowed = None if isinstance(self.allowed, str) else self.allowed
+        contact.tool.may_bottom |= self.may_bottom
         if self.motion is not None:
             model.set_motion(contact, self.motion.build(), self.motion.about)
         return contact

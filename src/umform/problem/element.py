@@ -9,14 +9,14 @@ from pydantic import Field
 from umform.elements import CATALOGUE
 from umform.elements import element as catalogue_element
 from umform.elements.technology import Element
-from umform.problem.parts import Part
+from umform.problem.parts import Own, Part
 
 
 class ElementPart(Part):
     """Element, its options, and the points through the thickness."""
 
-    name: Annotated[str, Field(json_schema_extra={"enum": list(CATALOGUE)})] = "ANS3DEAS"
-    """Name in the catalogue; `umform elements` lists it."""
+    name: Annotated[str, Field(json_schema_extra={"enum": list(CATALOGUE)})] | Own[Element] = "ANS3DEAS"
+    """Name in the catalogue; `umform elements` lists it. In Python also an element of your own."""
     thickness_modes: Literal[1, 4, 9] | None = None
     """Enhanced modes of the thickness strain."""
     thickness_order: Annotated[int, Field(ge=1, le=19)] | None = None
@@ -43,4 +43,4 @@ class ElementPart(Part):
 
     def build(self) -> Element:
         """The element."""
-        return catalogue_element(self.name, **self.options())
+        return self.name if isinstance(self.name, Element) else catalogue_element(self.name, **self.options())

@@ -25,6 +25,8 @@ class Placeable(Part):
     """Outward offset of the tool; a sheet of this thickness fits between it and the drawn one."""
     other_side: bool = False
     """The tool is the region beyond this distance: the punch for a die."""
+    shared: bool = False
+    """One tool for all contacts with it, with its name in the history; by default each contact has its own."""
 
     def build(self, folder: File = File()) -> Tool:
         """The tool in its pose.
@@ -55,4 +57,4 @@ class Placeable(Part):
         yield from ()
 
 
-_NOT_OF_THE_TOOL = ("shape", "rotation", "translation", "offset", "other_side")
+_NOT_OF_THE_TOOL = ("shape", "rotation", "translation", "offset", "other_side", "shared")

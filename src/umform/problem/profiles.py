@@ -138,3 +138,15 @@ ProfilePart = Annotated[
 def profile_of(part: ProfilePart, folder: File) -> Profile:
     """The profile; a name alone means a drawing that contains only the section."""
     return (FromDxf(file=part) if isinstance(part, str) else part).build(folder)
+
+
+def profile_table(profile: Profile) -> dict[str, Any]:
+    """The table of a profile: its lines and arcs; no drawing is needed beside it."""
+    return {"segments": [_segment(segment) for segment in profile.segments], "closed": profile.closed}
+
+
+def _segment(segment: surfaces.Line | surfaces.Arc) -> dict[str, Any]:
+    ends = {"start": segment.start, "end": segment.end}
+    if isinstance(segment, surfaces.Arc):
+        return {"kind": "arc", **ends, "centre": segment.centre, "clockwise": bool(segment.clockwise)}
+    return {"kind": "line", **ends}

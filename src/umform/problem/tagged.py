@@ -11,7 +11,7 @@ from dataclasses import MISSING, is_dataclass
 from functools import cache, partial, reduce
 from operator import or_
 from pathlib import Path
-from typing import Annotated, Any, Literal, Union, get_args, get_origin
+from typing import Annotated, Any, ClassVar, Literal, Union, get_args, get_origin
 
 from pydantic import Discriminator, Field, Strict, Tag, TypeAdapter, ValidationInfo, WrapValidator
 from pydantic import ValidatorFunctionWrapHandler as Handler
@@ -21,10 +21,10 @@ from pydantic_core import PydanticCustomError
 
 from umform.errors import UmformError
 from umform.problem.errors import DeckKey
-from umform.problem.keys import keys_of, note_of, plain, summary
+from umform.problem.keys import keys_of, plain, summary
 from umform.problem.own_classes import own_class
 from umform.problem.parts import Part
-from umform.spec import InDeck, OneOf, Parameter, parameters
+from umform.spec import InDeck, OneOf, Parameter, note_of, parameters
 
 #: Values that a text of TOML gives; others are objects of Python.
 _WRITTEN = (dict, list, str, int, float)
@@ -67,9 +67,29 @@ def table(spec: type, within: type | None = None, tag: tuple[str, str] | None = 
     module = spec.__module__
     if tag:
         module += f".{tag[0]}"
-        fields = {tag[0]: (Literal[tag[1]], Field(description=f"The word {tag[1]}."))} | fields
-    keys = model_of(spec.__name__, __base__=Part, __doc__=summary(spec), __module__=module, **fields)
+        fields = {tag[0]: (Literal[tag[1]], ...)} | fields
+    keys = model_of(spec.__name__, __base__=_Keys, __doc__=summary(spec), __module__=module, **fields)
+    keys.of, keys.tag = [*_own(spec), *_around(within)], tag
     return Annotated[keys, WrapValidator(partial(_made, spec, within))]
+
+
+class _Keys(Part):
+    """Keys of a table, and the fields that they are."""
+
+    of: ClassVar[Sequence[Parameter]] = ()
+    tag: ClassVar[tuple[str, str] | None] = None
+
+    @classmethod
+    def texts(cls) -> dict[str, str]:
+        """The sentence of each key."""
+        known = {cls.tag[0]: f"The word {cls.tag[1]}."} if cls.tag else {}
+        for one in cls.of:
+            choice, other = note_of(one.hint, OneOf), note_of(one.hint, InDeck)
+            if choice and not choice.key:
+                known |= {key: summary(spec) for key, spec in choice.classes().items()}
+            else:
+                known[(other.key if other else "") or one.name] = plain(one.sentence)
+        return known
 
 
 def deck_type(hint: Any) -> Any:
@@ -108,13 +128,13 @@ def _keys(one: Parameter) -> Iterator[tuple[str, tuple[Any, Any]]]:
     choice, other = note_of(one.hint, OneOf), note_of(one.hint, InDeck)
     if choice and not choice.key:
         for key, spec in choice.classes().items():
-            yield key, (table(spec) | None, Field(None, description=summary(spec)))
+            yield key, (table(spec) | None, None)
         return
     default = keys_of(one.hint, one.factory()) if one.factory else one.default
     if default is MISSING or (other and other.needed):
         default = ...
     kind = deck_type(one.hint) | None if default is None else deck_type(one.hint)
-    yield (other.key if other else "") or one.name, (kind, Field(default, description=plain(one.sentence)))
+    yield (other.key if other else "") or one.name, (kind, default)
 
 
 def _union(arms: Sequence[Any], optional: bool) -> Any:
@@ -170,7 +190,9 @@ def _arguments(fields: Sequence[Parameter], given: Mapping[str, Any], context: M
                 remedy="take one of them out",
             )
         if found:
-            arguments[one.name] = Path(context.get("folder", "")) / found[0] if other and other.path else found[0]
+            arguments[one.name] = (
+                Path(context.get("folder", "")).absolute() / found[0] if other and other.path else found[0]
+            )
     return arguments
 
 
