@@ -21,7 +21,7 @@ def table(kind: str) -> str:
     for name, one in known(KINDS[kind]).items():
         fields = ", ".join(
             field.name if field.default in (MISSING, None) else f"{field.name}={field.default:g}"
-            for field in parameters(one).values()
+            for field in sorted(parameters(one).values(), key=lambda field: field.default not in (MISSING, None))
         )
         rows.append(f"| `{name}({fields})` | {summary(one).replace('|', chr(92) + '|')} |")
     return "\n".join(rows)
