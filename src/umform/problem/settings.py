@@ -35,8 +35,8 @@ class Solution(Part):
     """Start an increment with the contact points of the last one, also where they have opened: for drawing."""
     mixed: bool | None = None
     """Geometric stiffness of the stress predicted by the last increment; default: for elastic sheets."""
-    rest: Literal["auto", "off"] | Positive = "auto"
-    """Springs under an initially loose sheet: auto where needed, off, or their total stiffness."""
+    rest: Literal["auto", "off", "on"] | Positive = "auto"
+    """Springs under an initially loose sheet: auto where needed, off, on, or their total stiffness."""
 
     def build(self) -> NewtonOptions:
         """Options of Newton's method."""
