@@ -14,12 +14,12 @@ from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
 from umform.cli.options import (
     SOLUTION,
+    Curve,
     FlowCurve,
     Material,
     Modulus,
     Poisson,
     PrintDeck,
-    SwiftCurve,
     Yield,
     Young,
     option,
@@ -46,7 +46,7 @@ def bead(
     poisson: Poisson = None,
     yield_stress: Yield = None,
     hardening_modulus: Modulus = None,
-    swift: SwiftCurve = None,
+    curve: Curve = None,
     flow_curve: FlowCurve = None,
     extrapolate: Annotated[
         bool,
@@ -73,7 +73,7 @@ def bead(
     from umform.processes.draw_bead.files import FILES, RESULTS, write_files
 
     print_warnings_once()
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, given["thickness"])
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     case = DrawBead(**given, material=law)
     if deck:
         print_deck(case)

@@ -18,12 +18,12 @@ from umform.cli.metal import law_of
 from umform.cli.options import (
     SHEET,
     SOLUTION,
+    Curve,
     FlowCurve,
     Material,
     Modulus,
     Poisson,
     PrintDeck,
-    SwiftCurve,
     Yield,
     Young,
     option,
@@ -76,7 +76,7 @@ def bend(
     poisson: Poisson = None,
     yield_stress: Yield = None,
     hardening_modulus: Modulus = None,
-    swift: SwiftCurve = None,
+    curve: Curve = None,
     flow_curve: FlowCurve = None,
     processes: Annotated[int | None, option("Runs of the budget at a time.", SOLUTION)] = None,
     deck: PrintDeck = False,
@@ -113,7 +113,7 @@ def bend(
         from umform.pool import check_processes  # the import is slow
 
         check_processes(processes)
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, given["thickness"])
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     tools = drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer)
     case = AirBending(**{**given, "stroke": stroke}, **tools, material=law)
     if sequence is not None:

@@ -15,12 +15,12 @@ from umform.cli.metal import law_of
 from umform.cli.options import (
     SHEET,
     SOLUTION,
+    Curve,
     FlowCurve,
     Material,
     Modulus,
     Poisson,
     PrintDeck,
-    SwiftCurve,
     Yield,
     Young,
     option,
@@ -99,7 +99,7 @@ def cup(
     poisson: Poisson = None,
     yield_stress: Yield = None,
     hardening_modulus: Modulus = None,
-    swift: SwiftCurve = None,
+    curve: Curve = None,
     flow_curve: FlowCurve = None,
     limit_curve: LimitCurve = None,
     deck: PrintDeck = False,
@@ -115,7 +115,7 @@ def cup(
     from umform.processes.draw.case import draw
 
     given = _on_mesh(Cup, given, coarse, fine)
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, given["thickness"])
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     given |= {"punch_radius": 0.5 * punch, "blank_radius": 0.5 * blank, "holder_force": given["holder_force"] or None}
     case = Cup(**given, die_radius=None if opening is None else 0.5 * opening, material=law)
     if deck:
@@ -136,7 +136,7 @@ def u(
     poisson: Poisson = None,
     yield_stress: Yield = None,
     hardening_modulus: Modulus = None,
-    swift: SwiftCurve = None,
+    curve: Curve = None,
     flow_curve: FlowCurve = None,
     limit_curve: LimitCurve = None,
     extrapolate: Annotated[
@@ -161,7 +161,7 @@ def u(
     from umform.processes.draw.three_meshes import extrapolated
 
     given = _on_mesh(UBend, given, coarse, fine)
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, given["thickness"])
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     case = UBend(**given, material=law)
     if deck:
         print_deck(case)

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from umform.cli.check import Changes, DeckFile, deck_errors, read
+from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read
 from umform.cli.root import Debug, Verbose, app, console
 
 
@@ -15,6 +15,7 @@ def paths(
     deck: DeckFile,
     within: Annotated[str, typer.Argument(metavar="TEXT", help="Only paths that contain this text.")] = "",
     changes: Changes = None,
+    trust: Trust = False,
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
@@ -27,7 +28,7 @@ def paths(
     from rich.table import Table
 
     with deck_errors():
-        found = [one for one in read(deck, changes or ()).paths() if within in one.path]
+        found = [one for one in read(deck, changes or (), trust).paths() if within in one.path]
     table = Table("path", box=box.SIMPLE_HEAD)
     table.add_column("value", justify="right")
     table.add_column("unit")

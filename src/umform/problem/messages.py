@@ -10,11 +10,14 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 from pydantic import BaseModel, Tag, ValidationError
 from pydantic.fields import FieldInfo
 
+from umform.errors import UmformError
 from umform.problem.contents import Contents
 from umform.problem.errors import ANY_CAUSE, ANY_REMEDY, DeckKey, nearest, shortened, slip
 from umform.problem.lines import Path
+from umform.problem.parts import Part
+from umform.problem.places import placed
 from umform.problem.source import Source
-from umform.spec import sentences
+from umform.problem.tagged import OWN
 
 _UNIONS = (Union, types.UnionType)
 _BEYOND = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
@@ -43,7 +46,7 @@ _REMEDIES = dict.fromkeys(_BEYOND, "write a number within the bound") | {
 }
 
 
-def messages(error: ValidationError, source: Source) -> Iterator[DeckKey]:
+def messages(error: ValidationError, source: Source) -> Iterator[UmformError]:
     """One error of umform for each one of pydantic.
 
     Parameters
@@ -57,10 +60,14 @@ def messages(error: ValidationError, source: Source) -> Iterator[DeckKey]:
         yield _message(found, source)
 
 
-def _message(found: Mapping[str, Any], source: Source) -> DeckKey:
+def _message(found: Mapping[str, Any], source: Source) -> UmformError:
     loc, kind, given = found["loc"], found["type"], found["input"]
     path = path_in(source.data, loc)
     context = found.get("ctx") or {}
+    if kind == "object" and source.made:
+        raise context["error"]
+    if kind == "object":
+        return placed(context["error"], path, source)
     if kind == "extra_forbidden":
         known = list(fields_at(loc[:-1]))
         return DeckKey(
@@ -79,10 +86,11 @@ def _message(found: Mapping[str, Any], source: Source) -> DeckKey:
             remedy="entries are counted from 0; " + ANY_REMEDY,
         )
     if kind == "missing":
-        sentence = sentences(part_at(loc[:-1])).get(str(loc[-1]), "")
+        part = part_at(loc[:-1])
+        sentence = part.texts().get(str(loc[-1]), "") if issubclass(part, Part) else ""
         return _missing(source, path, str(loc[-1]), sentence and f": {sentence}")
     if kind in ("union_tag_not_found", "union_tag_invalid") or "key" in context:
-        return _wrong_kind(source, path, given, context)
+        return _wrong_kind(source, path, given, context, _words_at(loc))
     words = _quoted(context.get("expected", ""))
     return DeckKey(
         _plain(found["msg"]),
@@ -102,10 +110,10 @@ def _missing(source: Source, path: Path, key: str, meaning: str, cause: str = "i
     )
 
 
-def _wrong_kind(source: Source, path: Path, given: Any, context: Mapping[str, Any]) -> DeckKey:
+def _wrong_kind(source: Source, path: Path, given: Any, context: Mapping[str, Any], words: list[str]) -> DeckKey:
     """A table whose kind is missing or unknown."""
     key = str(context.get("key") or context.get("discriminator", "")).strip("'")
-    known = _quoted(str(context.get("expected_tags", "")))
+    known = _quoted(str(context.get("expected_tags", ""))) or words
     if not isinstance(given, dict):
         return DeckKey(
             "this should be a table",
@@ -171,11 +179,23 @@ def fields_at(loc: tuple[str | int, ...]) -> dict[str, FieldInfo]:
 
 def part_at(loc: tuple[str | int, ...]) -> type:
     """Class of the table at a location of pydantic; `object` if there is none."""
+    kind = _kind_at(loc)
+    return kind if isinstance(kind, type) else object
+
+
+def _words_at(loc: tuple[str | int, ...]) -> list[str]:
+    """Words that distinguish the tables that a location of pydantic may hold."""
+    kind = _kind_at(loc)
+    members = get_args(kind) if get_origin(kind) in _UNIONS else ()
+    return [str(word) for member in members for word in _tags(member)]
+
+
+def _kind_at(loc: tuple[str | int, ...]) -> Any:
+    """Type at a location of pydantic."""
     kind: Any = Contents
     for part in loc:
         kind = _inside(kind, part)
-    kind = _bare(kind)
-    return kind if isinstance(kind, type) else object
+    return _bare(kind)
 
 
 def _inside(kind: Any, part: str | int) -> Any:
@@ -186,7 +206,7 @@ def _inside(kind: Any, part: str | int) -> Any:
         return field.annotation if field else None
     arguments = get_args(kind)
     if get_origin(kind) in _UNIONS:
-        return next((member for member in arguments if part in _tags(member)), None)
+        return next((member for member in arguments if part in _tags(member)), OWN.get(str(part)))
     if get_origin(kind) is dict:
         return arguments[1]
     return arguments[0] if arguments else None

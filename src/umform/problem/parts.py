@@ -17,12 +17,17 @@ class Part(BaseModel):
     # Python starts quickly: validators are built when a table is read, sentences are read when they are shown.
     model_config = ConfigDict(defer_build=True, extra="forbid", strict=True, allow_inf_nan=False, frozen=True)
 
+    @classmethod
+    def texts(cls) -> dict[str, str]:
+        """The sentence of each key."""
+        return sentences(cls)
+
 
 def describe() -> None:
     """Give all keys of all parts their sentences, for a schema."""
     parts = list(_below(Part))
     for part in parts:
-        for name, sentence in sentences(part).items():
+        for name, sentence in part.texts().items():
             if name in part.model_fields:
                 part.model_fields[name].description = sentence
     for part in parts:

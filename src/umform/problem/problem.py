@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
-from umform.errors import InvalidValue
+from umform.errors import InvalidValue, UmformError
 from umform.mesh import Mesh
 from umform.model import Model
 from umform.problem.before import TAKEN, merged
 from umform.problem.building import build, sheet
 from umform.problem.contents import Contents
 from umform.problem.errors import DeckError, DeckKey
-from umform.problem.material_keys import written_out
+from umform.problem.keys import written_out
 from umform.problem.messages import messages
 from umform.problem.prepared import Prepared
 from umform.problem.references import unknown_names
@@ -54,6 +54,7 @@ class Problem:
         name: str = "deck",
         folder: str | Path = ".",
         changes: Mapping[str, Any] | None = None,
+        trust: bool = False,
     ) -> Problem:
         """Read a deck from its text.
 
@@ -67,13 +68,15 @@ class Problem:
             Folder of the files that it names.
         changes : mapping of str to object, optional
             Other values of some keys: ``{"steps.0.increments": 3}``.
+        trust : bool
+            Whether classes that it names as ``module:Class`` may be imported: they are code.
 
         Raises
         ------
         DeckError
             With all mistakes in it.
         """
-        return cls._read(parse(text, name, Path(folder), changes))
+        return cls._read(parse(text, name, Path(folder), changes, trust))
 
     @classmethod
     def _read(cls, source: Source, after: tuple[Path, ...] = ()) -> Problem:
@@ -81,10 +84,10 @@ class Problem:
         before = _before(source, after)
         if before is not None:
             source = merged(source, before.source)
-        errors = _idle_trim(source)
+        errors: list[UmformError] = [*_idle_trim(source)]
         contents = None
         try:
-            contents = Contents.model_validate(source.data)
+            contents = Contents.model_validate(source.data, context={"folder": source.folder, "trust": source.trust})
         except ValidationError as error:
             errors += messages(error, source)
         errors += unknown_names(source)
@@ -111,7 +114,7 @@ class Problem:
             If a key does not exist, or its value has another type.
         """
         data = plain(tables)
-        source = Source(data.get("title", "problem"), Path(), "", data, {}, {}, tuple(remarks), made=True)
+        source = Source(data.get("title", "problem"), Path(), "", data, {}, {}, tuple(remarks), made=True, trust=True)
         return replace(cls._read(source), start=start)
 
     def with_(self, changes: Mapping[str, Any], *, same_topology: bool = False) -> Problem:
@@ -138,7 +141,9 @@ class Problem:
             change(data, changes)
             changed = replace(type(self)._read(replace(source, data=data)), start=self.start)
         else:
-            changed = type(self).read(source.text, source.name, source.folder, {**source.changes, **changes})
+            changed = type(self).read(
+                source.text, source.name, source.folder, {**source.changes, **changes}, source.trust
+            )
         if same_topology:
             _refuse_other_topology(self.sheet().mesh, changed.sheet().mesh, changes)
         return changed
@@ -250,10 +255,10 @@ def _before(source: Source, after: tuple[Path, ...]) -> Problem | None:
                 )
             ]
         )
-    return Problem._read(parse(read_file(path), path.name, path.parent), chain)
+    return Problem._read(parse(read_file(path), path.name, path.parent, trust=source.trust), chain)
 
 
-def load(path: str | Path, changes: Mapping[str, Any] | None = None) -> Problem:
+def load(path: str | Path, changes: Mapping[str, Any] | None = None, trust: bool = False) -> Problem:
     """Read a deck from a file.
 
     Parameters
@@ -262,6 +267,8 @@ def load(path: str | Path, changes: Mapping[str, Any] | None = None) -> Problem:
         The file.
     changes : mapping of str to object, optional
         Other values of some keys: ``{"steps.0.increments": 3}``.
+    trust : bool
+        Whether classes that it names as ``module:Class`` may be imported: they are code.
 
     Raises
     ------
@@ -276,4 +283,4 @@ def load(path: str | Path, changes: Mapping[str, Any] | None = None) -> Problem:
     >>> result = load("deck.toml").build().solve()  # doctest: +SKIP
     """
     path = Path(path)
-    return Problem.read(read_file(path), path.name, path.parent, changes)
+    return Problem.read(read_file(path), path.name, path.parent, changes, trust)

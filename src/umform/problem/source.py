@@ -10,8 +10,8 @@ from typing import Any
 
 from umform.errors import FileProblem
 from umform.problem.errors import DeckError, DeckKey, shortened, written
+from umform.problem.keys import written_out
 from umform.problem.lines import Path, lines_of, nearest_line
-from umform.problem.material_keys import written_out
 from umform.problem.syntax import no_toml
 from umform.problem.written import deck_text, plain
 
@@ -41,6 +41,8 @@ class Source:
         Paragraphs at the head of the text of a problem that was made, not read.
     made : bool
         Whether the data were made by a program: their errors are raised one by one, as they are.
+    trust : bool
+        Whether classes of Python that it names may be imported.
     """
 
     name: str
@@ -51,6 +53,7 @@ class Source:
     changes: Mapping[str, Any]
     remarks: tuple[str, ...] = ()
     made: bool = False
+    trust: bool = False
 
     @property
     def written(self) -> str:
@@ -95,7 +98,7 @@ def read_file(path: str | File) -> str:
         raise FileProblem("the deck cannot be read", where=str(path), cause=cause, remedy=remedy) from None
 
 
-def parse(text: str, name: str, folder: File, changes: Mapping[str, Any] | None = None) -> Source:
+def parse(text: str, name: str, folder: File, changes: Mapping[str, Any] | None = None, trust: bool = False) -> Source:
     """Parse a deck.
 
     Parameters
@@ -108,6 +111,8 @@ def parse(text: str, name: str, folder: File, changes: Mapping[str, Any] | None 
         Folder of other files.
     changes : mapping of str to object, optional
         Other values of some keys: ``{"steps.0.increments": 3}``.
+    trust : bool
+        Whether classes of Python that it names may be imported.
 
     Raises
     ------
@@ -119,7 +124,7 @@ def parse(text: str, name: str, folder: File, changes: Mapping[str, Any] | None 
     except (ValueError, RecursionError) as error:
         raise DeckError([no_toml(text, name, error)]) from None
     change(data, changes or {})
-    return Source(name, folder, text, data, lines_of(text), dict(changes or {}))
+    return Source(name, folder, text, data, lines_of(text), dict(changes or {}), trust=trust)
 
 
 def change(data: dict[str, Any], changes: Mapping[str, Any]) -> None:

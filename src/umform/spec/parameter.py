@@ -10,7 +10,7 @@ import re
 import sys
 import textwrap
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import Field, dataclass, field, fields
+from dataclasses import MISSING, Field, dataclass, field, fields
 from functools import cache, reduce
 from itertools import pairwise
 from numbers import Integral, Real
@@ -102,8 +102,8 @@ class Parameter:
         Its name.
     default : object
         Its default; `dataclasses.MISSING` without one, or where a factory makes it.
-    sentence : str
-        What it is: a noun phrase, then, after a semicolon, what holds without it.
+    spec : type
+        The Spec.
     kinds : tuple of Kind
         Types that it may have.
     optional : bool
@@ -112,21 +112,32 @@ class Parameter:
         Unit and likely mistake.
     rules : tuple
         Further conditions, in the order of the annotation: each has ``fits(value)``.
+    hint : object
+        The annotation.
+    factory : callable or None
+        Makes the default.
     """
 
     name: str
     default: Any
-    sentence: str
+    spec: type
     kinds: tuple[Kind, ...]
     optional: bool = False
     about: About = field(default_factory=About)
     rules: tuple[Any, ...] = ()
+    hint: Any = None
+    factory: Callable[[], Any] | None = None
 
     def fits(self, value: Any) -> bool:
         """Whether a value is valid."""
         if value is None:
-            return self.optional
+            return self.absent
         return any(kind.fits(value) for kind in self.kinds) and all(rule.fits(value) for rule in self.rules)
+
+    @property
+    def absent(self) -> bool:
+        """Whether a value may be missing: it is optional, or others determine it."""
+        return self.optional or self.default is None
 
     @property
     def most(self) -> Any:
@@ -135,10 +146,20 @@ class Parameter:
         return limits[0] if limits else math.inf
 
     @property
+    def sentence(self) -> str:
+        """What it is: a noun phrase, then, after a semicolon, what holds without it."""
+        return sentences(self.spec).get(self.name, "")
+
+    @property
     def noun(self) -> str:
         """The first clause of the sentence, within a sentence."""
         clause = self._clauses[0]
         return clause if clause[:2].isupper() else clause[:1].lower() + clause[1:]
+
+    @property
+    def subject(self) -> str:
+        """The same with its article, which the name of a person does not have."""
+        return self._clauses[0] if re.match(r"[A-Z]\w*'s ", self.sentence) else f"the {self.noun}"
 
     @property
     def text(self) -> str:
@@ -170,18 +191,20 @@ class Parameter:
 @cache
 def parameters(spec: type) -> Mapping[str, Parameter]:
     """The parameters of a Spec by name, in the order of its fields."""
-    written = sentences(spec)
-    return {one.name: _parameter(spec, one, written.get(one.name, "")) for one in fields(spec)}
+    return {one.name: _parameter(spec, one) for one in fields(spec) if one.init}
 
 
-def _parameter(spec: type, one: Field[Any], sentence: str) -> Parameter:
-    arms = list(_arms(_hint(spec, one)))
+def _parameter(spec: type, one: Field[Any]) -> Parameter:
+    hint = _hint(spec, one)
+    arms = list(_arms(hint))
     kinds = tuple(_kind(arm, extras) for arm, extras in arms if arm is not type(None))
     extras = [extra for _, more in arms for extra in more]
     abouts = [extra for extra in extras if isinstance(extra, About)]
     about = reduce(_over, abouts, About())
     rules = tuple(extra for extra in extras if hasattr(extra, "fits"))
-    return Parameter(one.name, one.default, sentence, kinds, len(kinds) < len(arms), about, rules)
+    optional = len(kinds) < len(arms)
+    factory = None if one.default_factory is MISSING else one.default_factory
+    return Parameter(one.name, one.default, spec, kinds, optional, about, rules, hint, factory)
 
 
 def _over(under: About, over: About) -> About:
@@ -225,17 +248,22 @@ def _kind(hint: Any, extras: tuple[Any, ...]) -> Kind:
     return Kind(known, (), tuple(extra for extra in extras if type(extra) in _BOUNDS))
 
 
+@cache
 def sentences(spec: type) -> dict[str, str]:
     """The strings below the fields of a class and its bases."""
     found: dict[str, str] = {}
     for base in reversed(spec.__mro__):
         if "__annotations__" not in vars(base):
             continue
-        body = ast.parse(textwrap.dedent(inspect.getsource(base))).body[0]
+        try:
+            text = textwrap.dedent(inspect.getsource(base))
+        except (OSError, TypeError):  # a class that no file has
+            continue
+        body = ast.parse(text).body[0]
         assert isinstance(body, ast.ClassDef)
         for first, second in pairwise(body.body):
             if isinstance(first, ast.AnnAssign) and isinstance(first.target, ast.Name):
-                text = second.value if isinstance(second, ast.Expr) else None
-                if isinstance(text, ast.Constant) and isinstance(text.value, str):
-                    found[first.target.id] = inspect.cleandoc(text.value).replace("\n", " ")
+                below = second.value if isinstance(second, ast.Expr) else None
+                if isinstance(below, ast.Constant) and isinstance(below.value, str):
+                    found[first.target.id] = inspect.cleandoc(below.value).replace("\n", " ")
     return found

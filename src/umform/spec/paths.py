@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, is_dataclass, replace
+from dataclasses import dataclass, is_dataclass
 from typing import Any
 
 from umform.errors import InvalidValue
-from umform.spec.parameter import About, parameters, sentences
+from umform.spec.in_deck import entries
+from umform.spec.parameter import About, sentences
 
 
 @dataclass(frozen=True)
@@ -72,7 +73,12 @@ def _changed(spec: Any, way: list[str], value: Any, path: str) -> Any:
     if isinstance(spec, list | tuple):
         return type(spec)(_changed(one, inner, value, path) if n == key else one for n, one in enumerate(spec))
     try:
-        return replace(spec, **{name: _changed(getattr(spec, name), inner, value, path)})
+        own = {
+            one.name: (_changed(part, inner, value, path) if one_key == key else part)
+            for one_key, one, part in entries(spec)
+        }
+        made: Any = type(spec)(**own)
+        return made
     except InvalidValue as error:
         error.where = path
         raise
@@ -86,8 +92,11 @@ def _entries(spec: Any) -> Iterator[tuple[Any, Any, str, str]]:
     elif isinstance(spec, list | tuple):
         yield from ((number, value, "", "") for number, value in enumerate(spec))
     elif is_dataclass(spec) and not isinstance(spec, type):
-        for name, one in parameters(kind).items():
-            yield name, getattr(spec, name), one.about.unit, one.sentence
+        for name, one, value in entries(spec):
+            if name == getattr(kind, "inside", None):
+                yield from _entries(value)
+            else:
+                yield name, value, one.about.unit, one.sentence
     elif hasattr(kind, "model_fields"):  # a table of a deck
         known = sentences(kind)
         for name, field in kind.model_fields.items():

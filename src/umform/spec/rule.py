@@ -70,10 +70,10 @@ def check_value(spec: type, name: str, value: Any) -> None:
         ``where`` is the name of the field.
     """
     parameter = parameters(spec)[name]
-    if value is None and parameter.optional:
+    if value is None and parameter.absent:
         return
     if value is None or not any(kind.fits(value) for kind in parameter.kinds):
-        subject = name if bool in (kind.type for kind in parameter.kinds) else f"the {parameter.noun}"
+        subject = name if bool in (kind.type for kind in parameter.kinds) else parameter.subject
         what = f"{subject} must be {parameter.must_be}"
         raise _error(what, name, value, parameter.about.cause, parameter.remedy)
     for rule in parameter.rules:

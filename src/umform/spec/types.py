@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from annotated_types import Ge, Gt, Le, Lt
 
 from umform.spec.parameter import About
 
 _MISSING = "a sign, or a missing value"
+
+#: Default of a parameter that follows from others.
+FOLLOWS: Any = None
 
 #: A length in mm.
 Length = Annotated[float, Gt(0.0), About("mm", cause=_MISSING)]
@@ -20,6 +23,8 @@ Force = Annotated[float, Gt(0.0), About("N", cause=_MISSING)]
 Penalty = Annotated[float, Gt(0.0), About("MPa/mm", cause=_MISSING)]
 #: Another positive number.
 Positive = Annotated[float, Gt(0.0), About(cause=_MISSING)]
+#: A number that is not negative.
+NotNegative = Annotated[float, Ge(0.0), About(cause="a sign")]
 #: An angle between two straight lines.
 Degrees = Annotated[
     float, Gt(0.0), Lt(180.0), About("degrees", cause="radians, a sign, or the angle of bending instead")

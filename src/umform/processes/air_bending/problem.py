@@ -6,7 +6,7 @@ from typing import Any
 
 from umform.model import Model
 from umform.model.control import Control
-from umform.problem.material_keys import law_keys
+from umform.problem.keys import law_keys
 from umform.problem.problem import Problem
 from umform.problem.profiles import profile_table
 from umform.processes.air_bending.brake import OPTIONS, loading, unloading_keys

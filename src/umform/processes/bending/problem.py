@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from umform.materials import J2, Linear, Perfect
-from umform.problem.material_keys import law_keys
+from umform.problem.keys import law_keys
 from umform.problem.problem import Problem
 from umform.processes.bending.spec import RECONSTRUCTION, FreeBending
 

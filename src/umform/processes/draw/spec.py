@@ -115,7 +115,7 @@ class Draw:
 
     def _sheet(self) -> dict[str, Any]:
         """Tables of the element, the law and the options of the solution."""
-        from umform.problem.material_keys import law_keys
+        from umform.problem.keys import law_keys
         from umform.processes.draw.press import solution
 
         return {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from umform.problem.material_keys import law_keys
+from umform.problem.keys import law_keys
 from umform.problem.problem import Problem
 from umform.problem.profiles import profile_table
 from umform.processes.draw_bead.spec import DrawBead

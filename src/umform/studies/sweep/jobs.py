@@ -147,7 +147,9 @@ def _outcome(job: Job) -> running.ProblemOutcome:
     checkpoint = job.folder / CHECKPOINT
     if checkpoint.is_file():
         try:
-            return running.resume(checkpoint, Kept.read(checkpoint), job.folder, progress=False, overwrite=True)
+            return running.resume(
+                checkpoint, Kept.read(checkpoint, job.deck.source.trust), job.folder, progress=False, overwrite=True
+            )
         except FileProblem:  # a run from the start needs no checkpoint
             checkpoint.unlink(missing_ok=True)
     refuse = partial(running.refuse_implausible, job.deck, force=job.force)
