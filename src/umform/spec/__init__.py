@@ -13,6 +13,6 @@ the help of a command starts quickly.
 """
 
 from umform.spec.parameter import About, Parameter, parameters
-from umform.spec.rule import Rule, check_fields, check_value
+from umform.spec.rule import Checked, Rule, check_fields, check_value
 
-__all__ = ["About", "Parameter", "Rule", "check_fields", "check_value", "parameters"]
+__all__ = ["About", "Checked", "Parameter", "Rule", "check_fields", "check_value", "parameters"]

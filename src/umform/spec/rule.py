@@ -48,6 +48,31 @@ class Rule:
             raise _error(self.what, name, value, self.cause, self.remedy)
 
 
+@dataclass(frozen=True)
+class Checked:
+    """Condition that a function checks; metadata of a type as `Rule`.
+
+    Attributes
+    ----------
+    function : callable
+        Takes value and name, and raises `InvalidValue`.
+    """
+
+    function: Callable[[Any, str], object]
+
+    def fits(self, value: Any) -> bool:
+        """Whether a value is valid."""
+        try:
+            self.function(value, "")
+        except InvalidValue:
+            return False
+        return True
+
+    def check(self, name: str, value: Any) -> None:
+        """Reject an invalid value."""
+        self.function(value, name)
+
+
 def check_fields(spec: Any) -> None:
     """Reject invalid values of a Spec, one by one.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from annotated_types import Ge, Gt, Le, Lt
+from annotated_types import Ge, Gt, Le, Lt, MinLen
 
 from umform.spec.parameter import About
 
@@ -20,6 +20,10 @@ Force = Annotated[float, Gt(0.0), About("N", cause=_MISSING)]
 Penalty = Annotated[float, Gt(0.0), About("MPa/mm", cause=_MISSING)]
 #: Another positive number.
 Positive = Annotated[float, Gt(0.0), About(cause=_MISSING)]
+#: A number that may be zero.
+NotNegative = Annotated[float, Ge(0.0), About(cause="a sign, nan or inf", remedy="zero or more")]
+#: A text that is not empty.
+Text = Annotated[str, MinLen(1)]
 #: An angle between two straight lines.
 Degrees = Annotated[
     float, Gt(0.0), Lt(180.0), About("degrees", cause="radians, a sign, or the angle of bending instead")

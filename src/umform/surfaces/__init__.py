@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from umform.surfaces.cad import CadTool
     from umform.surfaces.check import SurfaceCheck, check_surface
     from umform.surfaces.directions import Direction, unit_vector
-    from umform.surfaces.drawing import read_tool
+    from umform.surfaces.drawing import Drawing, read_tool
     from umform.surfaces.files import write_tool
     from umform.surfaces.led_around import LedAround
     from umform.surfaces.press_brake import Punch, UDie, VDie, WipingDie
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from umform.surfaces.sizes import tool_sizes
     from umform.surfaces.solids import Box, Torus
     from umform.surfaces.swept import Extruded, Revolved
-    from umform.surfaces.tool import Offset, Placed, Surface, Tool
+    from umform.surfaces.tool import Offset, Placed, Surface, Tool, ToolSpec
     from umform.surfaces.triangles import Triangles
     from umform.surfaces.triangulated import Triangulated
     from umform.surfaces.user import GapFunction, UserSurface
@@ -32,6 +32,7 @@ __all__ = [
     "CadTool",
     "Cylinder",
     "Direction",
+    "Drawing",
     "Extruded",
     "GapFunction",
     "LedAround",
@@ -47,6 +48,7 @@ __all__ = [
     "SurfaceCheck",
     "Tool",
     "ToolSizes",
+    "ToolSpec",
     "Torus",
     "Triangles",
     "Triangulated",
@@ -67,6 +69,7 @@ _HOME = {
     "CadTool": "cad",
     "Cylinder": "simple",
     "Direction": "directions",
+    "Drawing": "drawing",
     "Extruded": "swept",
     "GapFunction": "user",
     "LedAround": "led_around",
@@ -82,6 +85,7 @@ _HOME = {
     "SurfaceCheck": "check",
     "Tool": "tool",
     "ToolSizes": "size_map",
+    "ToolSpec": "tool",
     "Torus": "solids",
     "Triangles": "triangles",
     "Triangulated": "triangulated",
