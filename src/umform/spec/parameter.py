@@ -19,6 +19,8 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from annotated_types import Ge, Gt, Le, Lt
 
+from umform.errors import InvalidValue
+
 #: Bounds of the vocabulary: the name of the limit in its class, what holds, and the text.
 _BOUNDS: dict[type, tuple[str, Callable[[Any, Any], bool], str]] = {
     Gt: ("gt", operator.gt, "more than"),
@@ -38,11 +40,14 @@ class About:
         Unit.
     cause, remedy : str
         Likely cause of an invalid value, and remedy; by default the unit and the default of the field.
+    error : type, optional
+        Class of the error; by default `InvalidValue`, or `NotFinite` for NaN and infinity.
     """
 
     unit: str = ""
     cause: str = ""
     remedy: str = ""
+    error: type[InvalidValue] | None = None
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Callable[[Any], dict[str, Any]]) -> dict[str, Any]:
         """The JSON schema with the unit."""
@@ -81,7 +86,8 @@ class Kind:
         if self.type is bool:
             return "true or false"
         by = {name: f"{limit:.15g}" for name, limit, _, _ in self.limits()}
-        noun = {int: "a whole number", float: "a number", str: "a text"}.get(self.type, "an object")
+        nouns = {int: "a whole number", float: "a number", str: "a text", object: "an object"}
+        noun = nouns.get(self.type, f"an object {self.type.__name__}")
         if {"ge", "le"} <= set(by):
             return f"{noun} from {by['ge']} to {by['le']}"
         if {"gt", "lt"} <= set(by):
@@ -186,7 +192,8 @@ def _parameter(spec: type, one: Field[Any], sentence: str) -> Parameter:
 
 def _over(under: About, over: About) -> About:
     """Two descriptions, the outer one over the inner."""
-    return About(over.unit or under.unit, over.cause or under.cause, over.remedy or under.remedy)
+    pairs = ((getattr(over, name), getattr(under, name)) for name in ("unit", "cause", "remedy", "error"))
+    return About(*(first or second for first, second in pairs))
 
 
 def _hint(spec: type, one: Field[Any]) -> Any:
@@ -221,7 +228,7 @@ def _arms(hint: Any, extras: tuple[Any, ...] = ()) -> Iterator[tuple[Any, tuple[
 def _kind(hint: Any, extras: tuple[Any, ...]) -> Kind:
     if get_origin(hint) is Literal:
         return Kind(str, get_args(hint))
-    known = hint if hint in (float, int, bool, str) else object
+    known = hint if isinstance(hint, type) and not getattr(hint, "_is_protocol", False) else object
     return Kind(known, (), tuple(extra for extra in extras if type(extra) in _BOUNDS))
 
 

@@ -100,13 +100,16 @@ def check_value(spec: type, name: str, value: Any) -> None:
     if value is None or not any(kind.fits(value) for kind in parameter.kinds):
         subject = name if bool in (kind.type for kind in parameter.kinds) else f"the {parameter.noun}"
         what = f"{subject} must be {parameter.must_be}"
-        raise _error(what, name, value, parameter.about.cause, parameter.remedy)
+        raise _error(what, name, value, parameter.about.cause, parameter.remedy, parameter.about.error)
     for rule in parameter.rules:
         rule.check(name, value)
 
 
-def _error(what: str, name: str, value: Any, cause: str, remedy: str) -> InvalidValue:
-    kind = NotFinite if isinstance(value, float) and not math.isfinite(value) else InvalidValue
+def _error(
+    what: str, name: str, value: Any, cause: str, remedy: str, kind: type[InvalidValue] | None = None
+) -> InvalidValue:
+    if kind is None:
+        kind = NotFinite if isinstance(value, float) and not math.isfinite(value) else InvalidValue
     return kind(what, where=name, value=_shown(value), cause=cause, remedy=remedy)
 
 
