@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, fields, is_dataclass
+from dataclasses import asdict, is_dataclass
 from typing import Any
 
 from umform.errors import InvalidValue
@@ -22,6 +22,7 @@ from umform.materials import (
     Yld2004,
     YoshidaUemori,
 )
+from umform.spec import parameters
 
 
 def law_keys(law: J2 | Metal, rolling: object = None) -> dict[str, Any]:
@@ -68,7 +69,7 @@ def _hardening(law: J2 | Metal) -> dict[str, Any]:
     curve = law.hardening
     if not isinstance(curve, LinearVoce | Swift | Table) or not is_dataclass(curve):
         raise _no_words("hardening", "hardening curve", curve, "a curve of your own", "give its points as a Table")
-    return {"curve": type(curve).__name__} | {part.name: getattr(curve, part.name) for part in fields(curve)}
+    return {"curve": type(curve).__name__} | {name: getattr(curve, name) for name in parameters(type(curve))}
 
 
 def _yield_function(function: YieldFunction) -> dict[str, Any]:

@@ -10,9 +10,11 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 from pydantic import BaseModel, Tag, ValidationError
 from pydantic.fields import FieldInfo
 
+from umform.errors import UmformError
 from umform.problem.contents import Contents
 from umform.problem.errors import ANY_CAUSE, ANY_REMEDY, DeckKey, nearest, shortened, slip
 from umform.problem.lines import Path
+from umform.problem.places import placed
 from umform.problem.source import Source
 
 _UNIONS = (Union, types.UnionType)
@@ -42,7 +44,7 @@ _REMEDIES = dict.fromkeys(_BEYOND, "write a number within the bound") | {
 }
 
 
-def messages(error: ValidationError, source: Source) -> Iterator[DeckKey]:
+def messages(error: ValidationError, source: Source) -> Iterator[UmformError]:
     """One error of umform for each one of pydantic.
 
     Parameters
@@ -56,10 +58,12 @@ def messages(error: ValidationError, source: Source) -> Iterator[DeckKey]:
         yield _message(found, source)
 
 
-def _message(found: Mapping[str, Any], source: Source) -> DeckKey:
+def _message(found: Mapping[str, Any], source: Source) -> UmformError:
     loc, kind, given = found["loc"], found["type"], found["input"]
     path = path_in(source.data, loc)
     context = found.get("ctx") or {}
+    if kind == "object":
+        return placed(context["error"], path, source)
     if kind == "extra_forbidden":
         known = list(fields_at(loc[:-1]))
         return DeckKey(

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from umform import materials
-from umform.materials import Material, RateFactor, YieldFunction
+from umform.materials import Hardening, Material, RateFactor, YieldFunction, hardening
 from umform.problem.elastic import Elastic
-from umform.problem.hardening import Curve
 from umform.problem.parts import NotNegative, Pair, Part, Positive
 from umform.problem.rolling import RollingPart
+from umform.problem.tagged import deck_type
+
+if TYPE_CHECKING:
+    Curve = Hardening
+else:
+    Curve = deck_type(hardening.Curve)
 
 
 class J2(Elastic):
@@ -25,7 +30,7 @@ class J2(Elastic):
 
     def build(self) -> Material:
         """The law."""
-        return materials.J2(**self.constants(), hardening=self.hardening.build())
+        return materials.J2(**self.constants(), hardening=self.hardening)
 
 
 class Mises(Part):
@@ -280,7 +285,7 @@ class Metal(Elastic):
 
     def build(self) -> Material:
         """The law."""
-        parts: dict[str, Any] = {"hardening": self.hardening.build(), "yield_function": self.yield_function.build()}
+        parts: dict[str, Any] = {"hardening": self.hardening, "yield_function": self.yield_function.build()}
         motion = self.back_stress or self.two_surfaces
         if motion is not None:
             parts["back_stress"] = motion.build()

@@ -9,6 +9,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from umform.errors import UmformError
 from umform.model import Model
 from umform.problem.before import merged
 from umform.problem.building import build, sheet
@@ -72,7 +73,7 @@ class Problem:
         before = _before(source, after)
         if before is not None:
             source = merged(source, before.source)
-        errors = _idle_trim(source)
+        errors: list[UmformError] = [*_idle_trim(source)]
         contents = None
         try:
             contents = Contents.model_validate(source.data)

@@ -17,7 +17,6 @@ from umform.problem.contents import Contents
 from umform.problem.drawn_tools import Profiled
 from umform.problem.errors import DeckError
 from umform.problem.foreign import Foreign
-from umform.problem.metal import J2, Metal
 from umform.problem.outline import Outlined
 from umform.problem.places import Place
 from umform.problem.profiles import profile_of
@@ -128,12 +127,7 @@ class SheetBuilder:
         return None
 
     def _material(self) -> Material | None:
-        part, before = self.contents.material, len(self.errors)
-        if isinstance(part, J2 | Metal):
-            with self.at("material", "hardening"):
-                part.hardening.build()
-        if len(self.errors) > before:
-            return None
+        part = self.contents.material
         with self.at("material"):
             return part.build(self.source.folder) if isinstance(part, Foreign) else part.build()
         return None

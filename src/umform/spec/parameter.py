@@ -113,11 +113,13 @@ class Parameter:
     kinds : tuple of Kind
         Types that it may have.
     optional : bool
-        Whether it may be None.
+        Whether it may be None, or left out because others determine it.
     about : About
         Unit and likely mistake.
     rules : tuple
         Further conditions, in the order of the annotation: each has ``fits(value)``.
+    hint : object
+        The annotation.
     """
 
     name: str
@@ -127,6 +129,7 @@ class Parameter:
     optional: bool = False
     about: About = field(default_factory=About)
     rules: tuple[Any, ...] = ()
+    hint: Any = None
 
     def fits(self, value: Any) -> bool:
         """Whether a value is valid."""
@@ -177,17 +180,19 @@ class Parameter:
 def parameters(spec: type) -> Mapping[str, Parameter]:
     """The parameters of a Spec by name, in the order of its fields."""
     sentences = _sentences(spec)
-    return {one.name: _parameter(spec, one, sentences.get(one.name, "")) for one in fields(spec)}
+    return {one.name: _parameter(spec, one, sentences.get(one.name, "")) for one in fields(spec) if one.init}
 
 
 def _parameter(spec: type, one: Field[Any], sentence: str) -> Parameter:
-    arms = list(_arms(_hint(spec, one)))
+    hint = _hint(spec, one)
+    arms = list(_arms(hint))
     kinds = tuple(_kind(arm, extras) for arm, extras in arms if arm is not type(None))
     extras = [extra for _, more in arms for extra in more]
     abouts = [extra for extra in extras if isinstance(extra, About)]
     about = reduce(_over, abouts, About())
     rules = tuple(extra for extra in extras if hasattr(extra, "fits"))
-    return Parameter(one.name, one.default, sentence, kinds, len(kinds) < len(arms), about, rules)
+    optional = one.default is None or len(kinds) < len(arms)
+    return Parameter(one.name, one.default, sentence, kinds, optional, about, rules, hint)
 
 
 def _over(under: About, over: About) -> About:

@@ -1,0 +1,128 @@
+"""Tables of a deck from classes of Python: keys, defaults, bounds, units and texts are those of the fields.
+
+The value of such a table is an object of the class itself. An object that is given in place of a table stays as it is.
+"""
+
+from __future__ import annotations
+
+import types
+from collections.abc import Mapping, Sequence
+from dataclasses import MISSING, is_dataclass
+from functools import cache, partial, reduce
+from operator import or_
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
+
+from pydantic import Discriminator, Field, Strict, Tag, ValidationInfo, ValidatorFunctionWrapHandler, WrapValidator
+from pydantic import create_model as model_of
+from pydantic_core import PydanticCustomError
+
+from umform.errors import UmformError
+from umform.problem.parts import Part
+from umform.spec import OneOf, Parameter, parameters
+
+#: Values that a text of TOML gives; others are objects of Python.
+_WRITTEN = (dict, list, str, int, float)
+
+
+def tagged(key: str, classes: Mapping[str, type], within: type | None = None) -> Any:
+    """Type of a table in which the word of a key names one of several classes.
+
+    Parameters
+    ----------
+    key : str
+        The key, as ``curve``.
+    classes : mapping of str to type
+        Dataclasses by their words.
+    within : type, optional
+        A dataclass around the object: it takes the object as its first field, and its other fields are further keys of
+        the same table.
+    """
+    members = [table(spec, within, (key, word)) for word, spec in classes.items()]
+    union = Annotated[reduce(or_, members), Field(discriminator=key)] if len(members) > 1 else members[0]
+    return Annotated[union, WrapValidator(partial(_object, within))]
+
+
+@cache
+def table(spec: type, within: type | None = None, tag: tuple[str, str] | None = None) -> Any:
+    """Type of a table whose keys are the fields of a dataclass.
+
+    Parameters
+    ----------
+    spec : type
+        The dataclass.
+    within : type, optional
+        As for `tagged`.
+    tag : tuple of str, optional
+        A further key, and the word that it must have.
+    """
+    own, around = parameters(spec), list(parameters(within).values())[1:] if within else []
+    fields: dict[str, Any] = {one.name: (deck_type(one.hint), _field(one)) for one in [*own.values(), *around]}
+    module, text = spec.__module__, (spec.__doc__ or "").partition("\n\n")[0]
+    if tag:
+        module += f".{tag[0]}"
+        fields = {tag[0]: (Literal[tag[1]], Field(description=f"The word {tag[1]}."))} | fields
+    keys = model_of(spec.__name__, __base__=Part, __doc__=" ".join(text.split()), __module__=module, **fields)
+    return Annotated[keys, WrapValidator(partial(_made, spec, within, tuple(own)))]
+
+
+def deck_type(hint: Any) -> Any:
+    """Type of a key for the annotation of a field."""
+    origin, inner = get_origin(hint), get_args(hint)
+    if origin is Annotated:
+        chosen = next((note for note in inner[1:] if isinstance(note, OneOf)), None)
+        return tagged(chosen.key, chosen.classes()) if chosen else Annotated[(deck_type(inner[0]), *inner[1:])]
+    if origin in (Union, types.UnionType):
+        return _union([deck_type(arm) for arm in inner if arm is not type(None)], type(None) in inner)
+    if origin is tuple:
+        arms = tuple(arm if arm is ... else deck_type(arm) for arm in inner)
+        return Annotated[tuple.__class_getitem__(arms), Strict(False)]
+    if isinstance(hint, type) and is_dataclass(hint):
+        return table(hint)
+    return Any if hint is object else hint
+
+
+def _union(arms: Sequence[Any], optional: bool) -> Any:
+    """One of several notations, so that only the errors of one are reported."""
+    one = arms[0]
+    if len(arms) > 1:
+        noted = [Annotated[arm, Tag(_notation(arm))] for arm in arms]
+        one = Annotated[reduce(or_, noted), Discriminator(_notation)]
+    return one | None if optional else one
+
+
+def _notation(value: Any) -> str:
+    """How TOML writes a value, or the values of a type: a word, a number, an array or a table."""
+    kind = value
+    while get_origin(kind) is Annotated:
+        kind = get_args(kind)[0]
+    kind = get_origin(kind) or (kind if isinstance(kind, type) else type(kind))
+    if kind in (str, Literal):
+        return "word"
+    return "number" if kind in (int, float, bool) else "array" if kind in (list, tuple) else "table"
+
+
+def _field(one: Parameter) -> Any:
+    """Default and text of a key."""
+    default = ... if one.default is MISSING else one.default
+    return Field(default, description=one.sentence)
+
+
+def _made(spec: type, within: type | None, own: Sequence[str], value: Any, read: ValidatorFunctionWrapHandler) -> Any:
+    """The object that a table describes."""
+    if not isinstance(value, _WRITTEN):
+        return value
+    keys = read(value)
+    given = {name: getattr(keys, name) for name in keys.model_fields_set}
+    try:
+        made = spec(**{name: given[name] for name in own if name in given})
+        beside = {name: given[name] for name in parameters(within) if name in given} if within else {}
+        return within(made, **beside) if within else made
+    except (UmformError, ArithmeticError, ValueError, MemoryError) as error:
+        raise PydanticCustomError("object", "{error}", {"error": error}) from None
+
+
+def _object(within: type | None, value: Any, read: ValidatorFunctionWrapHandler, info: ValidationInfo) -> Any:
+    """An object of Python as it is, and what a table describes."""
+    if isinstance(value, _WRITTEN):
+        return read(value)
+    return within(value) if within and not isinstance(value, within) else value
