@@ -14,8 +14,8 @@ from annotated_types import Ge, Gt, Le, MinLen
 from umform import _core
 from umform.errors import HardeningNotMonotone, InvalidValue
 from umform.materials.checks import check_finite
-from umform.materials.known import known
 from umform.spec import About, OneOf, check_fields
+from umform.spec.known import known
 from umform.spec.types import NotNegative, Positive
 
 YieldStress = Annotated[
@@ -34,7 +34,7 @@ class Hardening(Protocol):
 
 
 #: One of the curves; the word ``curve`` of a deck names it.
-Curve = Annotated[Hardening, OneOf("curve", partial(known, Hardening))]
+Curve = Annotated[Hardening, OneOf("curve", partial(known, __package__, Hardening))]
 
 
 @dataclass(frozen=True)

@@ -76,7 +76,7 @@ class Problem:
         errors: list[UmformError] = [*_idle_trim(source)]
         contents = None
         try:
-            contents = Contents.model_validate(source.data)
+            contents = Contents.model_validate(source.data, context={"folder": source.folder})
         except ValidationError as error:
             errors += messages(error, source)
         errors += unknown_names(source)

@@ -14,12 +14,10 @@ from umform.mesh import Mesh
 from umform.model import Model
 from umform.model.contact.kept import KeptContact
 from umform.problem.contents import Contents
-from umform.problem.drawn_tools import Profiled
 from umform.problem.errors import DeckError
 from umform.problem.foreign import Foreign
 from umform.problem.outline import Outlined
 from umform.problem.places import Place
-from umform.problem.profiles import profile_of
 from umform.problem.rolling import direction
 from umform.problem.source import Source
 from umform.surfaces import Tool, ToolSizes
@@ -49,12 +47,6 @@ class SheetBuilder:
         """Tools by name, without those that have an error."""
         tools: dict[str, Tool] = {}
         for name, part in self.contents.tools.items():
-            before = len(self.errors)
-            if isinstance(part, Profiled):
-                with self.at("tools", name, "profile"):
-                    profile_of(part.profile, self.source.folder)
-            if len(self.errors) > before:
-                continue
             with self.at("tools", name):
                 tool = part.build(self.source.folder)
                 tool.kernel()

@@ -6,13 +6,22 @@ The value of such a table is an object of the class itself. An object that is gi
 from __future__ import annotations
 
 import types
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import MISSING, is_dataclass
 from functools import cache, partial, reduce
 from operator import or_
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
-from pydantic import Discriminator, Field, Strict, Tag, ValidationInfo, ValidatorFunctionWrapHandler, WrapValidator
+from pydantic import (
+    Discriminator,
+    Field,
+    Strict,
+    Tag,
+    ValidationInfo,
+    ValidatorFunctionWrapHandler,
+    WrapValidator,
+)
 from pydantic import create_model as model_of
 from pydantic_core import PydanticCustomError
 
@@ -20,6 +29,8 @@ from umform.errors import UmformError
 from umform.problem.parts import Part
 from umform.spec import OneOf, Parameter, parameters
 
+#: Types of Python that a deck writes in a way of its own.
+_WRITTEN_AS: dict[Any, Any] = {}
 #: Values that a text of TOML gives; others are objects of Python.
 _WRITTEN = (dict, list, str, int, float)
 
@@ -65,16 +76,31 @@ def table(spec: type, within: type | None = None, tag: tuple[str, str] | None = 
     return Annotated[keys, WrapValidator(partial(_made, spec, within, tuple(own)))]
 
 
+def write_as(hint: Any, notation: Any) -> None:
+    """Let a deck write values of a type in a way of its own.
+
+    Parameters
+    ----------
+    hint : type or annotated type
+        The annotation of fields.
+    notation : type
+        What pydantic reads in its place; the value is one of the type.
+    """
+    _WRITTEN_AS[hint] = notation
+
+
 def deck_type(hint: Any) -> Any:
     """Type of a key for the annotation of a field."""
+    if hint in _WRITTEN_AS:
+        return _WRITTEN_AS[hint]
     origin, inner = get_origin(hint), get_args(hint)
     if origin is Annotated:
         chosen = next((note for note in inner[1:] if isinstance(note, OneOf)), None)
         return tagged(chosen.key, chosen.classes()) if chosen else Annotated[(deck_type(inner[0]), *inner[1:])]
     if origin in (Union, types.UnionType):
         return _union([deck_type(arm) for arm in inner if arm is not type(None)], type(None) in inner)
-    if origin is tuple:
-        arms = tuple(arm if arm is ... else deck_type(arm) for arm in inner)
+    if origin in (tuple, Sequence):
+        arms = tuple(arm if arm is ... else deck_type(arm) for arm in (inner if origin is tuple else (*inner, ...)))
         return Annotated[tuple.__class_getitem__(arms), Strict(False)]
     if isinstance(hint, type) and is_dataclass(hint):
         return table(hint)
@@ -113,10 +139,17 @@ def _made(spec: type, within: type | None, own: Sequence[str], value: Any, read:
         return value
     keys = read(value)
     given = {name: getattr(keys, name) for name in keys.model_fields_set}
-    try:
+    with refused():
         made = spec(**{name: given[name] for name in own if name in given})
         beside = {name: given[name] for name in parameters(within) if name in given} if within else {}
         return within(made, **beside) if within else made
+
+
+@contextmanager
+def refused() -> Iterator[None]:
+    """Block that makes an object: its error becomes one of pydantic, so that it gets its place in the deck."""
+    try:
+        yield
     except (UmformError, ArithmeticError, ValueError, MemoryError) as error:
         raise PydanticCustomError("object", "{error}", {"error": error}) from None
 

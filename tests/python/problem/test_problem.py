@@ -7,7 +7,6 @@ import umform as uf
 from umform import sheet_metals
 from umform.materials import J2, Swift
 from umform.problem import Problem
-from umform.problem.tools import smallest_radius
 
 TOOLS = {
     "Plane": ('point = [0, 0, -3]\nnormal = "z"', uf.Plane((0, 0, -3), "z"), None),
@@ -53,7 +52,7 @@ def test_each_tool_is_that_of_the_library_where_it_was_placed(shape, strip, rng)
     assert np.array_equal(part.build().gap(x)[0], tool.gap(x)[0])
     there = tool.moved((1, 2, 3), (0, np.pi / 6, 0))
     assert np.allclose(placed.contents.tools["it"].build().gap(x)[0], there.gap(x)[0], atol=1e-13)
-    found = smallest_radius(part, part.build())
+    found = min(part.build().convex_radii(), default=None)
     assert found == pytest.approx(radius) if radius else found is None
 
 
