@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Annotated, Any, Literal
+from collections.abc import Callable, Mapping
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Strict, Tag
 
@@ -14,6 +14,13 @@ class Part(BaseModel):
     model_config = ConfigDict(
         extra="forbid", strict=True, allow_inf_nan=False, frozen=True, use_attribute_docstrings=True
     )
+
+    #: Keys that are fields of a dataclass, by the names of the fields.
+    spec_keys: ClassVar[Mapping[str, str]] = {}
+
+    def of_spec(self) -> dict[str, Any]:
+        """Values of the fields of the dataclass."""
+        return {name: getattr(self, key) for name, key in self.spec_keys.items()}
 
 
 Positive = Annotated[float, Field(gt=0)]

@@ -6,12 +6,12 @@ The value of such a table is an object of the class itself. An object that is gi
 from __future__ import annotations
 
 import types
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import MISSING, is_dataclass
 from functools import cache, partial, reduce
 from operator import or_
-from typing import Annotated, Any, Literal, Union, get_args, get_origin
+from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
 
 from pydantic import (
     Discriminator,
@@ -28,6 +28,8 @@ from pydantic_core import PydanticCustomError
 from umform.errors import UmformError
 from umform.problem.parts import Part
 from umform.spec import OneOf, Parameter, parameters
+
+P = TypeVar("P", bound=Part)
 
 #: Types of Python that a deck writes in a way of its own.
 _WRITTEN_AS: dict[Any, Any] = {}
@@ -74,6 +76,29 @@ def table(spec: type, within: type | None = None, tag: tuple[str, str] | None = 
         fields = {tag[0]: (Literal[tag[1]], Field(description=f"The word {tag[1]}."))} | fields
     keys = model_of(spec.__name__, __base__=Part, __doc__=" ".join(text.split()), __module__=module, **fields)
     return Annotated[keys, WrapValidator(partial(_made, spec, within, tuple(own)))]
+
+
+def with_keys(spec: type, leave: Sequence[str] = (), **names: str) -> Callable[[type[P]], type[P]]:
+    """Decorator of a table: its further keys are the fields of a dataclass, which `Part.of_spec` returns.
+
+    Parameters
+    ----------
+    spec : type
+        The dataclass.
+    leave : sequence of str
+        Fields that the table writes in a way of its own.
+    **names : str
+        Keys that have other names than their fields.
+    """
+    chosen = {name: one for name, one in parameters(spec).items() if name not in leave}
+
+    def add(part: type[P]) -> type[P]:
+        fields: dict[str, Any] = {names.get(name, name): (deck_type(one.hint), _field(one)) for name, one in chosen.items()}
+        made = model_of(part.__name__, __base__=part, __doc__=part.__doc__, __module__=part.__module__, **fields)
+        made.spec_keys = {name: names.get(name, name) for name in chosen}
+        return made
+
+    return add
 
 
 def write_as(hint: Any, notation: Any) -> None:
