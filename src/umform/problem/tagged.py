@@ -27,7 +27,7 @@ from pydantic_core import PydanticCustomError
 
 from umform.errors import UmformError
 from umform.problem.parts import Part
-from umform.spec import OneOf, Parameter, parameters
+from umform.spec import Inline, OneOf, Parameter, parameters
 
 P = TypeVar("P", bound=Part)
 
@@ -68,7 +68,7 @@ def table(spec: type, within: type | None = None, tag: tuple[str, str] | None = 
     tag : tuple of str, optional
         A further key, and the word that it must have.
     """
-    own, around = parameters(spec), list(parameters(within).values())[1:] if within else []
+    own, around = parameters(spec), _around(within)
     fields: dict[str, Any] = {one.name: (deck_type(one.hint), _field(one)) for one in [*own.values(), *around]}
     module, text = spec.__module__, (spec.__doc__ or "").partition("\n\n")[0]
     if tag:
@@ -166,8 +166,21 @@ def _made(spec: type, within: type | None, own: Sequence[str], value: Any, read:
     given = {name: getattr(keys, name) for name in keys.model_fields_set}
     with refused():
         made = spec(**{name: given[name] for name in own if name in given})
-        beside = {name: given[name] for name in parameters(within) if name in given} if within else {}
-        return within(made, **beside) if within else made
+        if within is None:
+            return made
+        beside = {one.name: given[one.name] for one in _around(within) if one.name in given}
+        return within(**{_inner(within).name: made}, **beside)
+
+
+def _inner(within: type) -> Parameter:
+    """The field that holds the object."""
+    every = list(parameters(within).values())
+    return next((one for one in every if any(isinstance(note, Inline) for note in get_args(one.hint))), every[0])
+
+
+def _around(within: type | None) -> list[Parameter]:
+    """The other fields of a class around an object."""
+    return [one for one in parameters(within).values() if one is not _inner(within)] if within else []
 
 
 @contextmanager

@@ -7,6 +7,11 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
+class Inline:
+    """Annotation of the field, by default the first one, whose object has its keys in the table around it."""
+
+
+@dataclass(frozen=True)
 class OneOf:
     """Annotation of a field whose object is of one of several classes.
 

@@ -9,7 +9,7 @@ import operator
 import re
 import sys
 import textwrap
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import Field, dataclass, field, fields
 from functools import cache, reduce
 from itertools import pairwise
@@ -56,11 +56,15 @@ class About:
 
 @dataclass(frozen=True)
 class Kind:
-    """One type that a value may have: a number with bounds, a flag, a word, or an object of any kind."""
+    """One type that a value may have: a number with bounds, a flag, a word, or an object of any kind.
+
+    Further conditions have ``fits(value)``, in the order of the annotation.
+    """
 
     type: type
     choices: tuple[Any, ...] = ()
     bounds: tuple[Any, ...] = ()
+    rules: tuple[Any, ...] = ()
 
     def fits(self, value: Any) -> bool:
         """Whether a value has this type and lies within the bounds."""
@@ -86,7 +90,8 @@ class Kind:
         if self.type is bool:
             return "true or false"
         by = {name: f"{limit:.15g}" for name, limit, _, _ in self.limits()}
-        nouns = {int: "a whole number", float: "a number", str: "a text", object: "an object"}
+        nouns: dict[Any, str] = {int: "a whole number", float: "a number", str: "a text", object: "an object"}
+        nouns |= {Collection: "an array", Callable: "a function"}
         noun = nouns.get(self.type, f"an object {self.type.__name__}")
         if {"ge", "le"} <= set(by):
             return f"{noun} from {by['ge']} to {by['le']}"
@@ -116,8 +121,6 @@ class Parameter:
         Whether it may be None, or left out because others determine it.
     about : About
         Unit and likely mistake.
-    rules : tuple
-        Further conditions, in the order of the annotation: each has ``fits(value)``.
     hint : object
         The annotation.
     """
@@ -128,14 +131,18 @@ class Parameter:
     kinds: tuple[Kind, ...]
     optional: bool = False
     about: About = field(default_factory=About)
-    rules: tuple[Any, ...] = ()
     hint: Any = None
 
     def fits(self, value: Any) -> bool:
         """Whether a value is valid."""
         if value is None:
             return self.optional
-        return any(kind.fits(value) for kind in self.kinds) and all(rule.fits(value) for rule in self.rules)
+        kind = self.kind_of(value)
+        return kind is not None and all(rule.fits(value) for rule in kind.rules)
+
+    def kind_of(self, value: Any) -> Kind | None:
+        """The first type that a value has within its bounds."""
+        return None if value is None else next((kind for kind in self.kinds if kind.fits(value)), None)
 
     @property
     def most(self) -> Any:
@@ -190,9 +197,8 @@ def _parameter(spec: type, one: Field[Any], sentence: str) -> Parameter:
     extras = [extra for _, more in arms for extra in more]
     abouts = [extra for extra in extras if isinstance(extra, About)]
     about = reduce(_over, abouts, About())
-    rules = tuple(extra for extra in extras if hasattr(extra, "fits"))
     optional = one.default is None or len(kinds) < len(arms)
-    return Parameter(one.name, one.default, sentence, kinds, optional, about, rules, hint)
+    return Parameter(one.name, one.default, sentence, kinds, optional, about, hint)
 
 
 def _over(under: About, over: About) -> About:
@@ -231,10 +237,15 @@ def _arms(hint: Any, extras: tuple[Any, ...] = ()) -> Iterator[tuple[Any, tuple[
 
 
 def _kind(hint: Any, extras: tuple[Any, ...]) -> Kind:
+    rules = tuple(extra for extra in extras if hasattr(extra, "fits"))
     if get_origin(hint) is Literal:
-        return Kind(str, get_args(hint))
+        return Kind(str, get_args(hint), (), rules)
     known = hint if isinstance(hint, type) and not getattr(hint, "_is_protocol", False) else object
-    return Kind(known, (), tuple(extra for extra in extras if type(extra) in _BOUNDS))
+    if get_origin(hint) in (tuple, list, Sequence):
+        known = Collection  # lists, tuples, arrays
+    elif get_origin(hint) is Callable:
+        known = Callable  # type: ignore[assignment]
+    return Kind(known, (), tuple(extra for extra in extras if type(extra) in _BOUNDS), rules)
 
 
 def _sentences(spec: type) -> dict[str, str]:

@@ -97,11 +97,12 @@ def check_value(spec: type, name: str, value: Any) -> None:
     parameter = parameters(spec)[name]
     if value is None and parameter.optional:
         return
-    if value is None or not any(kind.fits(value) for kind in parameter.kinds):
+    kind = parameter.kind_of(value)
+    if kind is None:
         subject = name if bool in (kind.type for kind in parameter.kinds) else f"the {parameter.noun}"
         what = f"{subject} must be {parameter.must_be}"
         raise _error(what, name, value, parameter.about.cause, parameter.remedy, parameter.about.error)
-    for rule in parameter.rules:
+    for rule in kind.rules:
         rule.check(name, value)
 
 

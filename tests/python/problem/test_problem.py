@@ -218,7 +218,7 @@ def test_points_and_cells_are_not_both_given(strip, errors):
 
 def test_a_ripple_is_wanted_of_cells_whose_number_follows_from_it(strip, errors):
     (told,) = errors((strip + CONTROLS).replace("penalty = 1e3", "penalty = 1e3\nripple = 0.01"))
-    assert "needs cells = auto" in told.what
+    assert "cells whose number follows" in told.what
 
 
 def test_penalty_and_penetration_are_not_both_given(strip, errors):

@@ -14,17 +14,14 @@ from numpy.typing import NDArray
 
 from umform import _core
 from umform.errors import InvalidFriction, NotFinite
-from umform.spec import About, Checked, check_fields, check_value
+from umform.spec import About, Checked, Inline, check_fields, check_value
 
 #: (pressure, distance slid, position in the frame of the tool) -> largest tangential traction.
 FrictionFunction = Callable[[float, float, NDArray[np.float64]], float]
 
 
-
 def check_table(value: Any, where: str) -> None:
     """Reject a table of friction whose pressures do not ascend, or without valid coefficients."""
-    if isinstance(value, Real):
-        return
     table = _numbers(value)
     if table.ndim != 2 or table.shape[1:] != (2,) or not len(table):
         raise InvalidFriction(
@@ -79,8 +76,8 @@ Coefficient = Annotated[
         error=InvalidFriction,
     ),
 ]
-CoefficientTable = Annotated[Sequence[tuple[float, float]], Checked(check_table)]
-Quantity = Annotated[float, Gt(0.0), About(cause="a sign, or a missing value", error=InvalidFriction)]
+CoefficientTable = Annotated[Sequence[tuple[float, Coefficient]], Checked(check_table)]
+Above = Annotated[float, Gt(0.0), About(cause="a sign, or a missing value", error=InvalidFriction)]
 Corner = Annotated[tuple[float, float, float], Checked(check_corner)]
 
 
@@ -105,9 +102,9 @@ class Friction:
     kinetic: Coefficient | None = None
     """Coefficient of a sliding point, approached from mu with the distance slid; with a table its first entry falls to
     it, and all others in proportion; default: mu."""
-    decay: Quantity | None = None
+    decay: Above | None = None
     """Decay: distance slid after which 1 / e of the difference remains; it goes with ``kinetic``."""
-    cap: Quantity | None = None
+    cap: Above | None = None
     """Largest tangential traction, for instance the shear strength of the sheet or its coating; default: no limit."""
 
     def __post_init__(self) -> None:
@@ -170,7 +167,7 @@ class Region:
     """Lower corner; infinite where the box has no end."""
     upper: Corner
     """Upper corner."""
-    friction: float | Friction | FrictionFunction
+    friction: Annotated[float | Friction | FrictionFunction, Inline()]
     """Law inside the box."""
 
     def __post_init__(self) -> None:
@@ -198,13 +195,15 @@ class FrictionByRegion:
     >>> pair = model.contact("lower", uf.Plane((0, 0, -0.1), (0, 0, 1)), friction=friction)
     """
 
-    elsewhere: float | Friction | FrictionFunction
+    elsewhere: Annotated[float | Friction | FrictionFunction, Inline()]
     """Law outside of all regions."""
-    regions: Sequence[Region]
+    regions: Sequence[Region] = ()
     """Boxes in the frame of the tool, its initial position; the first one that contains a point applies."""
 
     def kernel(self) -> _core.FrictionLaw:
         """The law as the kernels take it."""
+        if not self.regions:
+            return friction_kernel(self.elsewhere)
         boxes = [
             (
                 np.asarray(region.lower, dtype=float).tolist(),
@@ -216,7 +215,10 @@ class FrictionByRegion:
         return _core.friction_by_region(boxes, friction_kernel(self.elsewhere))
 
 
-AnyFriction = float | Friction | FrictionByRegion | FrictionFunction
+#: A coefficient, a table, a law, or a function.
+AnyFriction = Annotated[
+    Coefficient | CoefficientTable | Friction | FrictionByRegion | FrictionFunction, About(error=InvalidFriction)
+]
 
 
 def friction_kernel(friction: AnyFriction) -> _core.FrictionLaw:
