@@ -80,14 +80,7 @@ class SheetBuilder:
         if element is None or mesh is None or material is None or any("rolling" in e.where for e in self.errors):
             return None
         with self.at("element"):
-            return Model(
-                mesh,
-                element,
-                material=material,
-                thickness_points=part.thickness_points,
-                thickness_rule=part.thickness_rule,
-                rolling=rolling,
-            )
+            return Model(mesh, part.name, material=material, rolling=rolling, **part.of_spec())
         return None
 
     def _mesh(self, cell: str) -> Mesh | None:

@@ -86,7 +86,8 @@ class Kind:
 
     def __str__(self) -> str:
         if self.choices:
-            return " or ".join(map(str, self.choices))
+            *some, last = map(str, self.choices)
+            return f"{', '.join(some)} or {last}" if some else last
         if self.type is bool:
             return "true or false"
         by = {name: f"{limit:.15g}" for name, limit, _, _ in self.limits()}
