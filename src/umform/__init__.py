@@ -153,6 +153,8 @@ _MODULES = {
     "sheet_metals": "umform.sheet_metals",
     "surfaces": "umform.surfaces",
 }
+#: Packages whose classes are public without a line here.
+_SEARCHED = ("umform.surfaces",)
 _HOME_OF = {name: module for module, names in _HOME.items() for name in names}
 
 __all__ = [
@@ -248,10 +250,18 @@ def __getattr__(name: str) -> object:
         value = getattr(importlib.import_module(_HOME_OF[name]), name)
     elif name in _MODULES:
         value = importlib.import_module(_MODULES[name])
+    elif (found := _in_a_file(name)) is not None:
+        value = found
     else:
         raise AttributeError(f"module 'umform' has no attribute {name!r}")
     globals()[name] = value
     return value
+
+
+def _in_a_file(name: str) -> object:
+    """A class of a package whose files are searched; None if there is none."""
+    packages = (importlib.import_module(package) for package in _SEARCHED if name[:1].isupper())
+    return next((found for package in packages if (found := getattr(package, name, None)) is not None), None)
 
 
 def __dir__() -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from umform.first_use import at_first_use
@@ -100,4 +101,13 @@ _HOME = {
     "write_tool": "files",
 }
 
-__getattr__ = at_first_use(__name__, _HOME)
+
+def _others() -> Mapping[str, type]:
+    """Tools in the files of this package, those too that have no line above."""
+    from umform.spec.known import known
+    from umform.surfaces.tool import ToolSpec
+
+    return known(__name__, ToolSpec)
+
+
+__getattr__ = at_first_use(__name__, _HOME, _others)
