@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import _core
-from umform.elements import Element, Rolling, rolling_directions
-from umform.elements import BodyOptions
+from umform.elements import BodyOptions, Element, Rolling, rolling_directions
 from umform.elements import element as catalogue_element
 from umform.elements import thickness_rule as make_thickness_rule
 from umform.errors import InvalidValue, WrongCellType

@@ -12,7 +12,6 @@ from umform.problem.parts import NotNegative, Pair, Part, Positive, number_or_ar
 from umform.problem.tagged import refused, tagged
 from umform.surfaces import Profile
 
-
 if TYPE_CHECKING:
     Segment = surfaces.Line | surfaces.Arc
 else:

@@ -93,7 +93,9 @@ def with_keys(spec: type, leave: Sequence[str] = (), **names: str) -> Callable[[
     chosen = {name: one for name, one in parameters(spec).items() if name not in leave}
 
     def add(part: type[P]) -> type[P]:
-        fields: dict[str, Any] = {names.get(name, name): (deck_type(one.hint), _field(one)) for name, one in chosen.items()}
+        fields: dict[str, Any] = {
+            names.get(name, name): (deck_type(one.hint), _field(one)) for name, one in chosen.items()
+        }
         made = model_of(part.__name__, __base__=part, __doc__=part.__doc__, __module__=part.__module__, **fields)
         made.spec_keys = {name: names.get(name, name) for name in chosen}
         return made

@@ -245,7 +245,7 @@ def _kind(hint: Any, extras: tuple[Any, ...]) -> Kind:
     if get_origin(hint) in (tuple, list, Sequence):
         known = Collection  # lists, tuples, arrays
     elif get_origin(hint) is Callable:
-        known = Callable  # type: ignore[assignment]
+        known = Callable
     return Kind(known, (), tuple(extra for extra in extras if type(extra) in _BOUNDS), rules)
 
 

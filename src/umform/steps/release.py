@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Self
 
-from umform.errors import InvalidValue
 from umform.model import Evaluation
 from umform.model.control import Control
 from umform.model.tool_controls import ToolForce

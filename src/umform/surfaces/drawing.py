@@ -22,7 +22,9 @@ class Drawing:
     """Path, from the folder of the deck; it ends in .step, .stp, .iges, .igs or .stl."""
     tolerance: Positive = 1e-3
     """Largest distance of the tool from free-form faces of a STEP or IGES file."""
-    sharp: Annotated[float, Gt(0.0), Lt(90.0), About("degrees", cause="radians, or the angle in the solid")] | None = None
+    sharp: Annotated[float, Gt(0.0), Lt(90.0), About("degrees", cause="radians, or the angle in the solid")] | None = (
+        None
+    )
     """Angle from which an edge is sharp: by default 30 between triangles of STL, 2 between faces."""
     open: bool = False
     """The surface may have rims; beyond them there is no contact."""

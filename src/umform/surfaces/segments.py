@@ -17,8 +17,7 @@ Ids = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Line:
-    """Straight segment.
-    """
+    """Straight segment."""
 
     start: Point2
     """First end."""
@@ -74,8 +73,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Arc:
-    """Circular segment about a centre; where start and end are the same point it is the whole circle.
-    """
+    """Circular segment about a centre; where start and end are the same point it is the whole circle."""
 
     start: Point2
     """First end."""

@@ -1,4 +1,4 @@
-"""A new tool is one class in one file: it is there in Python, in decks, in their schema and in the table of the docs."""
+"""A new tool is one class in one file: it is there in Python, in decks, in their schema and in the docs."""
 
 import json
 import shutil

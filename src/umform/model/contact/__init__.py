@@ -4,4 +4,4 @@ from umform.model.contact.found import ContactFound, ContactPoints
 from umform.model.contact.pair import Contact
 from umform.model.contact.settings import ContactOptions, ContactSettings, contact_settings
 
-__all__ = ["Contact", "ContactFound", "ContactPoints", "ContactOptions", "ContactSettings", "contact_settings"]
+__all__ = ["Contact", "ContactFound", "ContactOptions", "ContactPoints", "ContactSettings", "contact_settings"]

@@ -37,9 +37,7 @@ _STIFFEST = 10.0
 _WITHIN, _MOST = 6.0, 10
 #: Default of the points per direction.
 _POINTS = 2
-_CELLS = About(
-    cause="a number of cells in all, or a word", remedy="3 on 4-node and 5 on 9-node faces to begin with"
-)
+_CELLS = About(cause="a number of cells in all, or a word", remedy="3 on 4-node and 5 on 9-node faces to begin with")
 
 
 @dataclass(frozen=True)
@@ -76,7 +74,9 @@ class ContactOptions:
     """Allowed ripple for cells = auto, as a fraction of the force; by default 0.001."""
     friction: AnyFriction | None = None
     """Coefficient of friction, or a law; by default none."""
-    slip: Annotated[Positive, About(remedy="omit it: 1/200 of the thickness of the sheet is allowed then")] | None = None
+    slip: Annotated[Positive, About(remedy="omit it: 1/200 of the thickness of the sheet is allowed then")] | None = (
+        None
+    )
     """Elastic slip that is allowed: displacement of a sticking point before it slips, at any pressure; by default 1/200
     of the thickness. Multipliers remove it."""
 

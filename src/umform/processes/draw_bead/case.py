@@ -32,8 +32,8 @@ def build(case: DrawBead) -> tuple[Model, list[Step]]:
     given = {"points": case.contact_points, "friction": case.friction, "penalty": case.penalty}
     lower, upper = model.tool("lower_tool", case.lower_tool), model.tool("upper_tool", case.upper_tool)
     down = model.drive(upper, "-z", name="closing")
-    model.contact("lower", lower, name="below", **given)  # type: ignore[arg-type]
-    model.contact("upper", upper, name="above", **given)  # type: ignore[arg-type]
+    model.contact("lower", lower, name="below", **given)
+    model.contact("upper", upper, name="above", **given)
     for pair in model.contacts:
         pair.allowed = case.allowed
     return model, [Move(down, to=case.closing), Move(pull, to=case.way)]
