@@ -10,6 +10,7 @@ import pytest
 
 import umform
 
+TOOLS = Path(__file__).parents[3] / "tools"
 FILE = '''"""Half-space under a tilted plane."""
 
 from __future__ import annotations
@@ -84,8 +85,11 @@ try:
     told = ""
 except DeckError as error:
     told = str(error)
+sys.path.insert(0, sys.argv[2])
+import tool_table
+
 kind = json.loads(json_schema())["$defs"]["Ramp"]["properties"]["slope"]
-print(json.dumps([repr(uf.Ramp(5.0)), float(problem.tools["ramp"].gap([(0.0, 0.0, 0.0)])[0][0]), kind, told]))
+print(json.dumps([repr(uf.Ramp(5.0)), float(problem.tools["ramp"].gap([(0.0, 0.0, 0.0)])[0][0]), kind, told, tool_table.rows()]))
 """
 
 
@@ -99,14 +103,19 @@ def package(tmp_path_factory):
 
 
 def test_a_new_tool_is_one_class_in_one_file(package):
-    command = [sys.executable, "-c", PROGRAM, str(package)]
+    command = [sys.executable, "-c", PROGRAM, str(package), str(TOOLS)]
     run = subprocess.run(
         command, input=DECK, capture_output=True, text=True, check=False, cwd=package, env={"PYTHONPATH": str(package)}
     )
     assert run.returncode == 0, run.stderr
-    python, gap, schema, told = json.loads(run.stdout)
+    python, gap, schema, told, table = json.loads(run.stdout)
     assert python == "Ramp(slope=5.0, foot=(0.0, 0.0, 0.0))"
     assert gap == pytest.approx(0.984807753)
     assert schema["description"] == "Slope of the ramp." and schema["unit"] == "degrees"
     assert schema["exclusiveMaximum"] == 90.0
     assert "tools.ramp.slope" in told and "100.0" in told
+    assert "| `Ramp(slope, [foot])` | Half-space under a plane that rises along x |" in table
+
+
+def test_the_table_of_the_docs_is_that_of_the_classes():
+    assert subprocess.run([sys.executable, TOOLS / "tool_table.py", "--check"], check=False).returncode == 0
