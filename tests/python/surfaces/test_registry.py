@@ -89,7 +89,8 @@ sys.path.insert(0, sys.argv[2])
 import tool_table
 
 kind = json.loads(json_schema())["$defs"]["Ramp"]["properties"]["slope"]
-print(json.dumps([repr(uf.Ramp(5.0)), float(problem.tools["ramp"].gap([(0.0, 0.0, 0.0)])[0][0]), kind, told, tool_table.rows()]))
+gap = float(problem.tools["ramp"].gap([(0.0, 0.0, 0.0)])[0][0])
+print(json.dumps([repr(uf.Ramp(5.0)), gap, kind, told, tool_table.rows()]))
 """
 
 
