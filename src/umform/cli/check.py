@@ -25,6 +25,10 @@ Changes = Annotated[
     typer.Option("--set", metavar="KEY=VALUE", help="Set a key of the deck, such as steps.0.increments=5; repeatable."),
 ]
 
+Trust = Annotated[
+    bool,
+    typer.Option("--trust", help='Import classes that the deck names as "module:Class": code, which you trust.'),
+]
 Picture = Annotated[
     Path | None,
     typer.Option("--blank", metavar="FILE.png", help="Draw the mesh of a blank over the sizes that its tools ask for."),
@@ -44,6 +48,7 @@ def check_deck(
     changes: Changes = None,
     blank: Picture = None,
     tools: Folder = None,
+    trust: Trust = False,
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
@@ -55,7 +60,7 @@ def check_deck(
     from umform.problem.findings import Level
 
     with deck_errors():
-        loaded = read(deck, changes or ())
+        loaded = read(deck, changes or (), trust)
         problem = loaded.build()
         findings = list(check(loaded, problem))
     _show(findings)
@@ -67,11 +72,11 @@ def check_deck(
         raise typer.Exit(1)
 
 
-def read(path: Path, changes: Sequence[str]) -> Problem:
+def read(path: Path, changes: Sequence[str], trust: bool) -> Problem:
     """The deck of a file with some changed values."""
     from umform.problem import load
 
-    return load(path, dict(_change(text) for text in changes))
+    return load(path, dict(_change(text) for text in changes), trust)
 
 
 @contextmanager

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from umform.cli.check import deck_errors
+from umform.cli.check import Trust, deck_errors
 from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks, petsc_options
 from umform.cli.root import Debug, Overwrite, Verbose, app
 from umform.cli.run import Every, finish
@@ -26,6 +26,7 @@ def resume(
     ] = None,
     every: Every = 60.0,
     overwrite: Overwrite = False,
+    trust: Trust = False,
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
@@ -41,7 +42,7 @@ def resume(
     print_warnings_once()
     with deck_errors():
         checkpoint = _file_of(checkpoint)
-        kept = Kept.read(checkpoint)
+        kept = Kept.read(checkpoint, trust)
         with on_all_ranks(kept.chosen_solver, petsc_options(ctx)):
             outcome = running.resume(checkpoint, kept, out, every=every, overwrite=overwrite)
     finish(outcome)

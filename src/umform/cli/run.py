@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from umform.cli import INTERRUPTED
-from umform.cli.check import Changes, DeckFile, Force, deck_errors, read
+from umform.cli.check import Changes, DeckFile, Force, Trust, deck_errors, read
 from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks, petsc_options
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing, say_of
 from umform.cli.run_checks import show_checks
@@ -44,6 +44,7 @@ def run(
     every: Every = 60.0,
     overwrite: Overwrite = False,
     force: Force = False,
+    trust: Trust = False,
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
@@ -62,7 +63,7 @@ def run(
     let_the_first_talk()
     print_warnings_once()
     with deck_errors():
-        loaded = read(deck, changes or ())
+        loaded = read(deck, changes or (), trust)
         chosen = solver or loaded.contents.solution.solver
         with on_all_ranks(chosen, petsc_options(ctx)):
             running.refuse_folder(chosen, out, overwrite=overwrite)

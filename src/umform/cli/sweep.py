@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from umform.cli.check import Changes, DeckFile, Force, deck_errors, read
+from umform.cli.check import Changes, DeckFile, Force, Trust, deck_errors, read
 from umform.cli.root import Debug, Verbose, app, console
 from umform.cli.warnings import print_warnings_once
 from umform.errors import FileProblem, InvalidValue
@@ -47,6 +47,7 @@ def sweep(
     files: Annotated[bool, typer.Option("--files", help="Write all files of the deck for each job.")] = False,
     retry: Annotated[bool, typer.Option("--retry", help="Repeat jobs that were refused or did not converge.")] = False,
     force: Force = False,
+    trust: Trust = False,
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
@@ -60,7 +61,7 @@ def sweep(
     print_warnings_once()
     with deck_errors():
         found = run_sweep(
-            read(deck, changes or ()),
+            read(deck, changes or (), trust),
             _axes(vary or []),
             jobs=None if jobs is None else _jobs(jobs),
             measures=measure or (),

@@ -14,8 +14,8 @@ from annotated_types import Ge, Gt, Le, MinLen
 from umform import _core
 from umform.errors import HardeningNotMonotone, InvalidValue
 from umform.materials.checks import check_finite
-from umform.spec import About, OneOf, check_fields
-from umform.spec.known import known
+from umform.materials.known import known
+from umform.spec import About, OneOf, Rule, check_fields
 from umform.spec.types import NotNegative, Positive
 
 YieldStress = Annotated[
@@ -34,7 +34,16 @@ class Hardening(Protocol):
 
 
 #: One of the curves; the word ``curve`` of a deck names it.
-Curve = Annotated[Hardening, OneOf("curve", partial(known, __package__, Hardening))]
+Curve = Annotated[
+    Hardening,
+    Rule(
+        lambda curve: callable(getattr(curve, "curve", None)) and not isinstance(curve, type),
+        "hardening must be a hardening curve",
+        cause="a number, or the name of a curve in place of a curve",
+        remedy="Perfect(160.0) or another of Linear, Voce, LinearVoce, Swift, Table",
+    ),
+    OneOf("curve", partial(known, Hardening)),
+]
 
 
 @dataclass(frozen=True)

@@ -49,8 +49,8 @@ class Kept:
         }
 
     @classmethod
-    def read(cls, checkpoint: Path) -> Kept:
-        """Content of the note of a checkpoint.
+    def read(cls, checkpoint: Path, trust: bool = False) -> Kept:
+        """Content of the note of a checkpoint; its deck may name classes of Python if it is trusted.
 
         Raises
         ------
@@ -70,5 +70,5 @@ class Kept:
         here, folder = checkpoint.parent, Path(note["folder"])
         if not folder.is_dir():
             folder = here / note["folder_from_here"]
-        deck = Problem.read(note["deck"], note["name"], folder, note["changes"])
+        deck = Problem.read(note["deck"], note["name"], folder, note["changes"], trust)
         return cls(deck, Path(os.path.normpath(here / note["out_from_here"])), note["solver"])

@@ -1,74 +1,52 @@
-"""The material of a deck: a law with its constants, or a sheet metal of the library."""
+"""The material of a deck: a law with its constants, or a sheet metal of the library, and the rolling direction."""
 
 from __future__ import annotations
 
-from contextlib import suppress
-from typing import Annotated, Literal
+from dataclasses import KW_ONLY, dataclass, field
+from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import Discriminator, Field, Tag, model_validator
-from pydantic_core import PydanticCustomError
+from annotated_types import MinLen
+from pydantic import Discriminator, Tag
 
-from umform import materials, sheet_metals
-from umform.errors import UmformError
+from umform import sheet_metals
+from umform.errors import InvalidValue
 from umform.materials import Material
-from umform.problem.elastic import Elastic
-from umform.problem.foreign import Compiled, Umat
-from umform.problem.metal import J2, Metal
-from umform.problem.parts import Part, tagged_by
+from umform.materials.laws import laws
 from umform.problem.rolling import RollingPart
+from umform.problem.tagged import table, tagged
 
 
-class SVK(Elastic):
-    """St. Venant-Kirchhoff, for small strains."""
+@dataclass(frozen=True)
+class LawPart:
+    """A law with its rolling direction."""
 
-    law: Literal["SVK"]
-    """The word SVK."""
+    law: Material
+    """The law."""
+    _: KW_ONLY
+    rolling: RollingPart | None = None
+    """Rolling direction, required by a material with directions: a direction, an angle to the bend line, or a file."""
 
-    def build(self) -> Material:
-        """The law."""
-        return materials.SVK(**self.constants())
-
-
-class NeoHooke(Elastic):
-    """Compressible neo-Hooke, logarithmic form."""
-
-    law: Literal["NeoHooke"]
-    """The word NeoHooke."""
-
-    def build(self) -> Material:
-        """The law."""
-        return materials.NeoHooke(**self.constants())
+    def __post_init__(self) -> None:
+        if self.rolling is None and getattr(self.law, "directional", False):
+            raise InvalidValue(
+                "a material with directions needs rolling",
+                where="rolling",
+                cause="it was left out",
+                remedy='rolling = "x", or { angle = 0 } to the bend line',
+            )
 
 
-class NeoHookePower(Elastic):
-    """Compressible neo-Hooke, power form."""
-
-    law: Literal["NeoHookePower"]
-    """The word NeoHookePower."""
-
-    def build(self) -> Material:
-        """The law."""
-        return materials.NeoHookePower(**self.constants())
-
-
-class FromLibrary(Part):
+@dataclass(frozen=True)
+class FromLibrary(LawPart):
     """A sheet metal of the library."""
 
-    library: Annotated[str, Field(min_length=1)]
+    law: Material = field(init=False)
+    library: Annotated[str, MinLen(1)]
     """Its name."""
-    rolling: RollingPart | None = None
-    """Rolling direction, required by an anisotropic metal: a direction, an angle to the bend line, or a file."""
 
-    @model_validator(mode="after")
-    def _knows_its_directions(self) -> FromLibrary:
-        with suppress(UmformError):  # an unknown name is refused when the law is built
-            if self.rolling is None and getattr(sheet_metals.get(self.library).law, "directional", False):
-                raise PydanticCustomError("rolling", 'a metal with directions needs rolling: rolling = "x"')
-        return self
-
-    def build(self) -> Material:
-        """The law of the sheet metal."""
-        return sheet_metals.get(self.library).law
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "law", sheet_metals.get(self.library).law)
+        super().__post_init__()
 
     @property
     def note(self) -> str:
@@ -76,23 +54,14 @@ class FromLibrary(Part):
         return sheet_metals.get(self.library).note
 
 
-MaterialPart = Annotated[
-    Annotated[SVK, Tag("SVK")]
-    | Annotated[NeoHooke, Tag("NeoHooke")]
-    | Annotated[NeoHookePower, Tag("NeoHookePower")]
-    | Annotated[J2, Tag("J2")]
-    | Annotated[Metal, Tag("Metal")]
-    | Annotated[Umat, Tag("UMAT")]
-    | Annotated[Compiled, Tag("Compiled")]
-    | Annotated[FromLibrary, Tag("library")],
-    Discriminator(
-        tagged_by("law", "library"),
-        custom_error_type="law",
-        custom_error_message="a material has law = SVK, NeoHooke, NeoHookePower, J2, Metal, UMAT or Compiled, or "
-        "library = a name",
-        custom_error_context={
-            "key": "law",
-            "expected_tags": "'SVK', 'NeoHooke', 'NeoHookePower', 'J2', 'Metal', 'UMAT', 'Compiled'",
-        },
-    ),
-]
+def _kind(value: Any) -> str:
+    return "library" if isinstance(value, FromLibrary) or (isinstance(value, dict) and "library" in value) else "law"
+
+
+if TYPE_CHECKING:
+    MaterialPart = LawPart
+else:
+    MaterialPart = Annotated[
+        Annotated[tagged("law", laws(), LawPart), Tag("law")] | Annotated[table(FromLibrary), Tag("library")],
+        Discriminator(_kind),
+    ]

@@ -16,6 +16,7 @@ from umform.problem.errors import ANY_CAUSE, ANY_REMEDY, DeckKey, nearest, short
 from umform.problem.lines import Path
 from umform.problem.places import placed
 from umform.problem.source import Source
+from umform.problem.tagged import OWN
 
 _UNIONS = (Union, types.UnionType)
 _BEYOND = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
@@ -86,7 +87,7 @@ def _message(found: Mapping[str, Any], source: Source) -> UmformError:
         meaning = f": {field.description}" if field and field.description else ""
         return _missing(source, path, str(loc[-1]), meaning)
     if kind in ("union_tag_not_found", "union_tag_invalid") or "key" in context:
-        return _wrong_kind(source, path, given, context)
+        return _wrong_kind(source, path, given, context, _words_at(loc))
     words = _quoted(context.get("expected", ""))
     return DeckKey(
         _plain(found["msg"]),
@@ -106,10 +107,10 @@ def _missing(source: Source, path: Path, key: str, meaning: str, cause: str = "i
     )
 
 
-def _wrong_kind(source: Source, path: Path, given: Any, context: Mapping[str, Any]) -> DeckKey:
+def _wrong_kind(source: Source, path: Path, given: Any, context: Mapping[str, Any], words: list[str]) -> DeckKey:
     """A table whose kind is missing or unknown."""
     key = str(context.get("key") or context.get("discriminator", "")).strip("'")
-    known = _quoted(str(context.get("expected_tags", "")))
+    known = _quoted(str(context.get("expected_tags", ""))) or words
     if not isinstance(given, dict):
         return DeckKey(
             "this should be a table",
@@ -169,11 +170,23 @@ def path_in(data: Any, loc: tuple[str | int, ...]) -> Path:
 
 def fields_at(loc: tuple[str | int, ...]) -> dict[str, FieldInfo]:
     """Known keys at a location of pydantic."""
+    kind = _kind_at(loc)
+    return dict(kind.model_fields) if isinstance(kind, type) and issubclass(kind, BaseModel) else {}
+
+
+def _words_at(loc: tuple[str | int, ...]) -> list[str]:
+    """Words that distinguish the tables that a location of pydantic may hold."""
+    kind = _kind_at(loc)
+    members = get_args(kind) if get_origin(kind) in _UNIONS else ()
+    return [str(word) for member in members for word in _tags(member)]
+
+
+def _kind_at(loc: tuple[str | int, ...]) -> Any:
+    """Type at a location of pydantic."""
     kind: Any = Contents
     for part in loc:
         kind = _inside(kind, part)
-    kind = _bare(kind)
-    return dict(kind.model_fields) if isinstance(kind, type) and issubclass(kind, BaseModel) else {}
+    return _bare(kind)
 
 
 def _inside(kind: Any, part: str | int) -> Any:
@@ -184,7 +197,7 @@ def _inside(kind: Any, part: str | int) -> Any:
         return field.annotation if field else None
     arguments = get_args(kind)
     if get_origin(kind) in _UNIONS:
-        return next((member for member in arguments if part in _tags(member)), None)
+        return next((member for member in arguments if part in _tags(member)), OWN.get(str(part)))
     if get_origin(kind) is dict:
         return arguments[1]
     return arguments[0] if arguments else None

@@ -46,6 +46,7 @@ class Problem:
         name: str = "deck",
         folder: str | Path = ".",
         changes: Mapping[str, Any] | None = None,
+        trust: bool = False,
     ) -> Problem:
         """Read a deck from its text.
 
@@ -59,13 +60,15 @@ class Problem:
             Folder of the files that it names.
         changes : mapping of str to object, optional
             Other values of some keys: ``{"steps.0.increments": 3}``.
+        trust : bool
+            Whether classes that it names as ``module:Class`` may be imported: they are code.
 
         Raises
         ------
         DeckError
             With all mistakes in it.
         """
-        return cls._read(parse(text, name, Path(folder), changes))
+        return cls._read(parse(text, name, Path(folder), changes, trust))
 
     @classmethod
     def _read(cls, source: Source, after: tuple[Path, ...] = ()) -> Problem:
@@ -76,7 +79,7 @@ class Problem:
         errors: list[UmformError] = [*_idle_trim(source)]
         contents = None
         try:
-            contents = Contents.model_validate(source.data, context={"folder": source.folder})
+            contents = Contents.model_validate(source.data, context={"folder": source.folder, "trust": source.trust})
         except ValidationError as error:
             errors += messages(error, source)
         errors += unknown_names(source)
@@ -143,10 +146,10 @@ def _before(source: Source, after: tuple[Path, ...]) -> Problem | None:
                 )
             ]
         )
-    return Problem._read(parse(read_file(path), path.name, path.parent), chain)
+    return Problem._read(parse(read_file(path), path.name, path.parent, trust=source.trust), chain)
 
 
-def load(path: str | Path, changes: Mapping[str, Any] | None = None) -> Problem:
+def load(path: str | Path, changes: Mapping[str, Any] | None = None, trust: bool = False) -> Problem:
     """Read a deck from a file.
 
     Parameters
@@ -155,6 +158,8 @@ def load(path: str | Path, changes: Mapping[str, Any] | None = None) -> Problem:
         The file.
     changes : mapping of str to object, optional
         Other values of some keys: ``{"steps.0.increments": 3}``.
+    trust : bool
+        Whether classes that it names as ``module:Class`` may be imported: they are code.
 
     Raises
     ------
@@ -169,4 +174,4 @@ def load(path: str | Path, changes: Mapping[str, Any] | None = None) -> Problem:
     >>> result = load("deck.toml").build().solve()  # doctest: +SKIP
     """
     path = Path(path)
-    return Problem.read(read_file(path), path.name, path.parent, changes)
+    return Problem.read(read_file(path), path.name, path.parent, changes, trust)

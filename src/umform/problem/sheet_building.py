@@ -9,13 +9,11 @@ from typing import Protocol
 from umform.elements import Rolling
 from umform.elements.technology import Element
 from umform.errors import UmformError
-from umform.materials import Material
 from umform.mesh import Mesh
 from umform.model import Model
 from umform.model.contact.kept import KeptContact
 from umform.problem.contents import Contents
 from umform.problem.errors import DeckError
-from umform.problem.foreign import Foreign
 from umform.problem.outline import Outlined
 from umform.problem.places import Place
 from umform.problem.rolling import direction
@@ -74,10 +72,10 @@ class SheetBuilder:
 
     def _model(self) -> Model | None:
         part = self.contents.element
-        element, mesh, material, rolling = self._element(), None, self._material(), self._rolling()
+        element, mesh, material, rolling = self._element(), None, self.contents.material.law, self._rolling()
         with self.at("mesh"):
             mesh = self._mesh(element.cell if element else "hex8")
-        if element is None or mesh is None or material is None or any("rolling" in e.where for e in self.errors):
+        if element is None or mesh is None or any("rolling" in e.where for e in self.errors):
             return None
         with self.at("element"):
             return Model(mesh, part.name, material=material, rolling=rolling, **part.of_spec())
@@ -99,7 +97,7 @@ class SheetBuilder:
 
     def _rolling(self) -> Rolling | None:
         """The rolling direction of a metal that has one."""
-        rolling = getattr(self.contents.material, "rolling", None)
+        rolling = self.contents.material.rolling
         if rolling is None:
             return None
         with self.at("material", "rolling"):
@@ -109,12 +107,6 @@ class SheetBuilder:
     def _element(self) -> Element | None:
         with self.at("element"):
             return self.contents.element.build()
-        return None
-
-    def _material(self) -> Material | None:
-        part = self.contents.material
-        with self.at("material"):
-            return part.build(self.source.folder) if isinstance(part, Foreign) else part.build()
         return None
 
     def at(self, *path: str | int) -> Place:

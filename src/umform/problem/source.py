@@ -32,6 +32,8 @@ class Source:
         Line of each key.
     changes : dict of str to object
         Keys whose values differ from the text.
+    trust : bool
+        Whether classes of Python that it names may be imported.
     """
 
     name: str
@@ -40,6 +42,7 @@ class Source:
     data: dict[str, Any]
     lines: Mapping[Path, int]
     changes: Mapping[str, Any]
+    trust: bool = False
 
     def place(self, path: Path) -> str:
         """File, line and key of a path."""
@@ -73,7 +76,7 @@ def read_file(path: str | File) -> str:
         raise FileProblem("the deck cannot be read", where=str(path), cause=cause, remedy=remedy) from None
 
 
-def parse(text: str, name: str, folder: File, changes: Mapping[str, Any] | None = None) -> Source:
+def parse(text: str, name: str, folder: File, changes: Mapping[str, Any] | None = None, trust: bool = False) -> Source:
     """Parse a deck.
 
     Parameters
@@ -86,6 +89,8 @@ def parse(text: str, name: str, folder: File, changes: Mapping[str, Any] | None 
         Folder of other files.
     changes : mapping of str to object, optional
         Other values of some keys: ``{"steps.0.increments": 3}``.
+    trust : bool
+        Whether classes of Python that it names may be imported.
 
     Raises
     ------
@@ -96,7 +101,7 @@ def parse(text: str, name: str, folder: File, changes: Mapping[str, Any] | None 
         data = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         raise DeckError([no_toml(text, name, error)]) from None
-    source = Source(name, folder, text, data, lines_of(text), dict(changes or {}))
+    source = Source(name, folder, text, data, lines_of(text), dict(changes or {}), trust)
     wrong = [problem for key, value in source.changes.items() if (problem := _change(data, key, value))]
     if wrong:
         raise DeckError(wrong)

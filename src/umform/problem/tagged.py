@@ -11,23 +11,21 @@ from contextlib import contextmanager
 from dataclasses import MISSING, is_dataclass
 from functools import cache, partial, reduce
 from operator import or_
+from pathlib import Path
 from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
 
-from pydantic import (
-    Discriminator,
-    Field,
-    Strict,
-    Tag,
-    ValidationInfo,
-    ValidatorFunctionWrapHandler,
-    WrapValidator,
-)
+from pydantic import Discriminator, Field, Strict, Tag, TypeAdapter, ValidationInfo, WrapValidator
+from pydantic import ValidatorFunctionWrapHandler as Handler
 from pydantic import create_model as model_of
+from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
 from umform.errors import UmformError
+from umform.problem.errors import DeckKey
+from umform.problem.keys import keys_of, note_of, plain, summary
+from umform.problem.own_classes import own_class
 from umform.problem.parts import Part
-from umform.spec import Inline, OneOf, Parameter, parameters
+from umform.spec import InDeck, Inline, OneOf, Parameter, parameters
 
 P = TypeVar("P", bound=Part)
 
@@ -35,6 +33,8 @@ P = TypeVar("P", bound=Part)
 _WRITTEN_AS: dict[Any, Any] = {}
 #: Values that a text of TOML gives; others are objects of Python.
 _WRITTEN = (dict, list, str, int, float)
+#: Tables of the classes of the user that decks have named, by their words.
+OWN: dict[str, Any] = {}
 
 
 def tagged(key: str, classes: Mapping[str, type], within: type | None = None) -> Any:
@@ -47,12 +47,12 @@ def tagged(key: str, classes: Mapping[str, type], within: type | None = None) ->
     classes : mapping of str to type
         Dataclasses by their words.
     within : type, optional
-        A dataclass around the object: it takes the object as its first field, and its other fields are further keys of
-        the same table.
+        A dataclass around the object: its first field, or the one that is `Inline`, takes the object, and its other
+        fields are further keys of the same table.
     """
     members = [table(spec, within, (key, word)) for word, spec in classes.items()]
     union = Annotated[reduce(or_, members), Field(discriminator=key)] if len(members) > 1 else members[0]
-    return Annotated[union, WrapValidator(partial(_object, within))]
+    return Annotated[union, WrapValidator(partial(_object, key, within))]
 
 
 @cache
@@ -68,14 +68,13 @@ def table(spec: type, within: type | None = None, tag: tuple[str, str] | None = 
     tag : tuple of str, optional
         A further key, and the word that it must have.
     """
-    own, around = parameters(spec), _around(within)
-    fields: dict[str, Any] = {one.name: (deck_type(one.hint), _field(one)) for one in [*own.values(), *around]}
-    module, text = spec.__module__, (spec.__doc__ or "").partition("\n\n")[0]
+    fields: dict[str, Any] = dict(key for one in [*_own(spec), *_around(within)] for key in _keys(one))
+    module = spec.__module__
     if tag:
         module += f".{tag[0]}"
         fields = {tag[0]: (Literal[tag[1]], Field(description=f"The word {tag[1]}."))} | fields
-    keys = model_of(spec.__name__, __base__=Part, __doc__=" ".join(text.split()), __module__=module, **fields)
-    return Annotated[keys, WrapValidator(partial(_made, spec, within, tuple(own)))]
+    keys = model_of(spec.__name__, __base__=Part, __doc__=summary(spec), __module__=module, **fields)
+    return Annotated[keys, WrapValidator(partial(_made, spec, within))]
 
 
 def with_keys(spec: type, leave: Sequence[str] = (), **names: str) -> Callable[[type[P]], type[P]]:
@@ -90,14 +89,12 @@ def with_keys(spec: type, leave: Sequence[str] = (), **names: str) -> Callable[[
     **names : str
         Keys that have other names than their fields.
     """
-    chosen = {name: one for name, one in parameters(spec).items() if name not in leave}
+    chosen = [one for one in _own(spec) if one.name not in leave]
 
     def add(part: type[P]) -> type[P]:
-        fields: dict[str, Any] = {
-            names.get(name, name): (deck_type(one.hint), _field(one)) for name, one in chosen.items()
-        }
+        fields: dict[str, Any] = {names.get(key, key): kind for one in chosen for key, kind in _keys(one)}
         made = model_of(part.__name__, __base__=part, __doc__=part.__doc__, __module__=part.__module__, **fields)
-        made.spec_keys = {name: names.get(name, name) for name in chosen}
+        made.spec_keys = {one.name: names.get(one.name, one.name) for one in chosen}
         return made
 
     return add
@@ -121,9 +118,14 @@ def deck_type(hint: Any) -> Any:
     if hint in _WRITTEN_AS:
         return _WRITTEN_AS[hint]
     origin, inner = get_origin(hint), get_args(hint)
+    if note_of(hint, FieldInfo) or note_of(hint, Discriminator):  # a type of pydantic
+        return hint
     if origin is Annotated:
-        chosen = next((note for note in inner[1:] if isinstance(note, OneOf)), None)
-        return tagged(chosen.key, chosen.classes()) if chosen else Annotated[(deck_type(inner[0]), *inner[1:])]
+        if choice := note_of(hint, OneOf):
+            return tagged(choice.key, choice.classes())
+        if other := note_of(hint, InDeck):
+            return deck_type(other.kind)
+        return Annotated[(deck_type(inner[0]), *inner[1:])]
     if origin in (Union, types.UnionType):
         return _union([deck_type(arm) for arm in inner if arm is not type(None)], type(None) in inner)
     if origin in (tuple, Sequence):
@@ -134,13 +136,47 @@ def deck_type(hint: Any) -> Any:
     return Any if hint is object else hint
 
 
+def _own(spec: type) -> Sequence[Parameter]:
+    """Fields of a class."""
+    return list(parameters(spec).values())
+
+
+def _inner(within: type) -> Parameter:
+    """The field of a class around an object that holds it."""
+    return next((one for one in _own(within) if note_of(one.hint, Inline)), _own(within)[0])
+
+
+def _around(within: type | None) -> Sequence[Parameter]:
+    """Its other fields."""
+    return [one for one in _own(within) if one is not _inner(within)] if within else []
+
+
+def _keys(one: Parameter) -> Iterator[tuple[str, tuple[Any, Any]]]:
+    """Keys of a field with their types: one, or one for each of its classes."""
+    choice, other = note_of(one.hint, OneOf), note_of(one.hint, InDeck)
+    if choice and not choice.key:
+        for key, spec in choice.classes().items():
+            yield key, (table(spec) | None, Field(None, description=summary(spec)))
+        return
+    default = keys_of(one.hint, one.factory()) if one.factory else one.default
+    if default is MISSING or (other and other.needed):
+        default = ...
+    kind = deck_type(one.hint) | None if default is None else deck_type(one.hint)
+    yield (other.key if other else "") or one.name, (kind, Field(default, description=plain(one.sentence)))
+
+
 def _union(arms: Sequence[Any], optional: bool) -> Any:
     """One of several notations, so that only the errors of one are reported."""
     one = arms[0]
     if len(arms) > 1:
-        noted = [Annotated[arm, Tag(_notation(arm))] for arm in arms]
-        one = Annotated[reduce(or_, noted), Discriminator(_notation)]
+        one = _either({_notation(arm): arm for arm in arms}, _notation)
     return one | None if optional else one
+
+
+def _either(arms: Mapping[str, Any], which: Callable[[Any], str]) -> Any:
+    """One of several types, by their tags."""
+    noted = [Annotated[arm, Tag(tag)] for tag, arm in arms.items()]
+    return Annotated[reduce(or_, noted), Discriminator(which)]
 
 
 def _notation(value: Any) -> str:
@@ -154,35 +190,16 @@ def _notation(value: Any) -> str:
     return "number" if kind in (int, float, bool) else "array" if kind in (list, tuple) else "table"
 
 
-def _field(one: Parameter) -> Any:
-    """Default and text of a key."""
-    default = ... if one.default is MISSING else one.default
-    return Field(default, description=one.sentence)
-
-
-def _made(spec: type, within: type | None, own: Sequence[str], value: Any, read: ValidatorFunctionWrapHandler) -> Any:
+def _made(spec: type, within: type | None, value: Any, read: Handler, info: ValidationInfo) -> Any:
     """The object that a table describes."""
     if not isinstance(value, _WRITTEN):
         return value
     keys = read(value)
-    given = {name: getattr(keys, name) for name in keys.model_fields_set}
+    given = {key: getattr(keys, key) for key in keys.model_fields_set}
     with refused():
-        made = spec(**{name: given[name] for name in own if name in given})
-        if within is None:
-            return made
-        beside = {one.name: given[one.name] for one in _around(within) if one.name in given}
-        return within(**{_inner(within).name: made}, **beside)
-
-
-def _inner(within: type) -> Parameter:
-    """The field that holds the object."""
-    every = list(parameters(within).values())
-    return next((one for one in every if any(isinstance(note, Inline) for note in get_args(one.hint))), every[0])
-
-
-def _around(within: type | None) -> list[Parameter]:
-    """The other fields of a class around an object."""
-    return [one for one in parameters(within).values() if one is not _inner(within)] if within else []
+        made = spec(**_arguments(_own(spec), given, info.context or {}))
+        beside = _arguments(_around(within), given, {})
+        return within(**{_inner(within).name: made}, **beside) if within else made
 
 
 @contextmanager
@@ -194,8 +211,34 @@ def refused() -> Iterator[None]:
         raise PydanticCustomError("object", "{error}", {"error": error}) from None
 
 
-def _object(within: type | None, value: Any, read: ValidatorFunctionWrapHandler, info: ValidationInfo) -> Any:
-    """An object of Python as it is, and what a table describes."""
-    if isinstance(value, _WRITTEN):
+def _arguments(fields: Sequence[Parameter], given: Mapping[str, Any], context: Mapping[str, Any]) -> dict[str, Any]:
+    """Arguments of a class from the keys of a table."""
+    arguments = {}
+    for one in fields:
+        choice, other = note_of(one.hint, OneOf), note_of(one.hint, InDeck)
+        keys = choice.classes() if choice and not choice.key else [(other.key if other else "") or one.name]
+        found = [given[key] for key in keys if given.get(key) is not None]
+        if len(found) > 1:
+            raise DeckKey(
+                f"give {' or '.join(keys)}, not both",
+                where=list(keys)[-1],
+                cause="two tables for one thing",
+                remedy="take one of them out",
+            )
+        if found:
+            arguments[one.name] = Path(context.get("folder", "")) / found[0] if other and other.path else found[0]
+    return arguments
+
+
+def _object(key: str, within: type | None, value: Any, read: Handler, info: ValidationInfo) -> Any:
+    """An object of Python as it is, and what a table describes, also one of a class of the user."""
+    if not isinstance(value, _WRITTEN):
+        return within(value) if within and not isinstance(value, within) else value
+    word = value.get(key) if isinstance(value, dict) else None
+    if not isinstance(word, str) or ":" not in word:
         return read(value)
-    return within(value) if within and not isinstance(value, within) else value
+    with refused():
+        own: Any = table(own_class(key, word, info.context or {}), within, (key, word))
+    OWN[word] = own
+    alone = _either({word: own, "": None}, lambda _: word)
+    return TypeAdapter(alone).validate_python(value, context=info.context)

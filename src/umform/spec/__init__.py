@@ -12,8 +12,19 @@ mistake to a type, and `umform.spec.types` has the usual types:
 the help of a command starts quickly.
 """
 
-from umform.spec.choice import Inline, OneOf
+from umform.spec.in_deck import InDeck, Inline, OneOf
 from umform.spec.parameter import About, Parameter, parameters
 from umform.spec.rule import Checked, Rule, check_fields, check_value
 
-__all__ = ["About", "Checked", "Inline", "OneOf", "Parameter", "Rule", "check_fields", "check_value", "parameters"]
+__all__ = [
+    "About",
+    "Checked",
+    "InDeck",
+    "Inline",
+    "OneOf",
+    "Parameter",
+    "Rule",
+    "check_fields",
+    "check_value",
+    "parameters",
+]

@@ -10,7 +10,7 @@ import re
 import sys
 import textwrap
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import Field, dataclass, field, fields
+from dataclasses import MISSING, Field, dataclass, field, fields
 from functools import cache, reduce
 from itertools import pairwise
 from numbers import Integral, Real
@@ -119,11 +119,13 @@ class Parameter:
     kinds : tuple of Kind
         Types that it may have.
     optional : bool
-        Whether it may be None, or left out because others determine it.
+        Whether it may be None.
     about : About
         Unit and likely mistake.
     hint : object
         The annotation.
+    factory : callable or None
+        Makes the default.
     """
 
     name: str
@@ -133,17 +135,23 @@ class Parameter:
     optional: bool = False
     about: About = field(default_factory=About)
     hint: Any = None
+    factory: Callable[[], Any] | None = None
 
     def fits(self, value: Any) -> bool:
         """Whether a value is valid."""
         if value is None:
-            return self.optional
+            return self.absent
         kind = self.kind_of(value)
         return kind is not None and all(rule.fits(value) for rule in kind.rules)
 
     def kind_of(self, value: Any) -> Kind | None:
         """The first type that a value has within its bounds."""
         return None if value is None else next((kind for kind in self.kinds if kind.fits(value)), None)
+
+    @property
+    def absent(self) -> bool:
+        """Whether a value may be missing: it is optional, or others determine it."""
+        return self.optional or self.default is None
 
     @property
     def most(self) -> Any:
@@ -156,6 +164,11 @@ class Parameter:
         """The first clause of the sentence, within a sentence."""
         clause = self._clauses[0]
         return clause if clause[:2].isupper() else clause[:1].lower() + clause[1:]
+
+    @property
+    def subject(self) -> str:
+        """The same with its article, which the name of a person does not have."""
+        return self._clauses[0] if re.match(r"[A-Z]\w*'s ", self.sentence) else f"the {self.noun}"
 
     @property
     def text(self) -> str:
@@ -198,8 +211,9 @@ def _parameter(spec: type, one: Field[Any], sentence: str) -> Parameter:
     extras = [extra for _, more in arms for extra in more]
     abouts = [extra for extra in extras if isinstance(extra, About)]
     about = reduce(_over, abouts, About())
-    optional = one.default is None or len(kinds) < len(arms)
-    return Parameter(one.name, one.default, sentence, kinds, optional, about, hint)
+    optional = len(kinds) < len(arms)
+    factory = None if one.default_factory is MISSING else one.default_factory
+    return Parameter(one.name, one.default, sentence, kinds, optional, about, hint, factory)
 
 
 def _over(under: About, over: About) -> About:

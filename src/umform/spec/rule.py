@@ -95,11 +95,11 @@ def check_value(spec: type, name: str, value: Any) -> None:
         ``where`` is the name of the field.
     """
     parameter = parameters(spec)[name]
-    if value is None and parameter.optional:
+    if value is None and parameter.absent:
         return
     kind = parameter.kind_of(value)
     if kind is None:
-        subject = name if bool in (kind.type for kind in parameter.kinds) else f"the {parameter.noun}"
+        subject = name if bool in (kind.type for kind in parameter.kinds) else parameter.subject
         what = f"{subject} must be {parameter.must_be}"
         raise _error(what, name, value, parameter.about.cause, parameter.remedy, parameter.about.error)
     for rule in kind.rules:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from annotated_types import Ge, Gt, Le, Lt, MinLen
 
 from umform.spec.parameter import About
 
 _MISSING = "a sign, or a missing value"
+
+#: Default of a parameter that follows from others.
+FOLLOWS: Any = None
 
 #: A length in mm.
 Length = Annotated[float, Gt(0.0), About("mm", cause=_MISSING)]

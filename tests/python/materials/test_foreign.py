@@ -312,7 +312,7 @@ def test_a_compiled_law_in_a_run(elastic):
     cells = uf.fields.cell_fields(model)
     assert (cells["count"] == 2.0).all()
     assert cells["clock"] == pytest.approx(1.0)
-    assert material_text(model.material) == "compiled law, 5 properties, 2 state variables"
+    assert material_text(model.material) == "compiled law elastic, 5 properties, 2 state variables"
     mesh = uf.mesh.strip(length=2.0, width=1.0, thickness=1.0, cells=(2, 1))
     seen = uf.Model(mesh, material=compiled(elastic, sees_points=True), rolling=(0.6, 0.8, 0))
     seen.fix("x0")
@@ -400,7 +400,7 @@ def test_what_is_refused_before_a_run(elastic, kinematic, tmp_path):
         (lambda: uf.Umat(kinematic, state=1, initial=[math.nan]), NotFinite, "initial"),
         (lambda: uf.CompiledLaw(lambda E: E), InvalidValue, "needs a C function"),
         (lambda: uf.CompiledLaw("elastic"), InvalidValue, "needs a C function"),
-        (lambda: compiled(elastic, strain="small"), InvalidValue, "logarithmic or Green-Lagrange"),
+        (lambda: compiled(elastic, strain="small"), InvalidValue, "must be logarithmic or green-lagrange"),
     ):
         with pytest.raises(kind, match=message) as refusal:
             make()
@@ -466,7 +466,7 @@ def test_decks(kinematic, elastic):
     [
         ('"kinematic.so"', '"none.so"', "library of a law does not exist"),
         ("energies = true", 'symbol = "other"', "does not have the function"),
-        ('rolling = "x"', "", "rolling direction"),
+        ('rolling = "x"', "", "needs rolling"),
         ("eqps = 1", "eqps = 0", "eqps"),
         ("state = {", "states = {", "unknown"),
     ],

@@ -77,7 +77,7 @@ def test_rotation_of_the_sheet_changes_nothing():
 @pytest.mark.parametrize(
     ("make", "text"),
     [
-        (lambda: mt.Hill48(r0=-0.5, r45=1, r90=1), "r0 must be positive"),
+        (lambda: mt.Hill48(r0=-0.5, r45=1, r90=1), "r-value along the rolling direction must be positive"),
         (lambda: mt.Hill48.from_stresses(1, 1, 1.9, 2.4), "not convex"),
         (lambda: mt.Hill48.from_stresses(1, 2.5, 1, 1), "not convex"),
         (lambda: mt.Hosford(1.5), "from 2 to 20"),

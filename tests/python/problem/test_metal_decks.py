@@ -89,7 +89,11 @@ def test_all_parts_are_built():
         ({'rolling = "x"': ""}, "material", "rolling"),
         ({'rolling = "x"': 'rolling = "z"'}, "material.rolling", "stands on the sheet"),
         ({'rolling = "x"': 'rolling = "q"'}, "material.rolling", "x, y, z, -x, -y or -z"),
-        ({HILL: 'yield_function = { function = "Yld91", a = -1.0, b = 1.0, c = 1.0 }'}, "Yld91", "positive"),
+        (
+            {HILL: 'yield_function = { function = "Yld91", a = -1.0, b = 1.0, c = 1.0 }'},
+            "yield_function.a",
+            "greater than 0",
+        ),
         ({BACK: f"back_stress = {{ parts = [{', '.join(['[1.0, 1.0]'] * 5)}] }}"}, "parts", "an entry too many"),
         ({"time = 0.25": "time = 0.0"}, "steps[0].time", "greater than 0"),
     ],

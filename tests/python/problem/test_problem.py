@@ -69,7 +69,7 @@ CURVES = {
 @pytest.mark.parametrize("curve", CURVES)
 def test_hardening(curve, strip):
     text = strip.replace('"SVK"', '"J2"').replace("nu = 0.3", f"nu = 0.3\nhardening = {{ {CURVES[curve]} }}")
-    material = Problem.read(text).contents.material.build()
+    material = Problem.read(text).contents.material.law
     assert isinstance(material, J2)
     value = material.hardening.curve()(0.05)[0]
     expected = {
@@ -85,7 +85,7 @@ def test_hardening(curve, strip):
 
 @pytest.mark.parametrize("law", ["SVK", "NeoHooke", "NeoHookePower"])
 def test_elastic_laws(law, strip):
-    material = Problem.read(strip.replace('"SVK"', f'"{law}"')).contents.material.build()
+    material = Problem.read(strip.replace('"SVK"', f'"{law}"')).contents.material.law
     assert type(material).__name__ == law
     assert (material.E, material.nu) == pytest.approx((210e3, 0.3))
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from umform.elements import element
 from umform.errors import InvalidValue
-from umform.problem.material_keys import law_keys
+from umform.problem.keys import law_keys
 from umform.problem.written import Entry, deck_text
 from umform.processes.air_bending.brake import OPTIONS, loading, unloading_keys
 from umform.processes.air_bending.goal import needed_stroke

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from umform.problem.material_keys import law_keys
+from umform.problem.keys import law_keys
 from umform.problem.written import Entry, deck_text
 from umform.processes.bending.case import law_of
 from umform.processes.bending.spec import RECONSTRUCTION, FreeBending

@@ -89,7 +89,7 @@ def job(
     """
     source = deck.source
     all_changes = {**source.changes, **changes, **({} if files else _NUMBERS_ONLY)}
-    changed = Problem.read(source.text, source.name, source.folder.resolve(), all_changes)
+    changed = Problem.read(source.text, source.name, source.folder.resolve(), all_changes, source.trust)
     words = "_".join(f"{name.split('.')[-1]}-{_word(value)}" for name, value in varied.items())
     name = f"{re.sub(r'[^A-Za-z0-9_.+-]+', '-', words)[:60]}-{_fingerprint(changed)}"
     return Job(changed, varied, folder / name, **options)
@@ -150,7 +150,9 @@ def _outcome(job: Job) -> running.Outcome:
     checkpoint = job.folder / CHECKPOINT
     if checkpoint.is_file():
         try:
-            return running.resume(checkpoint, Kept.read(checkpoint), job.folder, progress=False, overwrite=True)
+            return running.resume(
+                checkpoint, Kept.read(checkpoint, job.deck.source.trust), job.folder, progress=False, overwrite=True
+            )
         except FileProblem:  # a run from the start needs no checkpoint
             checkpoint.unlink(missing_ok=True)
     refuse = partial(running.refuse_implausible, job.deck, force=job.force)

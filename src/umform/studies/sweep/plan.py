@@ -122,7 +122,7 @@ def make_plan(
         None of the decks can be read.
     """
     data = Problem.read(
-        deck.source.text, deck.source.name, deck.source.folder, {**deck.source.changes, **changes}
+        deck.source.text, deck.source.name, deck.source.folder, {**deck.source.changes, **changes}, deck.source.trust
     ).source.data
     varied = list(dict.fromkeys([*(name for values in jobs or () for name in values), *vary]))
     keys = {name: find_key(name, data) for name in varied}

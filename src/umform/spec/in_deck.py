@@ -1,9 +1,10 @@
-"""Fields that hold an object of one of several classes, and how a deck names the class."""
+"""How a deck writes a field, where type and name of the field do not say it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -25,3 +26,25 @@ class OneOf:
 
     key: str
     classes: Callable[[], Mapping[str, type]]
+
+
+@dataclass(frozen=True)
+class InDeck:
+    """Annotation of a field that a deck writes otherwise.
+
+    Attributes
+    ----------
+    kind : object
+        Type of its value in a deck.
+    key : str
+        Its key in a deck; empty for the name of the field.
+    path : bool
+        Whether it is a path from the folder of the deck.
+    needed : bool
+        Whether a deck must have it although Python has a default.
+    """
+
+    kind: Any
+    key: str = ""
+    path: bool = False
+    needed: bool = False
