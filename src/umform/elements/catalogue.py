@@ -16,6 +16,7 @@ from umform.elements.plane_strain import in_plane_strain
 from umform.elements.technology import Element, Mode, Term, Tying
 from umform.elements.through_thickness import MOST_POINTS
 from umform.errors import InvalidValue
+from umform.spec import takes
 
 _A = 1.0 / math.sqrt(3.0)
 _B = math.sqrt(3.0 / 5.0)
@@ -212,6 +213,7 @@ CATALOGUE: dict[str, Callable[..., Element]] = {
 }
 
 
+@takes(ElementOptions)
 def element(name: str | Element, **options: Any) -> Element:
     """An element of the catalogue.
 

@@ -15,6 +15,7 @@ from umform.model.contact.pair import Contact
 from umform.model.term import Term
 from umform.model.tool import Tool
 from umform.model.touched import Touched
+from umform.spec import takes
 
 
 class Beaded(Touched):
@@ -30,6 +31,7 @@ class Beaded(Touched):
         """All terms that involve tools: contacts, and beads."""
         return [*self.contacts, *(term for term in self.others if isinstance(term, Bead))]
 
+    @takes(BeadOptions, "curve")
     def bead(
         self,
         faces: Selector,

@@ -24,6 +24,7 @@ from umform.model.failing_point import at_failing_point
 from umform.model.selected_cells import Cells, cell_numbers
 from umform.model.term import At, Energies, Found, Into, Term, Tree
 from umform.model.through_thickness import completed, points_through
+from umform.spec import takes
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
@@ -80,6 +81,7 @@ class Body(Term):
     timed_as = "elements"
     fixed = ("element", "material", "thickness_points", "thickness_rule", "rolling")
 
+    @takes(BodyOptions)
     def __init__(
         self,
         element: str | Element = "ANS3DEAS",

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.elements import Element, Rolling
+from umform.elements import BodyOptions, Element, Rolling
 from umform.errors import InvalidValue
 from umform.materials import Material
 from umform.mesh import Mesh, Selector
@@ -27,6 +27,7 @@ from umform.model.standing import Standing
 from umform.model.support import Support
 from umform.model.tool import Tool
 from umform.model.tool_controls import ToolForce
+from umform.spec import takes
 
 
 class Model(Standing):
@@ -77,6 +78,7 @@ class Model(Standing):
 
     carries_loose_sheet = True
 
+    @takes(BodyOptions)
     def __init__(
         self,
         mesh: Mesh,

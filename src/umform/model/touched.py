@@ -17,6 +17,7 @@ from umform.model.contact.settings import ContactOptions, contact_settings
 from umform.model.now import Now
 from umform.model.tool import Tool
 from umform.model.tooled import Tooled
+from umform.spec import takes
 from umform.surfaces import Surface, UserSurface
 from umform.surfaces.user_check import check_beside
 
@@ -54,6 +55,7 @@ class Touched(Tooled):
         self.tools.append(tool)
         return tool
 
+    @takes(ContactOptions)
     def contact(
         self,
         faces: Selector,

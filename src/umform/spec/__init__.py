@@ -15,6 +15,7 @@ the help of a command starts quickly.
 from umform.spec.in_deck import InDeck, Inline, OneOf
 from umform.spec.parameter import About, Parameter, parameters
 from umform.spec.rule import Checked, Rule, check_fields, check_value
+from umform.spec.takes import takes
 
 __all__ = [
     "About",
@@ -27,4 +28,5 @@ __all__ = [
     "check_fields",
     "check_value",
     "parameters",
+    "takes",
 ]

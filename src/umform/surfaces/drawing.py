@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 from annotated_types import Gt, Lt
 
-from umform.spec import About, check_fields
+from umform.spec import About, check_fields, takes
 from umform.spec.types import Positive, Text
 from umform.surfaces.cad import CadTool
 from umform.surfaces.triangulated import Triangulated
@@ -57,6 +57,7 @@ class Drawing:
         return CadTool.read(path, tolerance=self.tolerance, open=self.open, sharp=sharp, scale=self.scale)
 
 
+@takes(Drawing, "file")
 def read_tool(path: str | Path, **options: Any) -> CadTool | Triangulated:
     """A tool from a STEP, IGES or STL file.
 
