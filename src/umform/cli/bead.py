@@ -12,7 +12,7 @@ import typer
 
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
-from umform.cli.options import SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
+from umform.cli.options import SOLUTION, Curve, FlowCurve, Material, Modulus, Poisson, Yield, Young, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.run_checks import show_checks
 from umform.cli.timing import Timed, show_timing
@@ -37,7 +37,7 @@ def bead(
     poisson: Poisson = None,
     yield_stress: Yield = None,
     hardening_modulus: Modulus = None,
-    swift: SwiftCurve = None,
+    curve: Curve = None,
     flow_curve: FlowCurve = None,
     extrapolate: Annotated[
         bool,
@@ -62,7 +62,7 @@ def bead(
     from umform.processes.draw_bead.files import FILES, RESULTS, write_files
 
     print_warnings_once()
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, given["thickness"])
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     case = DrawBead(**given, material=law)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/bead"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))

@@ -16,7 +16,7 @@ from umform.cli.drawn_tools import drawn_tools
 from umform.cli.given import Given, given_by
 from umform.cli.goals import check_goal, check_length, check_no_goal, check_press, strokes_of
 from umform.cli.metal import law_of
-from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
+from umform.cli.options import SHEET, SOLUTION, Curve, FlowCurve, Material, Modulus, Poisson, Yield, Young, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.sequence import run_sequence
 from umform.cli.timing import Timed, show_timing
@@ -63,7 +63,7 @@ def bend(
     poisson: Poisson = None,
     yield_stress: Yield = None,
     hardening_modulus: Modulus = None,
-    swift: SwiftCurve = None,
+    curve: Curve = None,
     flow_curve: FlowCurve = None,
     processes: Annotated[int | None, option("Runs of the budget at a time.", SOLUTION)] = None,
     print_deck: Annotated[
@@ -101,7 +101,7 @@ def bend(
         from umform.pool import check_processes  # the import is slow
 
         check_processes(processes)
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, given["thickness"])
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     tools = drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer)
     case = AirBending(**{**given, "stroke": stroke}, **tools, material=law)
     if sequence is not None:

@@ -12,7 +12,7 @@ import typer
 
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
-from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
+from umform.cli.options import SHEET, SOLUTION, Curve, FlowCurve, Material, Modulus, Poisson, Yield, Young, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.run_checks import show_checks
 from umform.cli.timing import Timed, show_timing
@@ -86,7 +86,7 @@ def cup(
     poisson: Poisson = None,
     yield_stress: Yield = None,
     hardening_modulus: Modulus = None,
-    swift: SwiftCurve = None,
+    curve: Curve = None,
     flow_curve: FlowCurve = None,
     limit_curve: LimitCurve = None,
     overwrite: Overwrite = False,
@@ -101,7 +101,7 @@ def cup(
     from umform.processes.draw.case import draw
 
     given = _on_mesh(Cup, given, coarse, fine)
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, given["thickness"])
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     given |= {"punch_radius": 0.5 * punch, "blank_radius": 0.5 * blank, "holder_force": given["holder_force"] or None}
     case = Cup(**given, die_radius=None if opening is None else 0.5 * opening, material=law)
     _run(case, draw, out, "cup", note, limit_curve, overwrite=overwrite, timing=timing)
@@ -119,7 +119,7 @@ def u(
     poisson: Poisson = None,
     yield_stress: Yield = None,
     hardening_modulus: Modulus = None,
-    swift: SwiftCurve = None,
+    curve: Curve = None,
     flow_curve: FlowCurve = None,
     limit_curve: LimitCurve = None,
     extrapolate: Annotated[
@@ -143,7 +143,7 @@ def u(
     from umform.processes.draw.three_meshes import extrapolated
 
     given = _on_mesh(UBend, given, coarse, fine)
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, given["thickness"])
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     case = UBend(**given, material=law)
     three = not coarse if extrapolate is None else extrapolate
     how = extrapolated if three else draw

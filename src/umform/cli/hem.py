@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from umform.cli.metal import law_of
-from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
+from umform.cli.options import SHEET, SOLUTION, Curve, FlowCurve, Material, Modulus, Poisson, Yield, Young, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.run_checks import show_checks
 from umform.cli.warnings import echo_warnings, print_warnings_once
@@ -46,7 +46,7 @@ def hem(
     poisson: Poisson = None,
     yield_stress: Yield = None,
     hardening_modulus: Modulus = None,
-    swift: SwiftCurve = None,
+    curve: Curve = None,
     flow_curve: FlowCurve = None,
     layers: Annotated[int, option("Elements through the thickness.", SOLUTION)] = 2,
     elements_per_thickness: Annotated[float, option("Elements per thickness along the sheet.", SOLUTION)] = 3.0,
@@ -69,7 +69,7 @@ def hem(
         return thicknesses * thickness if given is None else given
 
     print_warnings_once()
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, thickness)
     sheet = AirBending(
         thickness=thickness,
         opening=size(opening, 8.0),

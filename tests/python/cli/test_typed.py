@@ -14,7 +14,7 @@ TYPED = [
     ("bend --stroke 3 --material AA6016-T4", 1, ["--rolling 90 for", "--rolling 0 for"]),
     ("bend --stroke 3 --punch-radius 20", 1, ["a smaller --punch-radius"]),
     ("bend --stroke 3 --element FOO", 1, ["where:  --element", "cause:"]),
-    ("bend --stroke 3 --material S690", 1, ["where:  --material", "umform metal list", "--swift", "cause:"]),
+    ("bend --stroke 3 --material S690", 1, ["where:  --material", "umform metal list", "--curve", "cause:"]),
     ("metal show S690", 1, ["where:  umform metal show", "umform metal list"]),
     ("bend --stroke 3 --material DC04 --yield-stress 200", 1, ["cause:", "leave one of them out"]),
     ("bend --stroke 3 --swift 520,0.004", 1, ["2 numbers are given", "520,0.004,0.22"]),

@@ -158,17 +158,16 @@ def columns_of(path):
         return dict(zip(header, np.loadtxt(file, delimiter=",").T, strict=True))
 
 
-@dataclass(frozen=True)
-class OwnCurve:
-    """A hardening curve that decks have no words for."""
-
-    stress: float
-
-    def curve(self):
-        return Perfect(self.stress).curve()
-
-
 def test_a_curve_of_the_user_leaves_out_the_deck(tmp_path, bend):
+    @dataclass(frozen=True)
+    class OwnCurve:
+        """A curve that no module has: decks have no words for it."""
+
+        stress: float
+
+        def curve(self):
+            return Perfect(self.stress).curve()
+
     case = replace(bend.case, material=J2(E=210e3, nu=0.3, hardening=OwnCurve(200.0)))
     with pytest.raises(InvalidValue, match="no words"):
         deck_of(case)
