@@ -135,3 +135,14 @@ def test_a_ready_tool_is_its_profile(rng):
 def test_tools_that_are_none_are_refused(make, message):
     with pytest.raises(InvalidValue, match=message):
         make().kernel()
+
+
+def test_radii_and_direction_of_tools_that_are_moved_or_offset():
+    die = VDie(10, 90, 2.0)
+    assert list(die.convex_radii()) == list(die.moved((1, 2, 3)).convex_radii()) == [2.0]
+    assert [list(die.offset(d).convex_radii()) for d in (0.5, -3.0)] == [[2.5], [0.0]]
+    assert list(die.counterpart(1.0).convex_radii()) == []
+    np.testing.assert_allclose(die.along(), (0.0, -1.0, 0.0), atol=1e-15)
+    np.testing.assert_allclose(die.moved(rotation=(0.0, 0.0, math.pi / 2)).along(), (1.0, 0.0, 0.0), atol=1e-15)
+    assert sorted(WipingDie(1.5).extruded().convex_radii()) == [1.5]
+    assert list(WipingDie(0.0).extruded().convex_radii()) == [0.0]
