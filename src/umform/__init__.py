@@ -153,5 +153,5 @@ def __dir__() -> list[str]:
 
 def _materials() -> Iterable[str]:
     """Names of materials; a new class there is a new name here."""
-    names: Iterable[str] = importlib.import_module("umform.materials").names()
+    names: Iterable[str] = importlib.import_module("umform.materials").public()
     return names

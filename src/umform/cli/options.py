@@ -31,3 +31,13 @@ Curve = Annotated[
     ),
 ]
 FlowCurve = Annotated[Path | None, option("Measured hardening: a CSV file of plastic strain and true stress.", SHEET)]
+PrintDeck = Annotated[
+    bool, typer.Option("--print-deck", help="Print the problem as a deck for `umform run`, and run nothing else.")
+]
+
+
+def print_deck(case: Any) -> None:
+    """Print the problem of a case as a deck."""
+    from umform.processes.problems import problem_of
+
+    typer.echo(problem_of(case).toml(), nl=False)

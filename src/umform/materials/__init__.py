@@ -36,10 +36,22 @@ _HOME = {
 }
 
 
+#: Names of this package only: interfaces and results.
+_INNER = {
+    *("Elastic", "Hardening", "Material", "Plastic", "PointPath", "Points", "RateFactor", "SmallStrainLaw"),
+    *("TangentCheck", "YieldFunction", "EnergyFunction", "Floats", "LawFunction", "point_path", "tension"),
+}
+
+
 @cache
 def names() -> dict[str, str]:
     """Module of each public name."""
     return classes_in(__name__) | _HOME
+
+
+def public() -> list[str]:
+    """Names that stand in umform, too; those of new classes are among them."""
+    return [name for name in names() if name not in _INNER]
 
 
 def __getattr__(name: str) -> object:

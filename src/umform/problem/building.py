@@ -10,6 +10,7 @@ from umform.model import Model
 from umform.model.contact import Contact
 from umform.model.control import Control
 from umform.model.support import Support
+from umform.model.tool import Tool as RigidTool
 from umform.problem.contents import Contents
 from umform.problem.errors import DeckError
 from umform.problem.measure_checks import check_measures
@@ -109,12 +110,18 @@ class _Builder(SheetBuilder):
         return {}
 
     def _contacts(self, model: Model, tools: dict[str, Tool]) -> dict[str, Contact]:
-        contacts = {}
+        contacts: dict[str, Contact] = {}
+        shared: dict[str, RigidTool] = {}
         for name, part in self.contents.contacts.items():
             if part.tool not in tools:
                 continue  # it has failed, with an error of its own
             with self.at("contacts", name):
-                contacts[name] = part.add_to(model, tools[part.tool], name)
+                tool: Tool | RigidTool = tools[part.tool]
+                if self.contents.tools[part.tool].shared:
+                    tool = shared.get(part.tool) or shared.setdefault(
+                        part.tool, model.tool(part.tool, tools[part.tool])
+                    )
+                contacts[name] = part.add_to(model, tool, name)
         for name, bead in self.contents.beads.items():
             if bead.contact in contacts:
                 with self.at("beads", name):
@@ -155,6 +162,8 @@ class _Builder(SheetBuilder):
         options = NewtonOptions()
         with self.at("solution"):
             options = self.contents.solution.build()
+        if self.source.made:
+            return options
         if self.solver == "petsc":  # each rank has the pattern of its share
             from umform.parallel.petsc import petsc
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 from itertools import pairwise
-from typing import Annotated
+from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,8 @@ from pydantic_core import PydanticCustomError
 from umform.model import Model
 from umform.model.contact import Contact, ContactOptions, friction
 from umform.model.tool import Motion
-from umform.problem.parts import Name, Part, Vector
+from umform.model.tool import Tool as RigidTool
+from umform.problem.parts import Name, Part, Positive, Vector
 from umform.problem.selection import Selection, faces_of
 from umform.problem.tagged import deck_type, refused, table, with_keys, write_as
 from umform.surfaces import Tool
@@ -67,6 +68,10 @@ def _motion(
     return at(translation), np.radians(at(rotation))
 
 
+def _notation(value: object) -> str:
+    return "word" if isinstance(value, str) else "number"
+
+
 _Coordinate = Annotated[float, Field(allow_inf_nan=True)]
 write_as(friction.Corner, Annotated[tuple[_Coordinate, _Coordinate, _Coordinate], Strict(False)])
 write_as(friction.Region, table(friction.Friction, friction.Region))
@@ -88,8 +93,15 @@ class ContactPart(Part):
     """Name of the tool."""
     faces: Selection
     """Lower or upper faces of the sheet."""
+    allowed: (
+        Annotated[Annotated[Positive, Tag("number")] | Annotated[Literal["any"], Tag("word")], Discriminator(_notation)]
+        | None
+    ) = None
+    """Penetration above which a penalty grows, or the run warns; by default that of penetration; any: no limit."""
     motion: MotionPart | None = None
     """Motion in time."""
+    may_bottom: bool = False
+    """Whether the tool may press the sheet onto another one: no warning that it bottoms."""
 
     @model_validator(mode="after")
     def _is_one(self) -> ContactPart:
@@ -97,9 +109,12 @@ class ContactPart(Part):
             ContactOptions(**self.of_spec())
         return self
 
-    def add_to(self, model: Model, tool: Tool, name: str) -> Contact:
-        """Add the contact to the model."""
+    def add_to(self, model: Model, tool: Tool | RigidTool, name: str) -> Contact:
+        """Add the contact to the model, with a tool of its own or a shared one."""
         contact = model.contact(faces_of(model.mesh, self.faces), tool, name=name, **self.of_spec())
+        if self.allowed is not None:
+            contact.allowed = None if isinstance(self.allowed, str) else self.allowed
+        contact.tool.may_bottom |= self.may_bottom
         if self.motion is not None:
             model.set_motion(contact, self.motion.build(), self.motion.about)
         return contact

@@ -15,7 +15,7 @@ from umform.problem.element import ElementPart
 from umform.problem.material import MaterialPart
 from umform.problem.measures import AnyMeasure
 from umform.problem.mesh import MeshPart
-from umform.problem.parts import Name, Part
+from umform.problem.parts import Name, Part, describe
 from umform.problem.settings import Output, Solution, Units
 from umform.problem.steps import StepPart
 from umform.problem.supports import Support
@@ -61,6 +61,8 @@ class Contents(Part):
 
 def json_schema() -> str:
     """JSON schema (draft 2020-12) of a deck."""
+    describe()
+    Contents.model_rebuild(force=True)
     schema = Contents.model_json_schema()
     head = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

@@ -9,7 +9,7 @@ from pydantic import Field
 from umform.elements import CATALOGUE, BodyOptions
 from umform.elements import element as catalogue_element
 from umform.elements.technology import Element
-from umform.problem.parts import Part
+from umform.problem.parts import Own, Part
 from umform.problem.tagged import with_keys
 
 
@@ -17,8 +17,8 @@ from umform.problem.tagged import with_keys
 class ElementPart(Part):
     """Element, its options, and the points through the thickness."""
 
-    name: Annotated[str, Field(json_schema_extra={"enum": list(CATALOGUE)})] = "ANS3DEAS"
-    """Name in the catalogue; `umform elements` lists it."""
+    name: Annotated[str, Field(json_schema_extra={"enum": list(CATALOGUE)})] | Own[Element] = "ANS3DEAS"
+    """Name in the catalogue; `umform elements` lists it. In Python also an element of your own."""
 
     def build(self) -> Element:
         """The element."""

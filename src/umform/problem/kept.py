@@ -39,7 +39,7 @@ class Kept:
         """Note for a checkpoint; folders also relative to it, in case all of them are moved."""
         source, here = self.deck.source, checkpoint.parent
         return {
-            "deck": source.text,
+            "deck": source.written,
             "name": source.name,
             "changes": dict(source.changes),
             "folder": str(source.folder.resolve()),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass, field
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from annotated_types import MinLen
 from pydantic import Discriminator, Tag
@@ -20,6 +20,7 @@ from umform.problem.tagged import table, tagged
 class LawPart:
     """A law with its rolling direction."""
 
+    inside: ClassVar = "law"
     law: Material
     """The law."""
     _: KW_ONLY

@@ -41,6 +41,8 @@ class Strip(Part):
     """Elements through the thickness."""
     grading: Pair = (1.0, 1.0)
     """Ratio of the last to the first element size, along x and y."""
+    shift: Vector = (0.0, 0.0, 0.0)
+    """Translation of the mesh."""
     rolled: Positive | None = None
     """Radius of the mid-surface of a strip rolled about an axis along y at z = -rolled; x is the arc length."""
 
@@ -61,7 +63,9 @@ class Strip(Part):
         flat = mesh.strip(
             self.length, self.width, self.thickness, self.cells, cell=cell, layers=self.layers, grading=self.grading
         )
-        return flat if self.rolled is None else flat.transformed(_roll(self.rolled))
+        if self.rolled is not None:
+            flat = flat.transformed(_roll(self.rolled))
+        return flat.transformed(lambda X: X + np.array(self.shift)) if any(self.shift) else flat
 
 
 def _roll(radius: float) -> Any:
@@ -126,6 +130,10 @@ class Disc(Blank):
     """The word disc."""
     radius: Positive
     """Of the rim."""
+    core: Annotated[float, Field(ge=0.05, le=0.75)] = 0.5
+    """Half-width of the core, relative to the radius."""
+    radii: Lines | None = None
+    """Radii of the rings, from the core to the rim, in place of the second number of cells and the grading."""
 
     @model_validator(mode="after")
     def _is_possible(self) -> Disc:
@@ -136,7 +144,8 @@ class Disc(Blank):
         """Mesh of cells of a type."""
         del folder
         how = {"part": self.part, "cell": cell, "layers": self.layers, "grading": self.grading}
-        return mesh.disc(self.radius, self.thickness, self.cells, **how)  # type: ignore[arg-type]
+        rings = {"core": self.core, "radii": self.radii}
+        return mesh.disc(self.radius, self.thickness, self.cells, **how, **rings)  # type: ignore[arg-type]
 
 
 class Ring(Blank):

@@ -14,6 +14,7 @@ from umform.errors import UmformError
 from umform.problem.contents import Contents
 from umform.problem.errors import ANY_CAUSE, ANY_REMEDY, DeckKey, nearest, shortened, slip
 from umform.problem.lines import Path
+from umform.problem.parts import Part
 from umform.problem.places import placed
 from umform.problem.source import Source
 from umform.problem.tagged import OWN
@@ -63,6 +64,8 @@ def _message(found: Mapping[str, Any], source: Source) -> UmformError:
     loc, kind, given = found["loc"], found["type"], found["input"]
     path = path_in(source.data, loc)
     context = found.get("ctx") or {}
+    if kind == "object" and source.made:
+        raise context["error"]
     if kind == "object":
         return placed(context["error"], path, source)
     if kind == "extra_forbidden":
@@ -83,9 +86,9 @@ def _message(found: Mapping[str, Any], source: Source) -> UmformError:
             remedy="entries are counted from 0; " + ANY_REMEDY,
         )
     if kind == "missing":
-        field = fields_at(loc[:-1]).get(str(loc[-1]))
-        meaning = f": {field.description}" if field and field.description else ""
-        return _missing(source, path, str(loc[-1]), meaning)
+        part = part_at(loc[:-1])
+        sentence = part.texts().get(str(loc[-1]), "") if issubclass(part, Part) else ""
+        return _missing(source, path, str(loc[-1]), sentence and f": {sentence}")
     if kind in ("union_tag_not_found", "union_tag_invalid") or "key" in context:
         return _wrong_kind(source, path, given, context, _words_at(loc))
     words = _quoted(context.get("expected", ""))
@@ -170,8 +173,14 @@ def path_in(data: Any, loc: tuple[str | int, ...]) -> Path:
 
 def fields_at(loc: tuple[str | int, ...]) -> dict[str, FieldInfo]:
     """Known keys at a location of pydantic."""
+    kind = part_at(loc)
+    return dict(kind.model_fields) if issubclass(kind, BaseModel) else {}
+
+
+def part_at(loc: tuple[str | int, ...]) -> type:
+    """Class of the table at a location of pydantic; `object` if there is none."""
     kind = _kind_at(loc)
-    return dict(kind.model_fields) if isinstance(kind, type) and issubclass(kind, BaseModel) else {}
+    return kind if isinstance(kind, type) else object
 
 
 def _words_at(loc: tuple[str | int, ...]) -> list[str]:

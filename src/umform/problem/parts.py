@@ -2,27 +2,54 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Annotated, Any, ClassVar, Literal
+from collections.abc import Callable, Iterator, Mapping
+from typing import Annotated, Any, ClassVar, Literal, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Strict, Tag
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, InstanceOf, Strict, Tag
+from pydantic.json_schema import SkipJsonSchema
+
+from umform.spec import Parameter, sentences
 
 
 class Part(BaseModel):
     """A table of a deck. Numbers are finite, words are not converted to numbers, and unknown keys are errors."""
 
-    model_config = ConfigDict(
-        extra="forbid", strict=True, allow_inf_nan=False, frozen=True, use_attribute_docstrings=True
-    )
+    # Python starts quickly: validators are built when a table is read, sentences are read when they are shown.
+    model_config = ConfigDict(defer_build=True, extra="forbid", strict=True, allow_inf_nan=False, frozen=True)
 
-    #: Keys that are fields of a dataclass, by the names of the fields.
-    spec_keys: ClassVar[Mapping[str, str]] = {}
+    @classmethod
+    def texts(cls) -> dict[str, str]:
+        """The sentence of each key."""
+        return sentences(cls) | {key: one.sentence.replace("``", "") for key, one in cls.spec_keys.items()}
+
+    #: Keys that are fields of a dataclass.
+    spec_keys: ClassVar[Mapping[str, Parameter]] = {}
 
     def of_spec(self) -> dict[str, Any]:
         """Values of the fields of the dataclass."""
-        return {name: getattr(self, key) for name, key in self.spec_keys.items()}
+        return {one.name: getattr(self, key) for key, one in self.spec_keys.items()}
 
 
+def describe() -> None:
+    """Give all keys of all parts their sentences, for a schema."""
+    parts = list(_below(Part))
+    for part in parts:
+        for name, sentence in part.texts().items():
+            if name in part.model_fields:
+                part.model_fields[name].description = sentence
+    for part in parts:
+        part.model_rebuild(force=True)
+
+
+def _below(part: type[Part]) -> Iterator[type[Part]]:
+    for kind in part.__subclasses__():
+        yield kind
+        yield from _below(kind)
+
+
+_T = TypeVar("_T")
+#: An object of Python as a value of a problem; no notation in TOML.
+Own = SkipJsonSchema[InstanceOf[_T]]
 Positive = Annotated[float, Field(gt=0)]
 NotNegative = Annotated[float, Field(ge=0)]
 Count = Annotated[int, Field(ge=1)]
@@ -77,11 +104,13 @@ __all__ = [
     "Count",
     "Name",
     "NotNegative",
+    "Own",
     "Pair",
     "Part",
     "Positive",
     "Vector",
     "Way",
+    "describe",
     "number_or_array",
     "number_or_table",
     "tagged_by",

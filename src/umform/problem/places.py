@@ -13,7 +13,7 @@ from umform.problem.source import Source
 
 @dataclass(frozen=True)
 class Place:
-    """A block that may fail: its error is collected, with its place in the deck."""
+    """A block that may fail: its error is collected, with its place in the deck, or raised, see `Source.made`."""
 
     path: Path
     source: Source
@@ -23,6 +23,8 @@ class Place:
         pass
 
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> bool:
+        if self.source.made:
+            return False
         if isinstance(error, UmformError | ArithmeticError | ValueError | MemoryError):
             self.errors.append(placed(error, self.path, self.source))
             return True

@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from copy import deepcopy
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from pydantic import ValidationError
 
-from umform.errors import UmformError
+from umform.errors import InvalidValue, UmformError
+from umform.mesh import Mesh
 from umform.model import Model
 from umform.problem.before import merged
 from umform.problem.building import build, sheet
 from umform.problem.contents import Contents
 from umform.problem.errors import DeckError, DeckKey
+from umform.problem.keys import written_out
 from umform.problem.messages import messages
 from umform.problem.prepared import Prepared
 from umform.problem.references import unknown_names
-from umform.problem.source import Source, parse, read_file
+from umform.problem.source import Source, change, parse, read_file
+from umform.problem.written import plain
+from umform.spec import Scalar, scalars
 
 
 @dataclass(frozen=True)
@@ -87,6 +93,79 @@ class Problem:
             raise DeckError(errors)
         return cls(contents, source, before)
 
+    @classmethod
+    def of(cls, tables: Mapping[str, Any], remarks: Iterable[str] = ()) -> Problem:
+        """A problem from tables of a program; errors are raised as they are.
+
+        Parameters
+        ----------
+        tables : mapping
+            What a deck holds; arrays may be tuples, keys with the value None are left out.
+        remarks : iterable of str
+            Paragraphs at the head of its text.
+
+        Raises
+        ------
+        DeckError
+            If a key does not exist, or its value has another type.
+        """
+        data = plain(tables)
+        return cls._read(
+            Source(data.get("title", "problem"), Path(), "", data, {}, {}, tuple(remarks), made=True, trust=True)
+        )
+
+    def with_(self, changes: Mapping[str, Any], *, same_topology: bool = False) -> Problem:
+        """The problem with other values at some paths; the mesh follows.
+
+        Parameters
+        ----------
+        changes : mapping of str to object
+            Values by path, such as ``{"tools.die.radius": 2.1}``; see :meth:`paths`. A path into the law of a sheet
+            metal of the library writes the law out.
+        same_topology : bool
+            Refuse a change that gives another number of nodes or other elements.
+
+        Raises
+        ------
+        DeckError
+            With all mistakes.
+        InvalidValue
+            The mesh has another topology, and must not.
+        """
+        source = self.source
+        if source.made:
+            data = deepcopy(source.data)
+            change(data, changes)
+            changed = type(self)._read(replace(source, data=data))
+        else:
+            changed = type(self).read(
+                source.text, source.name, source.folder, {**source.changes, **changes}, source.trust
+            )
+        if same_topology:
+            _refuse_other_topology(self.sheet().mesh, changed.sheet().mesh, changes)
+        return changed
+
+    def at(self, folder: Path) -> Problem:
+        """The same, with the files that it names in another folder, or with an absolute path."""
+        return replace(self, source=replace(self.source, folder=folder))
+
+    def paths(self) -> list[Scalar]:
+        """All numbers of the problem that can be changed: path, value, unit, sentence; defaults included."""
+        material = self.source.data["material"]
+        law = written_out(material)
+        named = self if law is material else self.with_({"material": law})
+        return [one for one in scalars(named.contents) if not one.path.startswith("output.")]
+
+    def toml(self) -> str:
+        """Text of the deck.
+
+        Raises
+        ------
+        InvalidValue
+            A value that was made by a program has no notation in TOML.
+        """
+        return self.source.written
+
     def build(self, solver: str | None = None) -> Prepared:
         """Build the model, its controls and its steps.
 
@@ -111,6 +190,18 @@ class Problem:
             With all mistakes.
         """
         return sheet(self.contents, self.source, self.before)
+
+
+def _refuse_other_topology(before: Mesh, after: Mesh, changes: Mapping[str, Any]) -> None:
+    if np.array_equal(before.connectivity, after.connectivity) and len(before.points) == len(after.points):
+        return
+    raise InvalidValue(
+        "the mesh has another topology with this value",
+        where=", ".join(changes),
+        value=f"{len(after.connectivity)} elements in place of {len(before.connectivity)}",
+        cause="the number of elements follows from it",
+        remedy="a smaller change, or a mesh whose numbers of elements are given",
+    )
 
 
 def _idle_trim(source: Source) -> list[DeckKey]:

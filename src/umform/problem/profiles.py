@@ -120,3 +120,15 @@ def _read(value: Any, read: ValidatorFunctionWrapHandler, info: ValidationInfo) 
 
 #: A section that is read at once.
 ReadProfile = Annotated[ProfilePart, WrapValidator(_read)]
+
+
+def profile_table(profile: Profile) -> dict[str, Any]:
+    """The table of a profile: its lines and arcs; no drawing is needed beside it."""
+    return {"segments": [_segment(segment) for segment in profile.segments], "closed": profile.closed}
+
+
+def _segment(segment: surfaces.Line | surfaces.Arc) -> dict[str, Any]:
+    ends = {"start": segment.start, "end": segment.end}
+    if isinstance(segment, surfaces.Arc):
+        return {"kind": "arc", **ends, "centre": segment.centre, "clockwise": bool(segment.clockwise)}
+    return {"kind": "line", **ends}

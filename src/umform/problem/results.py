@@ -144,7 +144,7 @@ class _Forming:
 def as_run(deck: Problem) -> str:
     """Text of a deck, after comment lines with the changed keys."""
     changes = (f"# run with --set {key}={toml(value)}\n" for key, value in deck.source.changes.items())
-    return "".join([*changes, deck.source.text])
+    return "".join([*changes, deck.source.written])
 
 
 @contextmanager

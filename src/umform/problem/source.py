@@ -10,8 +10,13 @@ from typing import Any
 
 from umform.errors import FileProblem
 from umform.problem.errors import DeckError, DeckKey, shortened, written
+from umform.problem.keys import written_out
 from umform.problem.lines import Path, lines_of, nearest_line
 from umform.problem.syntax import no_toml
+from umform.problem.written import deck_text, plain
+
+#: Keys of a sheet metal of the library.
+_OF_A_METAL = ("material.library", "material.rolling", "material.law")
 
 
 @dataclass(frozen=True)
@@ -32,6 +37,10 @@ class Source:
         Line of each key.
     changes : dict of str to object
         Keys whose values differ from the text.
+    remarks : tuple of str
+        Paragraphs at the head of the text of a problem that was made, not read.
+    made : bool
+        Whether the data were made by a program: their errors are raised one by one, as they are.
     trust : bool
         Whether classes of Python that it names may be imported.
     """
@@ -42,7 +51,20 @@ class Source:
     data: dict[str, Any]
     lines: Mapping[Path, int]
     changes: Mapping[str, Any]
+    remarks: tuple[str, ...] = ()
+    made: bool = False
     trust: bool = False
+
+    @property
+    def written(self) -> str:
+        """The text as it was read, without the changes, or that of the data.
+
+        Raises
+        ------
+        InvalidValue
+            A value that was made by a program has no notation in TOML.
+        """
+        return deck_text(self.data, self.remarks) if self.made else self.text
 
     def place(self, path: Path) -> str:
         """File, line and key of a path."""
@@ -101,11 +123,23 @@ def parse(text: str, name: str, folder: File, changes: Mapping[str, Any] | None 
         data = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         raise DeckError([no_toml(text, name, error)]) from None
-    source = Source(name, folder, text, data, lines_of(text), dict(changes or {}), trust)
-    wrong = [problem for key, value in source.changes.items() if (problem := _change(data, key, value))]
+    change(data, changes or {})
+    return Source(name, folder, text, data, lines_of(text), dict(changes or {}), trust=trust)
+
+
+def change(data: dict[str, Any], changes: Mapping[str, Any]) -> None:
+    """Give keys of parsed data other values, in place; a key of the law of a library metal writes the law out.
+
+    Raises
+    ------
+    DeckError
+        If a key does not exist.
+    """
+    if any(key.startswith("material.") and key not in _OF_A_METAL for key in changes):
+        data["material"] = plain(written_out(data.get("material")))
+    wrong = [problem for key, value in changes.items() if (problem := _change(data, key, value))]
     if wrong:
         raise DeckError(wrong)
-    return source
 
 
 def _change(data: dict[str, Any], key: str, value: Any) -> DeckKey | None:

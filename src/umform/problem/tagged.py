@@ -12,7 +12,7 @@ from dataclasses import MISSING, is_dataclass
 from functools import cache, partial, reduce
 from operator import or_
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
+from typing import Annotated, Any, ClassVar, Literal, TypeVar, Union, get_args, get_origin
 
 from pydantic import Discriminator, Field, Strict, Tag, TypeAdapter, ValidationInfo, WrapValidator
 from pydantic import ValidatorFunctionWrapHandler as Handler
@@ -22,10 +22,10 @@ from pydantic_core import PydanticCustomError
 
 from umform.errors import UmformError
 from umform.problem.errors import DeckKey
-from umform.problem.keys import keys_of, note_of, plain, summary
+from umform.problem.keys import keys_of, plain, summary
 from umform.problem.own_classes import own_class
 from umform.problem.parts import Part
-from umform.spec import InDeck, Inline, OneOf, Parameter, parameters
+from umform.spec import InDeck, OneOf, Parameter, note_of, parameters
 
 P = TypeVar("P", bound=Part)
 
@@ -47,8 +47,8 @@ def tagged(key: str, classes: Mapping[str, type], within: type | None = None) ->
     classes : mapping of str to type
         Dataclasses by their words.
     within : type, optional
-        A dataclass around the object: its first field, or the one that is `Inline`, takes the object, and its other
-        fields are further keys of the same table.
+        A dataclass around the object: the field that its ``inside`` names, or the first one, takes the object, and its
+        other fields are further keys of the same table.
     """
     members = [table(spec, within, (key, word)) for word, spec in classes.items()]
     union = Annotated[reduce(or_, members), Field(discriminator=key)] if len(members) > 1 else members[0]
@@ -72,8 +72,9 @@ def table(spec: type, within: type | None = None, tag: tuple[str, str] | None = 
     module = spec.__module__
     if tag:
         module += f".{tag[0]}"
-        fields = {tag[0]: (Literal[tag[1]], Field(description=f"The word {tag[1]}."))} | fields
-    keys = model_of(spec.__name__, __base__=Part, __doc__=summary(spec), __module__=module, **fields)
+        fields = {tag[0]: (Literal[tag[1]], ...)} | fields
+    keys = model_of(spec.__name__, __base__=_Keys, __doc__=summary(spec), __module__=module, **fields)
+    keys.of, keys.tag = [*_own(spec), *_around(within)], tag
     return Annotated[keys, WrapValidator(partial(_made, spec, within))]
 
 
@@ -94,7 +95,7 @@ def with_keys(spec: type, leave: Sequence[str] = (), **names: str) -> Callable[[
     def add(part: type[P]) -> type[P]:
         fields: dict[str, Any] = {names.get(key, key): kind for one in chosen for key, kind in _keys(one)}
         made = model_of(part.__name__, __base__=part, __doc__=part.__doc__, __module__=part.__module__, **fields)
-        made.spec_keys = {one.name: names.get(one.name, one.name) for one in chosen}
+        made.spec_keys = {names.get(one.name, one.name): one for one in chosen}
         return made
 
     return add
@@ -111,6 +112,25 @@ def write_as(hint: Any, notation: Any) -> None:
         What pydantic reads in its place; the value is one of the type.
     """
     _WRITTEN_AS[hint] = notation
+
+
+class _Keys(Part):
+    """Keys of a table, and the fields that they are."""
+
+    of: ClassVar[Sequence[Parameter]] = ()
+    tag: ClassVar[tuple[str, str] | None] = None
+
+    @classmethod
+    def texts(cls) -> dict[str, str]:
+        """The sentence of each key."""
+        known = {cls.tag[0]: f"The word {cls.tag[1]}."} if cls.tag else {}
+        for one in cls.of:
+            choice, other = note_of(one.hint, OneOf), note_of(one.hint, InDeck)
+            if choice and not choice.key:
+                known |= {key: summary(spec) for key, spec in choice.classes().items()}
+            else:
+                known[(other.key if other else "") or one.name] = plain(one.sentence)
+        return known
 
 
 def deck_type(hint: Any) -> Any:
@@ -143,7 +163,7 @@ def _own(spec: type) -> Sequence[Parameter]:
 
 def _inner(within: type) -> Parameter:
     """The field of a class around an object that holds it."""
-    return next((one for one in _own(within) if note_of(one.hint, Inline)), _own(within)[0])
+    return parameters(within)[within.inside] if hasattr(within, "inside") else _own(within)[0]
 
 
 def _around(within: type | None) -> Sequence[Parameter]:
@@ -156,13 +176,13 @@ def _keys(one: Parameter) -> Iterator[tuple[str, tuple[Any, Any]]]:
     choice, other = note_of(one.hint, OneOf), note_of(one.hint, InDeck)
     if choice and not choice.key:
         for key, spec in choice.classes().items():
-            yield key, (table(spec) | None, Field(None, description=summary(spec)))
+            yield key, (table(spec) | None, None)
         return
     default = keys_of(one.hint, one.factory()) if one.factory else one.default
     if default is MISSING or (other and other.needed):
         default = ...
     kind = deck_type(one.hint) | None if default is None else deck_type(one.hint)
-    yield (other.key if other else "") or one.name, (kind, Field(default, description=plain(one.sentence)))
+    yield (other.key if other else "") or one.name, (kind, default)
 
 
 def _union(arms: Sequence[Any], optional: bool) -> Any:
@@ -226,7 +246,9 @@ def _arguments(fields: Sequence[Parameter], given: Mapping[str, Any], context: M
                 remedy="take one of them out",
             )
         if found:
-            arguments[one.name] = Path(context.get("folder", "")) / found[0] if other and other.path else found[0]
+            arguments[one.name] = (
+                Path(context.get("folder", "")).absolute() / found[0] if other and other.path else found[0]
+            )
     return arguments
 
 

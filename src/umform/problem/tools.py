@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from umform.problem.parts import Way
 from umform.problem.profiles import ReadProfile
@@ -22,6 +22,8 @@ ORIGIN = (0.0, 0.0, 0.0)
 class Posed:
     """A tool, which may be rotated about the origin and then shifted."""
 
+    inside: ClassVar = "tool"
+
     tool: Tool | Drawing
     """The tool in its own frame."""
     rotation: Point = ORIGIN
@@ -32,6 +34,8 @@ class Posed:
     """Outward offset of the tool; a sheet of this thickness fits between it and the drawn one."""
     other_side: bool = False
     """The tool is the region beyond this distance: the punch for a die."""
+    shared: bool = False
+    """One tool for all contacts with it, with its name in the history; by default each contact has its own."""
 
     def __post_init__(self) -> None:
         check_fields(self)

@@ -4,32 +4,53 @@ from __future__ import annotations
 
 import json
 import textwrap
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from numbers import Real
 from typing import Any
 
-#: Header, as in [mesh] or [[steps]], and the keys below it; a key whose value is None is left out.
-Entry = tuple[str, Mapping[str, Any]]
+from umform.errors import InvalidValue
 
 _WIDTH = 118
 
 
-def deck_text(title: str, remarks: Iterable[str], entries: Iterable[Entry]) -> str:
+def deck_text(data: Mapping[str, Any], remarks: Iterable[str] = ()) -> str:
     """Text of a deck.
 
     Parameters
     ----------
-    title : str
-        What it is about.
+    data : mapping
+        Its keys and tables.
     remarks : iterable of str
         Paragraphs of the comment at its head.
-    entries : iterable of Entry
-        Its tables.
+
+    Raises
+    ------
+    InvalidValue
+        A value has no notation in TOML.
     """
     wrapped = (textwrap.wrap(text, _WIDTH, initial_indent="# ", subsequent_indent="# ") for text in remarks)
-    lines = [*(line for paragraph in wrapped for line in paragraph), "", f"title = {toml(title)}"]
-    for header, keys in entries:
-        lines += ["", header, *(toml_line(key, value) for key, value in keys.items() if value is not None)]
-    return "\n".join(lines) + "\n"
+    lines = [line for paragraph in wrapped for line in paragraph]
+    plain = {key: value for key, value in data.items() if not isinstance(value, Mapping | list)}
+    lines += ["", *_lines(plain)]
+    for header, keys in _tables(data):
+        lines += ["", header, *_lines(keys)]
+    return "\n".join(lines).lstrip() + "\n"
+
+
+def _tables(data: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """Header and keys of each table; tables of tables have one for each name."""
+    for name, value in data.items():
+        if isinstance(value, list):
+            yield from ((f"[[{name}]]", one) for one in value)
+        elif isinstance(value, Mapping) and value and all(isinstance(one, Mapping) for one in value.values()):
+            yield from ((f"[{name}.{key}]", one) for key, one in value.items())
+        elif isinstance(value, Mapping):
+            yield f"[{name}]", value
+
+
+def _lines(keys: Mapping[str, Any]) -> Iterator[str]:
+    """Lines of the keys of a table; a key whose value is None is left out."""
+    return (toml_line(key, value) for key, value in keys.items() if value is not None)
 
 
 def toml_line(key: str, value: Any) -> str:
@@ -50,4 +71,21 @@ def toml(value: Any) -> str:
         return "{ " + ", ".join(f"{key} = {toml(entry)}" for key, entry in value.items()) + " }"
     if isinstance(value, tuple | list):
         return "[" + ", ".join(toml(entry) for entry in value) + "]"
-    return repr(value)
+    if isinstance(value, Real):
+        return repr(value)
+    raise InvalidValue(
+        "a deck has no words for this value",
+        where="deck",
+        value=f"{type(value).__name__}: {value}"[:80],
+        cause="an object of Python: an element, a law or a surface of your own",
+        remedy="give it in the deck by its name, or run the problem in Python",
+    )
+
+
+def plain(value: Any) -> Any:
+    """Data as TOML has them: arrays are lists, numbers those of Python, and nothing is None."""
+    if isinstance(value, Mapping):
+        return {str(key): plain(one) for key, one in value.items() if one is not None}
+    if isinstance(value, list | tuple):
+        return [plain(one) for one in value]
+    return value.item() if hasattr(value, "dtype") and not getattr(value, "ndim", 1) else value

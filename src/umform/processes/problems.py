@@ -1,30 +1,29 @@
-"""The deck of a case of any process."""
+"""The problem of a case of any process."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from umform.processes.air_bending import AirBending
-    from umform.processes.bending.spec import FreeBending
+    from umform.problem.problem import Problem
 
 
-def deck_of(case: FreeBending | AirBending) -> str:
-    """Deck of a case of a ready process, as TOML.
+def problem_of(case: Any) -> Problem:
+    """The problem of a case of a ready process: `AirBending`, `FreeBending`, `Cup`, `UBend`, `DrawBead`.
+
+    Each folder of a process has a file ``problem.py`` with a function of this name. What it gives has the history of
+    the process to the last bit; its `toml` is a deck for `umform run`, its `with_` the problem with other values.
 
     Parameters
     ----------
-    case : FreeBending or AirBending
-        The case; a bend needs its stroke.
+    case : Spec
+        The parameters; a bend needs its stroke.
 
-    Returns
-    -------
-    str
-        It gives the same numbers as :func:`umform.processes.free_bending` and
-        :func:`umform.processes.air_bending.air_bending`.
+    Raises
+    ------
+    InvalidValue
+        A bend has no stroke.
     """
-    from umform.processes.air_bending import deck as air_bending
-    from umform.processes.air_bending.spec import AirBending
-    from umform.processes.bending import deck as free_bending
-
-    return air_bending.deck_of(case) if isinstance(case, AirBending) else free_bending.deck_of(case)
+    made: Problem = import_module(f"{type(case).__module__.rpartition('.')[0]}.problem").problem_of(case)
+    return made

@@ -64,10 +64,13 @@ def _law(row: Row) -> Metal:
 
 
 def _yield_function(row: Row) -> YieldFunction:
-    constants = {
-        name: materials.Transformation(**value) if isinstance(value, Mapping) else value for name, value in row.items()
+    constants = dict(row)
+    kind = known(YieldFunction)[constants.pop("function")]
+    parts = {
+        name: materials.Transformation(**value) if isinstance(value, Mapping) else value
+        for name, value in constants.items()
     }
-    function: YieldFunction = known(YieldFunction)[constants.pop("function")](**constants)
+    function: YieldFunction = kind(**parts)
     return function
 
 

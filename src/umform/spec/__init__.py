@@ -12,8 +12,9 @@ mistake to a type, and `umform.spec.types` has the usual types:
 the help of a command starts quickly.
 """
 
-from umform.spec.in_deck import InDeck, Inline, OneOf
-from umform.spec.parameter import About, Parameter, parameters
+from umform.spec.in_deck import InDeck, OneOf, entries, note_of
+from umform.spec.parameter import About, Parameter, parameters, sentences
+from umform.spec.paths import Scalar, changed, scalars
 from umform.spec.rule import Checked, Rule, check_fields, check_value
 from umform.spec.takes import takes
 
@@ -21,12 +22,17 @@ __all__ = [
     "About",
     "Checked",
     "InDeck",
-    "Inline",
     "OneOf",
     "Parameter",
     "Rule",
+    "Scalar",
+    "changed",
     "check_fields",
     "check_value",
+    "entries",
+    "note_of",
     "parameters",
+    "scalars",
+    "sentences",
     "takes",
 ]

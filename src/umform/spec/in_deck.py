@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import types
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any, TypeVar, Union, get_args, get_origin
 
+from umform.spec.parameter import Parameter, parameters
 
-@dataclass(frozen=True)
-class Inline:
-    """Annotation of the field, by default the first one, whose object has its keys in the table around it."""
+_Note = TypeVar("_Note")
 
 
 @dataclass(frozen=True)
@@ -48,3 +48,26 @@ class InDeck:
     key: str = ""
     path: bool = False
     needed: bool = False
+
+
+def note_of(hint: Any, kind: type[_Note]) -> _Note | None:
+    """Note of a kind in an annotation, also that of an optional field."""
+    arms = get_args(hint) if get_origin(hint) in (Union, types.UnionType) else [hint]
+    notes = (note for arm in arms if get_origin(arm) is Annotated for note in get_args(arm)[1:])
+    return next((note for note in notes if isinstance(note, kind)), None)
+
+
+def entries(spec: Any) -> Iterator[tuple[str, Parameter, Any]]:
+    """Key of a deck, field, and value of all fields of an object from which it can be made again.
+
+    An object that can be made in several ways has a method ``written``, which returns other values of some fields.
+    """
+    kind: type = type(spec)
+    written = spec.written() if hasattr(spec, "written") else {}
+    for name, one in parameters(kind).items():
+        value = written[name] if name in written else getattr(spec, name)
+        choice, other = note_of(one.hint, OneOf), note_of(one.hint, InDeck)
+        key = other.key if other else ""
+        if choice and not choice.key:
+            key = next((word for word, known in choice.classes().items() if known is type(value)), "")
+        yield key or name, one, value

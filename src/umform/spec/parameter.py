@@ -114,8 +114,8 @@ class Parameter:
         Its name.
     default : object
         Its default; `dataclasses.MISSING` without one, or where a factory makes it.
-    sentence : str
-        What it is: a noun phrase, then, after a semicolon, what holds without it.
+    spec : type
+        The Spec.
     kinds : tuple of Kind
         Types that it may have.
     optional : bool
@@ -130,7 +130,7 @@ class Parameter:
 
     name: str
     default: Any
-    sentence: str
+    spec: type
     kinds: tuple[Kind, ...]
     optional: bool = False
     about: About = field(default_factory=About)
@@ -158,6 +158,11 @@ class Parameter:
         """Upper limit; infinity without one."""
         limits = [limit for kind in self.kinds for name, limit, _, _ in kind.limits() if name in ("lt", "le")]
         return limits[0] if limits else math.inf
+
+    @property
+    def sentence(self) -> str:
+        """What it is: a noun phrase, then, after a semicolon, what holds without it."""
+        return sentences(self.spec).get(self.name, "")
 
     @property
     def noun(self) -> str:
@@ -200,11 +205,10 @@ class Parameter:
 @cache
 def parameters(spec: type) -> Mapping[str, Parameter]:
     """The parameters of a Spec by name, in the order of its fields."""
-    sentences = _sentences(spec)
-    return {one.name: _parameter(spec, one, sentences.get(one.name, "")) for one in fields(spec) if one.init}
+    return {one.name: _parameter(spec, one) for one in fields(spec) if one.init}
 
 
-def _parameter(spec: type, one: Field[Any], sentence: str) -> Parameter:
+def _parameter(spec: type, one: Field[Any]) -> Parameter:
     hint = _hint(spec, one)
     arms = list(_arms(hint))
     kinds = tuple(_kind(arm, extras) for arm, extras in arms if arm is not type(None))
@@ -213,7 +217,7 @@ def _parameter(spec: type, one: Field[Any], sentence: str) -> Parameter:
     about = reduce(_over, abouts, About())
     optional = len(kinds) < len(arms)
     factory = None if one.default_factory is MISSING else one.default_factory
-    return Parameter(one.name, one.default, sentence, kinds, optional, about, hint, factory)
+    return Parameter(one.name, one.default, spec, kinds, optional, about, hint, factory)
 
 
 def _over(under: About, over: About) -> About:
@@ -263,17 +267,22 @@ def _kind(hint: Any, extras: tuple[Any, ...]) -> Kind:
     return Kind(known, (), tuple(extra for extra in extras if type(extra) in _BOUNDS), rules)
 
 
-def _sentences(spec: type) -> dict[str, str]:
+@cache
+def sentences(spec: type) -> dict[str, str]:
     """The strings below the fields of a class and its bases."""
     found: dict[str, str] = {}
     for base in reversed(spec.__mro__):
         if "__annotations__" not in vars(base):
             continue
-        body = ast.parse(textwrap.dedent(inspect.getsource(base))).body[0]
+        try:
+            text = textwrap.dedent(inspect.getsource(base))
+        except (OSError, TypeError):  # a class that no file has
+            continue
+        body = ast.parse(text).body[0]
         assert isinstance(body, ast.ClassDef)
         for first, second in pairwise(body.body):
             if isinstance(first, ast.AnnAssign) and isinstance(first.target, ast.Name):
-                text = second.value if isinstance(second, ast.Expr) else None
-                if isinstance(text, ast.Constant) and isinstance(text.value, str):
-                    found[first.target.id] = inspect.cleandoc(text.value).replace("\n", " ")
+                below = second.value if isinstance(second, ast.Expr) else None
+                if isinstance(below, ast.Constant) and isinstance(below.value, str):
+                    found[first.target.id] = inspect.cleandoc(below.value).replace("\n", " ")
     return found

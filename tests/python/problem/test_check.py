@@ -6,7 +6,7 @@ from umform.problem import Problem
 from umform.problem.check import check
 from umform.problem.findings import Level
 from umform.processes.air_bending import AirBending
-from umform.processes.problems import deck_of
+from umform.processes.problems import problem_of
 
 
 def levels(findings):
@@ -53,7 +53,7 @@ def test_gaps(texts, found):
 
 
 def test_the_default_bend_passes():
-    deck = Problem.read(deck_of(AirBending(stroke=6.0)))
+    deck = Problem.read(problem_of(AirBending(stroke=6.0)).toml())
     assert {finding.level for finding in check(deck, deck.build())} == {Level.OK}
 
 

@@ -8,6 +8,7 @@ from annotated_types import Gt
 from pydantic import TypeAdapter, ValidationError
 
 from umform.errors import InvalidValue
+from umform.problem.parts import describe
 from umform.problem.tagged import table, tagged
 from umform.spec import About, OneOf, check_fields
 
@@ -118,7 +119,9 @@ def test_errors_have_their_place(value, place, kind):
 
 
 def test_the_schema_has_words_units_and_texts():
-    schema = TypeAdapter(tagged("kind", KINDS)).json_schema()
+    things = tagged("kind", KINDS)
+    describe()
+    schema = TypeAdapter(things).json_schema()
     ring = next(part for part in schema["$defs"].values() if "kind" in part["properties"] and part["title"] == "Ring")
     assert ring["properties"]["kind"]["const"] == "Ring"
     assert ring["properties"]["inner"] == {

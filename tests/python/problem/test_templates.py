@@ -8,7 +8,7 @@ from umform.problem.findings import Level
 from umform.problem.templates import template, template_file, templates, write_template
 from umform.processes import FreeBending, free_bending
 from umform.processes.draw.press import OPTIONS
-from umform.processes.problems import deck_of
+from umform.processes.problems import problem_of
 from umform_book.nonlinear.hinged_roofs import limit_load
 from umform_book.references import table
 
@@ -74,7 +74,7 @@ def test_free_bending_is_the_example_to_the_last_bit():
     ids=lambda case: case.name,
 )  # fmt: skip
 def test_the_deck_of_a_case_gives_its_numbers(case):
-    result = Problem.read(deck_of(case)).build().solve(progress=False)
+    result = Problem.read(problem_of(case).toml()).build().solve(progress=False)
     bending = free_bending(case, progress=False)
     assert np.array_equal(-result["punch"], bending.u)
     assert np.array_equal(-result["punch_force"], bending.F)

@@ -6,7 +6,7 @@ from umform.problem import DeckError
 from umform.problem.findings import Level, accept, error, ok, warning
 from umform.problem.plausible import of_model
 from umform.processes.air_bending import AirBending
-from umform.processes.air_bending.brake import build
+from umform.processes.air_bending.problem import build
 
 OK, WARNING, ERROR = [Level.OK], [Level.WARNING], [Level.ERROR]
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from numbers import Real
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from annotated_types import Ge, Gt, Le
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from umform import _core
 from umform.errors import InvalidFriction, NotFinite
-from umform.spec import About, Checked, Inline, check_fields, check_value
+from umform.spec import About, Checked, check_fields, check_value
 
 #: (pressure, distance slid, position in the frame of the tool) -> largest tangential traction.
 FrictionFunction = Callable[[float, float, NDArray[np.float64]], float]
@@ -163,11 +163,13 @@ class Region:
     >>> friction = uf.FrictionByRegion(0.1, [dry])
     """
 
+    inside: ClassVar = "friction"
+
     lower: Corner
     """Lower corner; infinite where the box has no end."""
     upper: Corner
     """Upper corner."""
-    friction: Annotated[float | Friction | FrictionFunction, Inline()]
+    friction: float | Friction | FrictionFunction
     """Law inside the box."""
 
     def __post_init__(self) -> None:
@@ -195,7 +197,9 @@ class FrictionByRegion:
     >>> pair = model.contact("lower", uf.Plane((0, 0, -0.1), (0, 0, 1)), friction=friction)
     """
 
-    elsewhere: Annotated[float | Friction | FrictionFunction, Inline()]
+    inside: ClassVar = "elsewhere"
+
+    elsewhere: float | Friction | FrictionFunction
     """Law outside of all regions."""
     regions: Sequence[Region] = ()
     """Boxes in the frame of the tool, its initial position; the first one that contains a point applies."""

@@ -8,10 +8,10 @@ from typing import Any
 
 from umform.elements import element
 from umform.pool import run_all
-from umform.processes.air_bending.brake import build
 from umform.processes.air_bending.branches import Brake
 from umform.processes.air_bending.goal import needed_stroke
 from umform.processes.air_bending.measures import Measures
+from umform.processes.air_bending.problem import build
 from umform.processes.air_bending.spec import AirBending
 from umform.progress import progress_bar
 from umform.spec import parameters

@@ -11,9 +11,9 @@ from umform.mesh import Mesh
 from umform.model import Model, Snapshot
 from umform.model.control import Control
 from umform.processes.air_bending.bend import Loaded
-from umform.processes.air_bending.brake import build
 from umform.processes.air_bending.branches import Brake, Floats
 from umform.processes.air_bending.measures import Measures, measure
+from umform.processes.air_bending.problem import build
 from umform.processes.air_bending.section import Section
 from umform.processes.bend_sequence.sides import Sides, Strip
 from umform.processes.bend_sequence.spec import Bend, BendSequence

@@ -11,7 +11,8 @@ from umform.errors import InvalidValue
 from umform.model import Model
 from umform.model.control import Control
 from umform.model.rigid_motion import RigidMotion
-from umform.processes.air_bending.brake import OPTIONS, build, unloading_keys
+from umform.processes.air_bending.brake import OPTIONS, unloading_keys
+from umform.processes.air_bending.problem import build
 from umform.processes.bend_sequence.part import Part
 from umform.processes.bend_sequence.run import FRAMES, bend_sequence
 from umform.processes.bend_sequence.sides import Strip

@@ -25,23 +25,21 @@ def deck_block(law: J2 | Metal) -> str:
 
 def python_code(law: J2 | Metal) -> str:
     """Python that makes the law."""
-    inside = "".join(f"    {one.name}={_code(value)},\n" for one, value in given(law))
+    inside = "".join(f"    {one.name}={_code(value)},\n" for _, one, value in given(law))
     return f"import umform as uf\n\nmaterial = uf.{type(law).__name__}(\n{inside})\n"
 
 
 def function_block(function: YieldFunction) -> tuple[str, str]:
     """A yield function without hardening: its line of a deck, and Python."""
-    return (
-        toml_line("yield_function", _rounded(keys_of(Function, function, "yield_function"))) + "\n",
-        f"yield_function = {_code(function)}\n",
-    )
+    keys = _rounded(keys_of(Function, function))
+    return toml_line("yield_function", keys) + "\n", f"yield_function = {_code(function)}\n"
 
 
 def _code(value: Any) -> str:
     """A value in Python."""
     if not is_dataclass(value):
         return repr(_rounded(value))
-    return f"uf.{type(value).__name__}({', '.join(f'{one.name}={_code(part)}' for one, part in given(value))})"
+    return f"uf.{type(value).__name__}({', '.join(f'{one.name}={_code(part)}' for _, one, part in given(value))})"
 
 
 def _rounded(value: Any) -> Any:

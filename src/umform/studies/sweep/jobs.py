@@ -87,9 +87,7 @@ def job(
     DeckError
         With all mistakes in it.
     """
-    source = deck.source
-    all_changes = {**source.changes, **changes, **({} if files else _NUMBERS_ONLY)}
-    changed = Problem.read(source.text, source.name, source.folder.resolve(), all_changes, source.trust)
+    changed = deck.with_({**changes, **({} if files else _NUMBERS_ONLY)}).at(deck.source.folder.resolve())
     words = "_".join(f"{name.split('.')[-1]}-{_word(value)}" for name, value in varied.items())
     name = f"{re.sub(r'[^A-Za-z0-9_.+-]+', '-', words)[:60]}-{_fingerprint(changed)}"
     return Job(changed, varied, folder / name, **options)

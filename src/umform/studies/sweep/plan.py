@@ -121,9 +121,7 @@ def make_plan(
     DeckError
         None of the decks can be read.
     """
-    data = Problem.read(
-        deck.source.text, deck.source.name, deck.source.folder, {**deck.source.changes, **changes}, deck.source.trust
-    ).source.data
+    data = deck.with_(changes).source.data
     varied = list(dict.fromkeys([*(name for values in jobs or () for name in values), *vary]))
     keys = {name: find_key(name, data) for name in varied}
     _check_keys(keys)
