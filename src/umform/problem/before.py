@@ -13,16 +13,18 @@ from pathlib import Path as File
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
 
 from umform.errors import FileProblem, InvalidValue
 from umform.io.trees import read_tree, write_tree
 from umform.model import Model, Snapshot
 from umform.model.contact import Contact
 from umform.model.contact.kept import KeptContact
+from umform.model.rigid_motion import RigidMotion
 from umform.model.trim import Trim
 from umform.problem.errors import DeckError, DeckKey
-from umform.problem.parts import Name, Part
+from umform.problem.parts import Name, Part, Vector
 from umform.problem.profiles import ProfilePart, profile_of
 from umform.problem.source import Source
 
@@ -38,9 +40,9 @@ class Before(Part):
     """Its deck; path from the folder of this deck."""
     state: Annotated[str, Field(min_length=1)]
     """The file state.h5 of its run, written with state = true under output; path from the folder of this deck."""
-    control: Name
+    control: Name | None = None
     """Name of the control, of value 1, of the unbalanced forces: those of tools and supports of that operation, and of
-    removed metal. Steps move it to 0."""
+    removed metal. Steps move it to 0. Without it the part was released, and what is left over acts at once."""
     keep: list[Name] = []
     """Names of contacts with friction of that deck and of this one whose points keep their friction, and a penalty that
     has grown: tools that stay where they stood."""
@@ -79,7 +81,10 @@ class Before(Part):
                 cause="the deck before has been changed since its run, or the file is that of another one",
                 remedy=f"run {self.deck} again",
             )
-        model.restore(Snapshot(tree["u"], tree["time"], terms=tree["bodies"], began=tree["began"]))
+        if self.control is None:  # a run of its own
+            model.restore(Snapshot(tree["u"], terms=tree["bodies"]))
+        else:
+            model.restore(Snapshot(tree["u"], tree["time"], terms=tree["bodies"], began=tree["began"]))
 
     def kept(self, folder: File) -> dict[str, KeptContact]:
         """The friction of the contacts that keep it.
@@ -124,6 +129,33 @@ class Before(Part):
             model.evaluate(model.x)
             contacts[name].begin()
             friction.put(contacts[name])
+
+
+class Placement(Part):
+    """Rigid motion of the part, with its state, before the first step: x becomes Q x + c. eq. (5.91)"""
+
+    rotation: Annotated[list[Vector], Field(min_length=3, max_length=3)]
+    """Rows of Q."""
+    shift: Vector = (0.0, 0.0, 0.0)
+    """c."""
+
+    @classmethod
+    def table(cls, motion: RigidMotion) -> dict[str, Any]:
+        """The table of a motion."""
+        return {"rotation": motion.rotation.tolist(), "shift": motion.shift.tolist()}
+
+    @model_validator(mode="after")
+    def _is_rotation(self) -> Placement:
+        Q = np.array(self.rotation)
+        if not np.allclose(Q @ Q.T, np.eye(3), atol=1e-9) or np.linalg.det(Q) < 0.0:
+            raise PydanticCustomError("rotation", "the rows of a rotation are orthogonal unit vectors, right-handed")
+        return self
+
+    def apply(self, model: Model) -> None:
+        """Move a model that has no tools and supports yet."""
+        state = model.snapshot()
+        motion = RigidMotion(np.array(self.rotation), np.array(self.shift))
+        model.restore(replace(state, u=motion.displacement(model.mesh.points, state.u)))
 
 
 class Cut(Part):

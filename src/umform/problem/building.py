@@ -19,13 +19,20 @@ from umform.problem.sheet_building import Earlier, SheetBuilder
 from umform.problem.source import Source
 from umform.problem.steps import Free, Named
 from umform.problem.supports import Rigid
+from umform.run import Result
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions
 from umform.steps import Step
 from umform.surfaces import Tool
 
 
-def build(contents: Contents, source: Source, solver: str | None = None, before: Earlier | None = None) -> Prepared:
+def build(
+    contents: Contents,
+    source: Source,
+    solver: str | None = None,
+    before: Earlier | None = None,
+    start: Result | None = None,
+) -> Prepared:
     """Build the problem of a deck.
 
     Parameters
@@ -38,6 +45,8 @@ def build(contents: Contents, source: Source, solver: str | None = None, before:
         Another sparse solver than that of the deck.
     before : Earlier, optional
         The deck of the previous operation.
+    start : Result, optional
+        The run of the previous operation.
 
     Raises
     ------
@@ -45,13 +54,13 @@ def build(contents: Contents, source: Source, solver: str | None = None, before:
         With all mistakes.
     """
     with np.errstate(all="ignore"):
-        return _Builder(contents, source, before, solver=solver or contents.solution.solver).problem()
+        return _Builder(contents, source, before, start, solver=solver or contents.solution.solver).problem()
 
 
-def sheet(contents: Contents, source: Source, before: Earlier | None) -> Model:
+def sheet(contents: Contents, source: Source, before: Earlier | None, start: Result | None = None) -> Model:
     """Only the model, without tools and supports; see :func:`build`."""
     with np.errstate(all="ignore"):
-        builder = SheetBuilder(contents, source, before)
+        builder = SheetBuilder(contents, source, before, start)
         model = builder.sheet()
     if model is None:
         raise DeckError(builder.errors)
@@ -106,7 +115,7 @@ class _Builder(SheetBuilder):
                 if support.waits and name not in named:
                     model.put_back(support)
             part.keep_friction(model, self.kept, contacts)
-            return {part.control: model.unbalanced(part.control)}
+            return {} if part.control is None else {part.control: model.unbalanced(part.control)}
         return {}
 
     def _contacts(self, model: Model, tools: dict[str, Tool]) -> dict[str, Contact]:
@@ -135,7 +144,7 @@ class _Builder(SheetBuilder):
             if isinstance(part, Rigid) != rigid:
                 continue
             with self.at("supports", number):
-                support = part.add_to(model, here=self.before is not None)
+                support = part.add_to(model, here=self.is_deformed)
                 supports[support.name] = support
         return supports
 
@@ -154,9 +163,9 @@ class _Builder(SheetBuilder):
         """Springs under a loose sheet: automatic, never, or with the stiffness of the deck."""
         rest = self.contents.solution.rest
         model.carries_loose_sheet = rest == "auto"
-        if isinstance(rest, float) and not self.errors:
+        if (rest == "on" or isinstance(rest, float)) and not self.errors:
             with self.at("solution"):
-                model.rest(rest)
+                model.rest(rest if isinstance(rest, float) else None)
 
     def _options(self, model: Model) -> NewtonOptions:
         options = NewtonOptions()

@@ -128,7 +128,7 @@ def idle(deck: Problem) -> Iterator[Finding]:
         if ("controls", name) not in used:
             yield unmoved(f"control {name}", part)
     before = deck.contents.before
-    if before is not None and ("controls", before.control) not in used:
+    if before is not None and before.control is not None and ("controls", before.control) not in used:
         text = "no step moves it to 0: forces of the operation before stay on the part as dead loads"
         yield warning(f"control {before.control}", text, f"to = {{ {before.control} = 0.0 }} in the first step")
 

@@ -8,7 +8,7 @@ from typing import Annotated
 from pydantic import Field
 
 from umform.problem.beads import BeadPart
-from umform.problem.before import Before, Cut
+from umform.problem.before import Before, Cut, Placement
 from umform.problem.contacts import ContactPart
 from umform.problem.controls import ControlPart
 from umform.problem.element import ElementPart
@@ -31,6 +31,8 @@ class Contents(Part):
     """The previous operation, whose deck then defines mesh, material and element."""
     trim: list[Cut] = []
     """Cuts of the part of the previous operation, in order."""
+    placement: Placement | None = None
+    """Rigid motion of the part before the first step."""
     mesh: MeshPart
     """Points and cells."""
     material: MaterialPart

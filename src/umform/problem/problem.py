@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from umform.errors import InvalidValue, UmformError
 from umform.mesh import Mesh
 from umform.model import Model
-from umform.problem.before import merged
+from umform.problem.before import TAKEN, merged
 from umform.problem.building import build, sheet
 from umform.problem.contents import Contents
 from umform.problem.errors import DeckError, DeckKey
@@ -23,7 +23,8 @@ from umform.problem.messages import messages
 from umform.problem.prepared import Prepared
 from umform.problem.references import unknown_names
 from umform.problem.source import Source, change, parse, read_file
-from umform.problem.written import plain
+from umform.problem.written import deck_text, plain
+from umform.run import Result
 from umform.spec import Scalar, scalars
 
 
@@ -44,6 +45,7 @@ class Problem:
     contents: Contents
     source: Source
     before: Problem | None = None
+    start: Result | None = None
 
     @classmethod
     def read(
@@ -94,7 +96,7 @@ class Problem:
         return cls(contents, source, before)
 
     @classmethod
-    def of(cls, tables: Mapping[str, Any], remarks: Iterable[str] = ()) -> Problem:
+    def of(cls, tables: Mapping[str, Any], remarks: Iterable[str] = (), start: Result | None = None) -> Problem:
         """A problem from tables of a program; errors are raised as they are.
 
         Parameters
@@ -103,6 +105,8 @@ class Problem:
             What a deck holds; arrays may be tuples, keys with the value None are left out.
         remarks : iterable of str
             Paragraphs at the head of its text.
+        start : Result, optional
+            The run of the previous operation of the same sheet, from whose last state this one starts.
 
         Raises
         ------
@@ -110,9 +114,8 @@ class Problem:
             If a key does not exist, or its value has another type.
         """
         data = plain(tables)
-        return cls._read(
-            Source(data.get("title", "problem"), Path(), "", data, {}, {}, tuple(remarks), made=True, trust=True)
-        )
+        source = Source(data.get("title", "problem"), Path(), "", data, {}, {}, tuple(remarks), made=True, trust=True)
+        return replace(cls._read(source), start=start)
 
     def with_(self, changes: Mapping[str, Any], *, same_topology: bool = False) -> Problem:
         """The problem with other values at some paths; the mesh follows.
@@ -136,7 +139,7 @@ class Problem:
         if source.made:
             data = deepcopy(source.data)
             change(data, changes)
-            changed = type(self)._read(replace(source, data=data))
+            changed = replace(type(self)._read(replace(source, data=data)), start=self.start)
         else:
             changed = type(self).read(
                 source.text, source.name, source.folder, {**source.changes, **changes}, source.trust
@@ -156,15 +159,30 @@ class Problem:
         named = self if law is material else self.with_({"material": law})
         return [one for one in scalars(named.contents) if not one.path.startswith("output.")]
 
-    def toml(self) -> str:
+    def toml(self, before: Mapping[str, str] | None = None) -> str:
         """Text of the deck.
+
+        Parameters
+        ----------
+        before : mapping, optional
+            Names of the files ``deck`` and ``state`` of the previous operation, for a problem that starts from a run.
 
         Raises
         ------
         InvalidValue
-            A value that was made by a program has no notation in TOML.
+            A value that was made by a program has no notation in TOML, or the files of the start have no name.
         """
-        return self.source.written
+        if self.start is None:
+            return self.source.written
+        if before is None:
+            raise InvalidValue(
+                "a deck names the files of the operation before",
+                where="before",
+                cause="a problem that starts from a run in memory",
+                remedy='before={"deck": "first.toml", "state": "first/state.h5"}',
+            )
+        own = {key: value for key, value in self.source.data.items() if key not in TAKEN}
+        return deck_text({"before": dict(before)} | own, self.source.remarks)
 
     def build(self, solver: str | None = None) -> Prepared:
         """Build the model, its controls and its steps.
@@ -179,7 +197,7 @@ class Problem:
         DeckError
             With all mistakes.
         """
-        return build(self.contents, self.source, solver, self.before)
+        return build(self.contents, self.source, solver, self.before, self.start)
 
     def sheet(self) -> Model:
         """The model without tools and supports, before the first step.
@@ -189,7 +207,7 @@ class Problem:
         DeckError
             With all mistakes.
         """
-        return sheet(self.contents, self.source, self.before)
+        return sheet(self.contents, self.source, self.before, self.start)
 
 
 def _refuse_other_topology(before: Mesh, after: Mesh, changes: Mapping[str, Any]) -> None:

@@ -18,8 +18,8 @@ class Solution(Part):
 
     solver: Annotated[str, Field(min_length=1)] = "auto"
     """auto, multifrontal, banded, pardiso, superlu, or petsc for many ranks."""
-    rest: Literal["auto", "off"] | Positive = "auto"
-    """Springs under an initially loose sheet: auto where needed, off, or their total stiffness."""
+    rest: Literal["auto", "off", "on"] | Positive = "auto"
+    """Springs under an initially loose sheet: auto where needed, off, on, or their total stiffness."""
 
     def build(self) -> NewtonOptions:
         """Options of Newton's method."""

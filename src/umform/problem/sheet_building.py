@@ -18,6 +18,8 @@ from umform.problem.outline import Outlined
 from umform.problem.places import Place
 from umform.problem.rolling import direction
 from umform.problem.source import Source
+from umform.run import Result
+from umform.run.stages import continued
 from umform.surfaces import Tool, ToolSizes
 
 
@@ -35,6 +37,7 @@ class SheetBuilder:
     contents: Contents
     source: Source
     before: Earlier | None = None
+    start: Result | None = None
     errors: list[UmformError] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     sizes: ToolSizes | None = None
@@ -51,10 +54,24 @@ class SheetBuilder:
                 tools[name] = tool
         return tools
 
+    @property
+    def is_deformed(self) -> bool:
+        """Whether the part does not lie as its mesh."""
+        return self.before is not None or self.start is not None or self.contents.placement is not None
+
     def sheet(self) -> Model | None:
         """The model without tools and supports, in its initial state."""
+        model = self._formed()
+        if model is not None and self.contents.placement is not None:
+            with self.at("placement"):
+                self.contents.placement.apply(model)
+        return model
+
+    def _formed(self) -> Model | None:
+        """The model in the state after the previous operation."""
         if self.before is None:
-            return self._model()
+            model = self._model()
+            return model if model is None or self.start is None else continued(model, self.start)
         part, folder = self.contents.before, self.source.folder
         assert part is not None
         with self.at("before"):

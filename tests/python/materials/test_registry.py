@@ -50,7 +50,7 @@ class Ludwik(Hardening):
         eqps = np.linspace(0.0, 1.0, 400) ** 3
         return Table(eqps, self.first + self.strength * eqps**self.exponent).curve()
 '''
-SEEN = '''
+SEEN = """
 import json, sys
 from importlib.util import module_from_spec, spec_from_file_location
 
@@ -85,7 +85,7 @@ spec.loader.exec_module(tables)
 assert "| `Ludwik(first, strength, exponent=0.3)` | Ludwik hardening: y = first + strength e^exponent. |" in (
     tables.table("hardening curve")
 )
-'''
+"""
 
 
 def test_a_class_in_a_file_is_all(tmp_path, strip):

@@ -7,14 +7,18 @@ import pytest
 
 import umform as uf
 from umform.errors import InvalidValue
-from umform.problem import DeckError, Problem
+from umform.problem import DeckError, Problem, load, running
 from umform.problem.templates import template_file
 from umform.processes.air_bending import AirBending, air_bending
+from umform.processes.bend_sequence import bend_sequence
+from umform.processes.bend_sequence.spec import Bend, BendSequence
 from umform.processes.draw.case import draw
 from umform.processes.draw.cup import ESAFORM, Cup
 from umform.processes.draw.u_bend import NUMISHEET, UBend
 from umform.processes.draw_bead.case import drawn_through
 from umform.processes.draw_bead.spec import DrawBead
+from umform.processes.hemming import Hemming, hemming
+from umform.processes.hemming.spec import ACUTE
 from umform.processes.problems import problem_of
 
 METAL = uf.sheet_metals.get("DC04").law
@@ -40,6 +44,37 @@ def test_the_deck_of_a_bead_repeats_its_history():
     again = Problem.read(problem_of(case).toml()).build().solve(progress=False)
     assert drawn.result.table().keys() == again.table().keys()
     assert all(column.tolist() == again[name].tolist() for name, column in drawn.result.table().items())
+
+
+def repeated(decks, folder, monkeypatch):
+    """Results of decks that are run one after the other."""
+    monkeypatch.chdir(folder)
+    for name, text in decks.items():
+        (folder / name).write_text(text)
+    for name in decks:
+        deck = load(name, {f"output.{file}": False for file in ("csv", "vtkhdf", "report", "pictures")})
+        yield running.run(deck, running.prepared(deck, "auto"), progress=False).result
+
+
+def test_the_decks_of_bends_and_a_hem_repeat_their_histories(tmp_path, monkeypatch):
+    sheet = replace(ACUTE, layers=1, elements_per_thickness=1.0, increment=0.025)
+    hem = hemming(Hemming(base=13.0, sheet=sheet, increments=12), frames=1, progress=False)
+    runs = [hem.first.bends[0].result, hem.result]
+    for run, again in zip(runs, repeated(hem.decks(), tmp_path, monkeypatch), strict=True):
+        assert run.table().keys() == again.table().keys()
+        assert all(column.tolist() == again[name].tolist() for name, column in run.table().items())
+
+
+def test_the_deck_of_a_bend_that_is_turned_over_repeats_its_history(tmp_path, monkeypatch):
+    sheet = AirBending(thickness=1.0, opening=8.0, die_radius=1.0, layers=1, elements_per_thickness=1.0)
+    bends = Bend(20.0, stroke=1.0), Bend(40.0, stroke=1.0, direction="down")
+    part = bend_sequence(BendSequence(60.0, bends, sheet), frames=1, progress=False)
+    assert list(part.decks()) == ["bend1.toml", "bend2.toml"]
+    for done, again in zip(part.bends, repeated(part.decks(), tmp_path, monkeypatch), strict=True):
+        assert done.result["stroke_force"].tolist() == again["stroke_force"].tolist()
+        assert done.result.model.u.tolist() == again.model.u.tolist()
+    with pytest.raises(InvalidValue, match="a deck names the files of the operation before"):
+        part.bends[1].problem.toml()
 
 
 def test_a_path_changes_a_number_and_the_mesh_follows():
