@@ -228,7 +228,9 @@ def test_penalty_and_penetration_are_not_both_given(strip, errors):
 
 def test_steps(strip):
     text = strip + '[[steps]]\nkind = "release"\ncontrol = "pull"\n[[steps]]\nkind = "arc"\nto = { pull = 0.2 }\n'
-    move, release, arc = Problem.read(text + 'length = "spherical"\nmost = 3\ncuts = 3\ngrow = 2.0\ntime = 4.0\n').build().steps
+    move, release, arc = (
+        Problem.read(text + 'length = "spherical"\nmost = 3\ncuts = 3\ngrow = 2.0\ntime = 4.0\n').build().steps
+    )
     assert (move.steps, move.to) == (2, [0.1])
     assert release.control.name == "pull"
     assert (arc.kind, arc.most, arc.cuts, arc.grow, arc.time) == ("spherical", 3, 3, 2.0, 4.0)
