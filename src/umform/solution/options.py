@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 from annotated_types import Le
 
-from umform.spec import check_fields
+from umform.spec import About, check_fields
 from umform.spec.types import Count, NotNegative, Positive
 
 
@@ -34,7 +34,9 @@ class NewtonOptions:
     """Largest number of iterations before an increment is cut."""
     line_search: bool | None = None
     """Shorten increments that are too long, see :mod:`umform.solution.line_search`; default: if a law has a history."""
-    extrapolate: Literal[0, 1, 2] = 1
+    extrapolate: Annotated[
+        Literal[0, 1, 2], About(cause="another order", remedy="0 from the tangent, 1 from a line, 2 from a parabola")
+    ] = 1
     """Predictor: 0 from the tangent; 1 from the last increment of the step, extrapolated; 2 from the parabola through
     the last three states, also across the end of a move if the next one continues its direction. eq. (5.50) The
     parabola suits smooth paths: many increments, and contact at many points."""
