@@ -14,7 +14,7 @@ from operator import or_
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, TypeVar, Union, get_args, get_origin
 
-from pydantic import Discriminator, Field, Strict, Tag, TypeAdapter, ValidationInfo, WrapValidator
+from pydantic import Discriminator, Field, Strict, TypeAdapter, ValidationInfo, WrapValidator
 from pydantic import ValidatorFunctionWrapHandler as Handler
 from pydantic import create_model as model_of
 from pydantic.fields import FieldInfo
@@ -23,9 +23,10 @@ from pydantic_core import PydanticCustomError
 from umform.errors import UmformError
 from umform.problem.errors import DeckKey
 from umform.problem.keys import keys_of, plain, summary
+from umform.problem.notations import one_of_notations, one_of_tags
 from umform.problem.own_classes import own_class
 from umform.problem.parts import Part
-from umform.spec import InDeck, OneOf, Parameter, note_of, parameters
+from umform.spec import InDeck, OneOf, Parameter, deck_keys, note_of, parameters
 
 P = TypeVar("P", bound=Part)
 
@@ -125,11 +126,7 @@ class _Keys(Part):
         """The sentence of each key."""
         known = {cls.tag[0]: f"The word {cls.tag[1]}."} if cls.tag else {}
         for one in cls.of:
-            choice, other = note_of(one.hint, OneOf), note_of(one.hint, InDeck)
-            if choice and not choice.key:
-                known |= {key: summary(spec) for key, spec in choice.classes().items()}
-            else:
-                known[(other.key if other else "") or one.name] = plain(one.sentence)
+            known |= {key: summary(spec) if spec else plain(one.sentence) for key, spec in deck_keys(one).items()}
         return known
 
 
@@ -147,7 +144,7 @@ def deck_type(hint: Any) -> Any:
             return deck_type(other.kind)
         return Annotated[(deck_type(inner[0]), *inner[1:])]
     if origin in (Union, types.UnionType):
-        return _union([deck_type(arm) for arm in inner if arm is not type(None)], type(None) in inner)
+        return one_of_notations([deck_type(arm) for arm in inner if arm is not type(None)], type(None) in inner)
     if origin in (tuple, Sequence):
         arms = tuple(arm if arm is ... else deck_type(arm) for arm in (inner if origin is tuple else (*inner, ...)))
         return Annotated[tuple.__class_getitem__(arms), Strict(False)]
@@ -172,42 +169,14 @@ def _around(within: type | None) -> Sequence[Parameter]:
 
 
 def _keys(one: Parameter) -> Iterator[tuple[str, tuple[Any, Any]]]:
-    """Keys of a field with their types: one, or one for each of its classes."""
-    choice, other = note_of(one.hint, OneOf), note_of(one.hint, InDeck)
-    if choice and not choice.key:
-        for key, spec in choice.classes().items():
-            yield key, (table(spec) | None, None)
-        return
+    """Keys of a field with their types and defaults."""
+    other = note_of(one.hint, InDeck)
     default = keys_of(one.hint, one.factory()) if one.factory else one.default
     if default is MISSING or (other and other.needed):
         default = ...
-    kind = deck_type(one.hint) | None if default is None else deck_type(one.hint)
-    yield (other.key if other else "") or one.name, (kind, default)
-
-
-def _union(arms: Sequence[Any], optional: bool) -> Any:
-    """One of several notations, so that only the errors of one are reported."""
-    one = arms[0]
-    if len(arms) > 1:
-        one = _either({_notation(arm): arm for arm in arms}, _notation)
-    return one | None if optional else one
-
-
-def _either(arms: Mapping[str, Any], which: Callable[[Any], str]) -> Any:
-    """One of several types, by their tags."""
-    noted = [Annotated[arm, Tag(tag)] for tag, arm in arms.items()]
-    return Annotated[reduce(or_, noted), Discriminator(which)]
-
-
-def _notation(value: Any) -> str:
-    """How TOML writes a value, or the values of a type: a word, a number, an array or a table."""
-    kind = value
-    while get_origin(kind) is Annotated:
-        kind = get_args(kind)[0]
-    kind = get_origin(kind) or (kind if isinstance(kind, type) else type(kind))
-    if kind in (str, Literal):
-        return "word"
-    return "number" if kind in (int, float, bool) else "array" if kind in (list, tuple) else "table"
+    for key, spec in deck_keys(one).items():
+        kind = table(spec) if spec else deck_type(one.hint)
+        yield key, (kind | None if default is None else kind, default)
 
 
 def _made(spec: type, within: type | None, value: Any, read: Handler, info: ValidationInfo) -> Any:
@@ -235,20 +204,18 @@ def _arguments(fields: Sequence[Parameter], given: Mapping[str, Any], context: M
     """Arguments of a class from the keys of a table."""
     arguments = {}
     for one in fields:
-        choice, other = note_of(one.hint, OneOf), note_of(one.hint, InDeck)
-        keys = choice.classes() if choice and not choice.key else [(other.key if other else "") or one.name]
+        keys, other = list(deck_keys(one)), note_of(one.hint, InDeck)
         found = [given[key] for key in keys if given.get(key) is not None]
         if len(found) > 1:
             raise DeckKey(
                 f"give {' or '.join(keys)}, not both",
-                where=list(keys)[-1],
+                where=keys[-1],
                 cause="two tables for one thing",
                 remedy="take one of them out",
             )
         if found:
-            arguments[one.name] = (
-                Path(context.get("folder", "")).absolute() / found[0] if other and other.path else found[0]
-            )
+            in_folder = other is not None and other.path
+            arguments[one.name] = Path(context.get("folder", "")).absolute() / found[0] if in_folder else found[0]
     return arguments
 
 
@@ -262,5 +229,5 @@ def _object(key: str, within: type | None, value: Any, read: Handler, info: Vali
     with refused():
         own: Any = table(own_class(key, word, info.context or {}), within, (key, word))
     OWN[word] = own
-    alone = _either({word: own, "": None}, lambda _: word)
+    alone = one_of_tags({word: own, "": None}, lambda _: word)
     return TypeAdapter(alone).validate_python(value, context=info.context)

@@ -12,7 +12,7 @@ mistake to a type, and `umform.spec.types` has the usual types:
 the help of a command starts quickly.
 """
 
-from umform.spec.in_deck import InDeck, OneOf, entries, note_of
+from umform.spec.in_deck import InDeck, OneOf, deck_keys, entries, note_of
 from umform.spec.parameter import About, Parameter, parameters, sentences
 from umform.spec.paths import Scalar, changed, scalars
 from umform.spec.rule import Checked, Rule, check_fields, check_value
@@ -29,6 +29,7 @@ __all__ = [
     "changed",
     "check_fields",
     "check_value",
+    "deck_keys",
     "entries",
     "note_of",
     "parameters",

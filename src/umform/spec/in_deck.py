@@ -57,6 +57,14 @@ def note_of(hint: Any, kind: type[_Note]) -> _Note | None:
     return next((note for note in notes if isinstance(note, kind)), None)
 
 
+def deck_keys(one: Parameter) -> Mapping[str, type | None]:
+    """Keys of a field in a deck: one for each of its classes if each has its table, else one, without a class."""
+    choice, other = note_of(one.hint, OneOf), note_of(one.hint, InDeck)
+    if choice and not choice.key:
+        return choice.classes()
+    return {(other.key if other else "") or one.name: None}
+
+
 def entries(spec: Any) -> Iterator[tuple[str, Parameter, Any]]:
     """Key of a deck, field, and value of all fields of an object from which it can be made again.
 
@@ -66,8 +74,5 @@ def entries(spec: Any) -> Iterator[tuple[str, Parameter, Any]]:
     written = spec.written() if hasattr(spec, "written") else {}
     for name, one in parameters(kind).items():
         value = written[name] if name in written else getattr(spec, name)
-        choice, other = note_of(one.hint, OneOf), note_of(one.hint, InDeck)
-        key = other.key if other else ""
-        if choice and not choice.key:
-            key = next((word for word, known in choice.classes().items() if known is type(value)), "")
-        yield key or name, one, value
+        keys = deck_keys(one)
+        yield next((key for key, known in keys.items() if known in (None, type(value))), name), one, value
