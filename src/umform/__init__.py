@@ -119,6 +119,8 @@ _MODULES = {
     "sheet_metals": "umform.sheet_metals",
     "surfaces": "umform.surfaces",
 }
+#: Packages whose classes are public without a line here.
+_SEARCHED = ("umform.surfaces",)
 _HOME_OF = {name: module for module, names in _HOME.items() for name in names}
 
 
@@ -132,10 +134,18 @@ def __getattr__(name: str) -> object:
         return __dir__()
     elif name in _materials():
         value = getattr(importlib.import_module("umform.materials"), name)
+    elif (found := _in_a_file(name)) is not None:
+        value = found
     else:
         raise AttributeError(message(name) or f"module 'umform' has no attribute {name!r}")
     globals()[name] = value
     return value
+
+
+def _in_a_file(name: str) -> object:
+    """A class of a package whose files are searched; None if there is none."""
+    packages = (importlib.import_module(package) for package in _SEARCHED if name[:1].isupper())
+    return next((found for package in packages if (found := getattr(package, name, None)) is not None), None)
 
 
 def __dir__() -> list[str]:

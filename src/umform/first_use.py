@@ -9,7 +9,9 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 
-def at_first_use(package: str, home: Mapping[str, str]) -> Callable[[str], object]:
+def at_first_use(
+    package: str, home: Mapping[str, str], others: Callable[[], Mapping[str, object]] = dict
+) -> Callable[[str], object]:
     """Make the ``__getattr__`` of a package (PEP 562).
 
     Parameters
@@ -19,6 +21,8 @@ def at_first_use(package: str, home: Mapping[str, str]) -> Callable[[str], objec
     home : mapping of str to str
         Module in the package, for each name. No module may have the name of what another one defines: once imported,
         it would hide it.
+    others : callable, optional
+        Further objects by name, such as the classes in the files of the package that `home` does not list.
 
     Returns
     -------
@@ -27,9 +31,12 @@ def at_first_use(package: str, home: Mapping[str, str]) -> Callable[[str], objec
     """
 
     def find(name: str) -> object:
-        if name not in home:
+        if name in home:
+            value: object = getattr(importlib.import_module(f"{package}.{home[name]}"), name)
+        elif name[:1].isupper() and name in (found := others()):
+            value = found[name]
+        else:
             raise AttributeError(f"module {package!r} has no attribute {name!r}")
-        value: object = getattr(importlib.import_module(f"{package}.{home[name]}"), name)
         setattr(sys.modules[package], name, value)
         return value
 

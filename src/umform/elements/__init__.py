@@ -12,6 +12,7 @@ from umform.elements.catalogue import (
     thickness_modes,
 )
 from umform.elements.complete_order import at_order, at_order_by_column, column_modes
+from umform.elements.options import BodyOptions, ElementOptions
 from umform.elements.rolling import Rolling, rolling_at, rolling_directions
 from umform.elements.technology import COMPONENTS, Element, Mode, Polynomial, Tying
 from umform.elements.through_thickness import thickness_rule
@@ -24,7 +25,9 @@ __all__ = [
     "MITC9_IN_PLANE_SHEAR",
     "MITC9_MEMBRANE",
     "MITC9_SHEAR",
+    "BodyOptions",
     "Element",
+    "ElementOptions",
     "Mode",
     "Polynomial",
     "Rolling",

@@ -2,29 +2,9 @@
 
 from __future__ import annotations
 
-import importlib
-from dataclasses import is_dataclass
-from functools import cache
-from pathlib import Path
+from functools import partial
 
+from umform.spec.known import known as known_in
 
-@cache
-def known(interface: type) -> dict[str, type]:
-    """Dataclasses of umform.materials that name an interface as their base, by name; those of a file in their order.
-
-    Parameters
-    ----------
-    interface : type
-        Such as Hardening.
-    """
-    files = sorted(file.stem for file in Path(__file__).parent.glob("[a-z]*.py"))
-    modules = [importlib.import_module(f"{__package__}.{stem}") for stem in files]
-    return {
-        name: kind
-        for module in modules
-        for name, kind in vars(module).items()
-        if isinstance(kind, type)
-        and is_dataclass(kind)
-        and interface in kind.__mro__[1:]
-        and kind.__module__ == module.__name__
-    }
+#: Dataclasses of umform.materials that name an interface as their base, by name.
+known = partial(known_in, __package__)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from typing import Annotated, Any, Literal, TypeVar
+from collections.abc import Callable, Iterator, Mapping
+from typing import Annotated, Any, ClassVar, Literal, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, InstanceOf, Strict, Tag
 from pydantic.json_schema import SkipJsonSchema
 
-from umform.spec import sentences
+from umform.spec import Parameter, sentences
 
 
 class Part(BaseModel):
@@ -20,7 +20,14 @@ class Part(BaseModel):
     @classmethod
     def texts(cls) -> dict[str, str]:
         """The sentence of each key."""
-        return sentences(cls)
+        return sentences(cls) | {key: one.sentence.replace("``", "") for key, one in cls.spec_keys.items()}
+
+    #: Keys that are fields of a dataclass.
+    spec_keys: ClassVar[Mapping[str, Parameter]] = {}
+
+    def of_spec(self) -> dict[str, Any]:
+        """Values of the fields of the dataclass."""
+        return {one.name: getattr(self, key) for key, one in self.spec_keys.items()}
 
 
 def describe() -> None:

@@ -3,50 +3,19 @@
 from __future__ import annotations
 
 from pathlib import Path as File
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Discriminator, Field, Tag, ValidationInfo, ValidatorFunctionWrapHandler, WrapValidator
 
 from umform import surfaces
 from umform.problem.parts import NotNegative, Pair, Part, Positive, number_or_array
+from umform.problem.tagged import refused, tagged
 from umform.surfaces import Profile
 
-
-class Line(Part):
-    """Straight segment."""
-
-    kind: Literal["line"]
-    """The word line."""
-    start: Pair
-    """First end."""
-    end: Pair
-    """Second end."""
-
-    def build(self) -> surfaces.Line:
-        """The segment."""
-        return surfaces.Line(self.start, self.end)
-
-
-class Arc(Part):
-    """Circular segment; where start and end are the same it is the whole circle."""
-
-    kind: Literal["arc"]
-    """The word arc."""
-    start: Pair
-    """First end."""
-    end: Pair
-    """Second end."""
-    centre: Pair
-    """Centre, at the same distance from both ends."""
-    clockwise: bool = False
-    """Turns to the right: a concave arc."""
-
-    def build(self) -> surfaces.Arc:
-        """The segment."""
-        return surfaces.Arc(self.start, self.end, self.centre, self.clockwise)
-
-
-Segment = Annotated[Line | Arc, Field(discriminator="kind")]
+if TYPE_CHECKING:
+    Segment = surfaces.Line | surfaces.Arc
+else:
+    Segment = tagged("kind", {"line": surfaces.Line, "arc": surfaces.Arc})
 Radii = Annotated[
     Annotated[NotNegative, Tag("number")] | Annotated[list[NotNegative], Tag("array")], Discriminator(number_or_array)
 ]
@@ -79,7 +48,7 @@ class BySegments(Part):
     def build(self, folder: File = File()) -> Profile:
         """The profile."""
         del folder
-        return Profile([segment.build() for segment in self.segments], self.closed)
+        return Profile(self.segments, self.closed)
 
 
 class FromDxf(Part):
@@ -138,6 +107,19 @@ ProfilePart = Annotated[
 def profile_of(part: ProfilePart, folder: File) -> Profile:
     """The profile; a name alone means a drawing that contains only the section."""
     return (FromDxf(file=part) if isinstance(part, str) else part).build(folder)
+
+
+def _read(value: Any, read: ValidatorFunctionWrapHandler, info: ValidationInfo) -> Profile:
+    """The profile that a deck describes; files are found from its folder."""
+    if isinstance(value, Profile):
+        return value
+    part = read(value)
+    with refused():
+        return profile_of(part, File((info.context or {}).get("folder", ".")))
+
+
+#: A section that is read at once.
+ReadProfile = Annotated[ProfilePart, WrapValidator(_read)]
 
 
 def profile_table(profile: Profile) -> dict[str, Any]:

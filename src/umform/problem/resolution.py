@@ -26,8 +26,8 @@ from umform.problem.prepared import Prepared
 from umform.problem.problem import Problem
 from umform.problem.sizes import sheet_length, size_near
 from umform.problem.steps import Move
-from umform.problem.tools import ToolPart, along, smallest_radius
 from umform.problem.units import first_yield
+from umform.surfaces import Tool
 
 #: Degrees of a tool radius per element: with 4 nodes a face, and with 9, which follow an arc.
 _ARC = {4: 12.0, 9: 24.0}
@@ -56,8 +56,8 @@ def bends(deck: Problem, problem: Prepared) -> Iterator[Finding]:
     h = sheet_thickness(problem.model.mesh)
     sharpest: tuple[float, str] | None = None
     for name, part in deck.contents.contacts.items():
-        tool = deck.contents.tools[part.tool]
-        radius = smallest_radius(tool, problem.tools[part.tool])
+        tool = problem.tools[part.tool]
+        radius = min(tool.convex_radii(), default=None)
         if radius is None:
             continue
         yield element_size(problem.contacts[name], problem.model, tool, radius)
@@ -71,12 +71,12 @@ def coarse(deck: Problem, problem: Prepared) -> list[str]:
     """Warning of a mesh whose elements are too long for the radii that bend the sheet."""
     found = []
     for name, part in deck.contents.contacts.items():
-        tool = deck.contents.tools[part.tool]
-        radius = smallest_radius(tool, problem.tools[part.tool])
+        tool = problem.tools[part.tool]
+        radius = min(tool.convex_radii(), default=None)
         if not radius:
             continue
         contact = problem.contacts[name]
-        degrees, most = math.degrees(size_near(contact, problem.model, along(tool)) / radius), _arc(contact)
+        degrees, most = math.degrees(size_near(contact, problem.model, tool.along()) / radius), _arc(contact)
         if degrees > most:
             found.append(f"{degrees:.3g} degrees of the radius {radius:.4g} at contact {name} ({most:g} at most)")
     if not found:
@@ -92,10 +92,10 @@ def _arc(contact: Contact) -> float:
     return _ARC[contact.facets.shape[1]]
 
 
-def element_size(contact: Contact, model: Model, tool: ToolPart, radius: float) -> Finding:
+def element_size(contact: Contact, model: Model, tool: Tool, radius: float) -> Finding:
     """Angle of the smallest radius of a tool per element where the tool is nearest."""
     about = f"contact {contact.name}"
-    size = size_near(contact, model, along(tool))
+    size = size_near(contact, model, tool.along())
     if radius == 0.0:
         remedy = "round it: the finer the mesh, the deeper an edge cuts into the sheet"
         return warning(about, "the tool has a sharp edge", remedy)

@@ -4,43 +4,26 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from umform.problem.parts import Pair, Part, Positive
+from umform.problem.tagged import with_keys
 from umform.solution.options import NewtonOptions
 
 
-def _order(value: object) -> object:
-    """Order of the extrapolation: true is 1, false 0."""
-    return int(value) if isinstance(value, bool) else value
-
-
+@with_keys(NewtonOptions)
 class Solution(Part):
     """Sparse solver and Newton's method."""
 
     solver: Annotated[str, Field(min_length=1)] = "auto"
     """auto, multifrontal, banded, pardiso, superlu, or petsc for many ranks."""
-    residual: Positive = 1e-9
-    """Tolerance of the residual, relative to the element forces."""
-    increment: Positive = 1e-6
-    """Tolerance of the increment, relative to the largest displacement."""
-    max_iterations: Annotated[int, Field(ge=1, le=1000)] = 25
-    """Largest number of iterations before an increment is cut."""
-    line_search: bool | None = None
-    """Shorten increments that are too long; default: if a law has a history."""
-    extrapolate: Annotated[Literal[0, 1, 2], BeforeValidator(_order)] = 1
-    """Start an increment from the tangent (0), or from a line (1) or a parabola (2) through the last states."""
-    keep: bool = False
-    """Start an increment with the contact points of the last one, also where they have opened: for drawing."""
-    mixed: bool | None = None
-    """Geometric stiffness of the stress predicted by the last increment; default: for elastic sheets."""
     rest: Literal["auto", "off", "on"] | Positive = "auto"
     """Springs under an initially loose sheet: auto where needed, off, on, or their total stiffness."""
 
     def build(self) -> NewtonOptions:
         """Options of Newton's method."""
-        return NewtonOptions(**self.model_dump(exclude={"solver", "rest"}))
+        return NewtonOptions(**self.of_spec())
 
 
 class Units(Part):

@@ -13,11 +13,9 @@ from umform.mesh import Mesh
 from umform.model import Model
 from umform.model.contact.kept import KeptContact
 from umform.problem.contents import Contents
-from umform.problem.drawn_tools import Profiled
 from umform.problem.errors import DeckError
 from umform.problem.outline import Outlined
 from umform.problem.places import Place
-from umform.problem.profiles import profile_of
 from umform.problem.rolling import direction
 from umform.problem.source import Source
 from umform.run import Result
@@ -50,12 +48,6 @@ class SheetBuilder:
         """Tools by name, without those that have an error."""
         tools: dict[str, Tool] = {}
         for name, part in self.contents.tools.items():
-            before = len(self.errors)
-            if isinstance(part, Profiled):
-                with self.at("tools", name, "profile"):
-                    profile_of(part.profile, self.source.folder)
-            if len(self.errors) > before:
-                continue
             with self.at("tools", name):
                 tool = part.build(self.source.folder)
                 tool.kernel()
@@ -103,14 +95,7 @@ class SheetBuilder:
         if element is None or mesh is None or any("rolling" in e.where for e in self.errors):
             return None
         with self.at("element"):
-            return Model(
-                mesh,
-                element,
-                material=material,
-                thickness_points=part.thickness_points,
-                thickness_rule=part.thickness_rule,
-                rolling=rolling,
-            )
+            return Model(mesh, part.name, material=material, rolling=rolling, **part.of_spec())
         return None
 
     def _mesh(self, cell: str) -> Mesh | None:

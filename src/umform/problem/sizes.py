@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,7 +16,7 @@ Floats = NDArray[np.float64]
 _ROUND = 0.5
 
 
-def size_near(contact: Contact, model: Model, axis: Floats | None) -> float:
+def size_near(contact: Contact, model: Model, axis: Sequence[float] | None) -> float:
     """Size of the facets nearest to a tool, across its radius.
 
     Parameters
@@ -23,7 +25,7 @@ def size_near(contact: Contact, model: Model, axis: Floats | None) -> float:
         The contact.
     model : Model
         Its model.
-    axis : ndarray, shape (3,), optional
+    axis : sequence of three floats, optional
         Direction of extrusion of a prismatic tool. Without it a strip that is one element wide bends along its length;
         other sheets bend in the direction in which the tool is curved next to them, or over the shorter sides of the
         facets where it has no such direction.
@@ -34,7 +36,8 @@ def size_near(contact: Contact, model: Model, axis: Floats | None) -> float:
     gaps = contact.gap(corners.mean(axis=1))
     size = float(np.ptp(model.mesh.points, axis=0).max())
     if axis is not None:
-        lateral = np.linalg.norm(sides - (sides @ axis)[..., None] * axis, axis=-1)
+        along = np.array(axis)
+        lateral = np.linalg.norm(sides - (sides @ along)[..., None] * along, axis=-1)
         return float(lateral[_nearest(gaps, size)].max(axis=1).min())
     long = _along_a_strip(contact.facets[:, :4], lengths)
     if long is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
@@ -13,7 +13,9 @@ from umform import steps
 from umform.model.contact import Contact
 from umform.model.control import Control
 from umform.model.support import Support
-from umform.problem.parts import Count, Name, Pair, Part, Positive
+from umform.problem.parts import Name, Pair, Part
+from umform.problem.tagged import table, with_keys
+from umform.spec.types import Increments
 
 
 @dataclass(frozen=True)
@@ -32,10 +34,6 @@ class Named:
 
 
 Targets = Annotated[dict[Name, float], Field(min_length=1)]
-Cuts = Annotated[int, Field(ge=0, le=40)]
-Grow = Annotated[float, Field(ge=1)]
-#: A fraction of a step.
-Share = Annotated[float, Field(gt=0, le=1)]
 #: Approximate number of increments of a step at a pace.
 _AT_A_PACE = 40
 #: Approximate number of increments of a release: they grow from a thousandth to a twentieth of the way.
@@ -44,29 +42,13 @@ _OF_A_RELEASE = 30
 _OF_CLOSING = 10
 
 
-class Pace(Part):
-    """Limits of the changes in one increment."""
-
-    first: Share = steps.Pace.first
-    """First increment, as a fraction of the step."""
-    largest: Share = steps.Pace.largest
-    """Largest increment, as a fraction of the step."""
-    turn: Positive = steps.Pace.turn
-    """Rotation of a fibre through the thickness, in degrees."""
-    strain: Positive = steps.Pace.strain
-    """Increase of the plastic strain at a point."""
-    contact: Positive = steps.Pace.contact
-    """Fraction of the contact points that open or close."""
-    iterations: Count = steps.Pace.iterations
-    """Newton iterations to which the size is adapted."""
-    work: Positive = steps.Pace.work
-    """Difference of work and energies, relative to the energy, above which an increment is repeated in halves."""
-
-    def build(self) -> steps.Pace:
-        """The limits."""
-        return steps.Pace(**self.model_dump())
+if TYPE_CHECKING:
+    Pace = steps.Pace
+else:
+    Pace = table(steps.Pace)
 
 
+@with_keys(steps.Move, leave=("control", "to", "steps", "follow"))
 class Move(Part):
     """Move one or more controls along straight lines."""
 
@@ -74,18 +56,12 @@ class Move(Part):
     """The word move."""
     to: Targets
     """End value of each control."""
-    increments: Annotated[int, Field(ge=1, le=1_000_000)] | None = None
+    increments: Increments | None = None
     """Number of equal increments; by default their size adapts, see pace."""
     pace: Pace | None = None
     """Limits of the changes in one increment, if their number is not given."""
-    cuts: Cuts = 10
-    """How often an increment may be halved."""
-    grow: Grow = 1.0
-    """Largest increment relative to the nominal one, if their number is given."""
     follow: dict[Name, Annotated[list[Pair], Field(min_length=1)]] = {}
     """Other controls as piecewise linear tables of the first one: pairs of its value and theirs."""
-    time: Positive = 1.0
-    """Duration of the step: for rate-dependent metals, and for motions in time."""
 
     @model_validator(mode="after")
     def _one_of_both(self) -> Move:
@@ -95,16 +71,12 @@ class Move(Part):
 
     def build(self, named: Named) -> steps.Step:
         """The step."""
-        moved = [named.controls[name] for name in self.to]
-        limits = None if self.pace is None else self.pace.build()
         return steps.Move(
-            moved,
+            [named.controls[name] for name in self.to],
             list(self.to.values()),
-            steps=self.increments or limits,
-            cuts=self.cuts,
-            grow=self.grow,
-            follow={named.controls[name]: table for name, table in self.follow.items()},
-            time=self.time,
+            steps=self.increments or self.pace,
+            follow={named.controls[name]: law for name, law in self.follow.items()},
+            **self.of_spec(),
         )
 
     @property
@@ -113,23 +85,23 @@ class Move(Part):
         return self.increments if self.increments is not None else _AT_A_PACE
 
 
-class Release(Part):
+class _Controlled(Part):
+    """Common key of steps with one control."""
+
+    control: Name
+    """Which control."""
+
+
+@with_keys(steps.Release, leave=("control",))
+class Release(_Controlled):
     """Move a control back until its force is zero or contact is lost."""
 
     kind: Literal["release"]
     """The word release."""
-    control: Name
-    """Which control."""
-    increment: Positive | None = None
-    """First increment; by default 1/1000 of the present value."""
-    tolerance: Positive = 1e-6
-    """Force that counts as zero, relative to that at the beginning."""
-    time: Positive = 1.0
-    """Time for the full way back to zero: for rate-dependent metals, and for motions in time."""
 
     def build(self, named: Named) -> steps.Step:
         """The step."""
-        return steps.Release(named.controls[self.control], self.increment, self.tolerance, self.time)
+        return steps.Release(named.controls[self.control], **self.of_spec())
 
     @property
     def expected(self) -> int:
@@ -137,6 +109,7 @@ class Release(Part):
         return _OF_A_RELEASE
 
 
+@with_keys(steps.Arc, leave=("control", "to", "until"), kind="length")
 class Arc(Part):
     """Follow the equilibrium path through limit points while controls move along straight lines."""
 
@@ -144,41 +117,19 @@ class Arc(Part):
     """The word arc."""
     to: Targets
     """End value of each control."""
-    increment: Annotated[float, Field(gt=0, le=1)] = 0.05
-    """First increment of the load parameter, which goes from 0 to 1."""
-    length: Literal["cylindrical", "spherical"] = "cylindrical"
-    """Length of an increment: of displacements, or of displacements and load parameter."""
-    iterations: Count = 6
-    """Iterations to which the arc length is adapted."""
-    grow: Grow = 4.0
-    """Ratio of the largest arc length to the first."""
-    cuts: Cuts = 10
-    """How often the first arc length may be halved."""
-    most: Annotated[int, Field(ge=1, le=1_000_000)] = 200
-    """Number of increments at which the step ends with a warning."""
-    time: Positive = 1.0
-    """Time for the path to the end at the rate of the first increment: for rate-dependent metals."""
 
     def build(self, named: Named) -> steps.Step:
         """The step."""
-        return steps.Arc(
-            [named.controls[name] for name in self.to],
-            list(self.to.values()),
-            increment=self.increment,
-            kind=self.length,
-            iterations=self.iterations,
-            grow=self.grow,
-            cuts=self.cuts,
-            most=self.most,
-            time=self.time,
-        )
+        return steps.Arc([named.controls[name] for name in self.to], list(self.to.values()), **self.of_spec())
 
     @property
     def expected(self) -> int:
         """The largest number of increments."""
-        return self.most
+        most: int = self.of_spec()["most"]
+        return most
 
 
+@with_keys(steps.Free, leave=("support", "on"), steps="increments")
 class Free(Part):
     """Remove a support, or open tools, gradually: their forces become loads that decrease to zero."""
 
@@ -190,14 +141,6 @@ class Free(Part):
     """Contacts whose tools open."""
     on: Name | None = None
     """Name of a support of the kind rigid, which holds the sheet from then on."""
-    increments: Annotated[int, Field(ge=1, le=1_000_000)] = 10
-    """Number of equal increments."""
-    cuts: Cuts = 10
-    """How often an increment may be halved."""
-    grow: Grow = 1.0
-    """Largest increment relative to the nominal one."""
-    time: Positive = 1.0
-    """Duration of the step: for rate-dependent metals, and for motions in time."""
 
     @model_validator(mode="after")
     def _something(self) -> Free:
@@ -211,32 +154,26 @@ class Free(Part):
         if self.support is not None:
             things.insert(0, named.supports[self.support])
         on = None if self.on is None else named.supports[self.on]
-        return steps.Free(things, steps=self.increments, cuts=self.cuts, grow=self.grow, on=on, time=self.time)
+        return steps.Free(things, on=on, **self.of_spec())
 
     @property
     def expected(self) -> int:
         """Approximate number of increments."""
-        return self.increments
+        increments: int = self.of_spec()["steps"]
+        return increments
 
 
-class Close(Part):
+@with_keys(steps.Close, leave=("control",))
+class Close(_Controlled):
     """Close a pressed tool under displacement control until a force is reached, then hold the force."""
 
     kind: Literal["close"]
     """The word close."""
-    control: Name
-    """Control of the kind press, spring or moment."""
-    force: float
-    """Closing force (or moment)."""
-    way: Positive | None = None
-    """Largest displacement; by default its distance from the sheet and the largest extent of the sheet."""
-    time: Positive = 1.0
-    """Duration of the step: for rate-dependent metals, and for motions in time."""
 
     def build(self, named: Named) -> steps.Step:
         """The step."""
         control = named.controls[self.control]
-        return steps.Close(control, self.force, self.way, self.time)  # type: ignore[arg-type]
+        return steps.Close(control, **self.of_spec())  # type: ignore[arg-type]
 
     @property
     def expected(self) -> int:

@@ -6,12 +6,13 @@ The value of such a table is an object of the class itself. An object that is gi
 from __future__ import annotations
 
 import types
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import MISSING, is_dataclass
 from functools import cache, partial, reduce
 from operator import or_
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Literal, Union, get_args, get_origin
+from typing import Annotated, Any, ClassVar, Literal, TypeVar, Union, get_args, get_origin
 
 from pydantic import Discriminator, Field, Strict, TypeAdapter, ValidationInfo, WrapValidator
 from pydantic import ValidatorFunctionWrapHandler as Handler
@@ -27,6 +28,10 @@ from umform.problem.own_classes import own_class
 from umform.problem.parts import Part
 from umform.spec import InDeck, OneOf, Parameter, deck_keys, note_of, parameters
 
+P = TypeVar("P", bound=Part)
+
+#: Types of Python that a deck writes in a way of its own.
+_WRITTEN_AS: dict[Any, Any] = {}
 #: Values that a text of TOML gives; others are objects of Python.
 _WRITTEN = (dict, list, str, int, float)
 #: Tables of the classes of the user that decks have named, by their words.
@@ -43,8 +48,8 @@ def tagged(key: str, classes: Mapping[str, type], within: type | None = None) ->
     classes : mapping of str to type
         Dataclasses by their words.
     within : type, optional
-        A dataclass around the object: it takes the object as its first field, and its other fields are further keys of
-        the same table.
+        A dataclass around the object: the field that its ``inside`` names, or the first one, takes the object, and its
+        other fields are further keys of the same table.
     """
     members = [table(spec, within, (key, word)) for word, spec in classes.items()]
     union = Annotated[reduce(or_, members), Field(discriminator=key)] if len(members) > 1 else members[0]
@@ -74,6 +79,42 @@ def table(spec: type, within: type | None = None, tag: tuple[str, str] | None = 
     return Annotated[keys, WrapValidator(partial(_made, spec, within))]
 
 
+def with_keys(spec: type, leave: Sequence[str] = (), **names: str) -> Callable[[type[P]], type[P]]:
+    """Decorator of a table: its further keys are the fields of a dataclass, which `Part.of_spec` returns.
+
+    Parameters
+    ----------
+    spec : type
+        The dataclass.
+    leave : sequence of str
+        Fields that the table writes in a way of its own.
+    **names : str
+        Keys that have other names than their fields.
+    """
+    chosen = [one for one in _own(spec) if one.name not in leave]
+
+    def add(part: type[P]) -> type[P]:
+        fields: dict[str, Any] = {names.get(key, key): kind for one in chosen for key, kind in _keys(one)}
+        made = model_of(part.__name__, __base__=part, __doc__=part.__doc__, __module__=part.__module__, **fields)
+        made.spec_keys = {names.get(one.name, one.name): one for one in chosen}
+        return made
+
+    return add
+
+
+def write_as(hint: Any, notation: Any) -> None:
+    """Let a deck write values of a type in a way of its own.
+
+    Parameters
+    ----------
+    hint : type or annotated type
+        The annotation of fields.
+    notation : type
+        What pydantic reads in its place; the value is one of the type.
+    """
+    _WRITTEN_AS[hint] = notation
+
+
 class _Keys(Part):
     """Keys of a table, and the fields that they are."""
 
@@ -91,6 +132,8 @@ class _Keys(Part):
 
 def deck_type(hint: Any) -> Any:
     """Type of a key for the annotation of a field."""
+    if hint in _WRITTEN_AS:
+        return _WRITTEN_AS[hint]
     origin, inner = get_origin(hint), get_args(hint)
     if note_of(hint, FieldInfo) or note_of(hint, Discriminator):  # a type of pydantic
         return hint
@@ -102,8 +145,8 @@ def deck_type(hint: Any) -> Any:
         return Annotated[(deck_type(inner[0]), *inner[1:])]
     if origin in (Union, types.UnionType):
         return one_of_notations([deck_type(arm) for arm in inner if arm is not type(None)], type(None) in inner)
-    if origin is tuple:
-        arms = tuple(arm if arm is ... else deck_type(arm) for arm in inner)
+    if origin in (tuple, Sequence):
+        arms = tuple(arm if arm is ... else deck_type(arm) for arm in (inner if origin is tuple else (*inner, ...)))
         return Annotated[tuple.__class_getitem__(arms), Strict(False)]
     if isinstance(hint, type) and is_dataclass(hint):
         return table(hint)
@@ -115,9 +158,14 @@ def _own(spec: type) -> Sequence[Parameter]:
     return list(parameters(spec).values())
 
 
+def _inner(within: type) -> Parameter:
+    """The field of a class around an object that holds it."""
+    return parameters(within)[within.inside] if hasattr(within, "inside") else _own(within)[0]
+
+
 def _around(within: type | None) -> Sequence[Parameter]:
-    """Further fields of a class around an object."""
-    return _own(within)[1:] if within else []
+    """Its other fields."""
+    return [one for one in _own(within) if one is not _inner(within)] if within else []
 
 
 def _keys(one: Parameter) -> Iterator[tuple[str, tuple[Any, Any]]]:
@@ -137,9 +185,17 @@ def _made(spec: type, within: type | None, value: Any, read: Handler, info: Vali
         return value
     keys = read(value)
     given = {key: getattr(keys, key) for key in keys.model_fields_set}
-    try:
+    with refused():
         made = spec(**_arguments(_own(spec), given, info.context or {}))
-        return within(made, **_arguments(_around(within), given, {})) if within else made
+        beside = _arguments(_around(within), given, {})
+        return within(**{_inner(within).name: made}, **beside) if within else made
+
+
+@contextmanager
+def refused() -> Iterator[None]:
+    """Block that makes an object: its error becomes one of pydantic, so that it gets its place in the deck."""
+    try:
+        yield
     except (UmformError, ArithmeticError, ValueError, MemoryError) as error:
         raise PydanticCustomError("object", "{error}", {"error": error}) from None
 
@@ -170,10 +226,8 @@ def _object(key: str, within: type | None, value: Any, read: Handler, info: Vali
     word = value.get(key) if isinstance(value, dict) else None
     if not isinstance(word, str) or ":" not in word:
         return read(value)
-    try:
+    with refused():
         own: Any = table(own_class(key, word, info.context or {}), within, (key, word))
-    except UmformError as error:
-        raise PydanticCustomError("object", "{error}", {"error": error}) from None
     OWN[word] = own
     alone = one_of_tags({word: own, "": None}, lambda _: word)
     return TypeAdapter(alone).validate_python(value, context=info.context)

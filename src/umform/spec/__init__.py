@@ -15,10 +15,12 @@ the help of a command starts quickly.
 from umform.spec.in_deck import InDeck, OneOf, deck_keys, entries, note_of
 from umform.spec.parameter import About, Parameter, parameters, sentences
 from umform.spec.paths import Scalar, changed, scalars
-from umform.spec.rule import Rule, check_fields, check_value
+from umform.spec.rule import Checked, Rule, check_fields, check_value
+from umform.spec.takes import takes
 
 __all__ = [
     "About",
+    "Checked",
     "InDeck",
     "OneOf",
     "Parameter",
@@ -33,4 +35,5 @@ __all__ = [
     "parameters",
     "scalars",
     "sentences",
+    "takes",
 ]

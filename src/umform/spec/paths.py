@@ -98,7 +98,7 @@ def _entries(spec: Any) -> Iterator[tuple[Any, Any, str, str]]:
             else:
                 yield name, value, one.about.unit, one.sentence
     elif hasattr(kind, "model_fields"):  # a table of a deck
-        known = sentences(kind)
+        known = kind.texts() if hasattr(kind, "texts") else sentences(kind)
         for name, field in kind.model_fields.items():
             units = [note.unit for note in field.metadata if isinstance(note, About)]
             yield name, getattr(spec, name), "".join(units[-1:]), known.get(name, "")

@@ -371,7 +371,7 @@ def test_nine_modes_span_all_biquadratic_polynomials():
 
 @pytest.mark.parametrize("order_modes", [0, 2, 3, 16])
 def test_unknown_numbers_of_modes_of_higher_order_are_refused(order_modes):
-    with pytest.raises(InvalidValue, match="higher order must be 1, 4 or 9"):
+    with pytest.raises(InvalidValue, match="each order above 1 must be 1, 4 or 9"):
         element("MI9K3DEAS", thickness_order=2, order_modes=order_modes)
 
 

@@ -121,16 +121,19 @@ def test_all_slips_are_told_at_once(strip, errors):
 
 
 def test_all_that_cannot_be_built_is_told_at_once(strip, errors):
-    text = strip + '[[supports]]\nkind = "hinge"\nnodes = "x7"\n[tools.ring]\nshape = "Torus"\n'
-    text += 'centre = [0, 0, 0]\naxis = "y"\nmajor = 1.0\nminor = 2.0\n'
+    text = strip + '[[supports]]\nkind = "hinge"\nnodes = "x7"\n[tools.die]\nshape = "VDie"\n'
+    text += "opening = 10.0\nangle = 90.0\nshoulder_radius = 1.0\ndepth = 5.0\n"
     wheres = [error.where for error in errors(text.replace('nodes = "x0"', 'nodes = "x8"'))]
     assert len(wheres) == 3
-    for where, key in zip(wheres, ("tools.ring (Torus)", "supports[0].nodes", "supports[1].nodes"), strict=True):
+    for where, key in zip(wheres, ("tools.die.depth", "supports[0].nodes", "supports[1].nodes"), strict=True):
         assert key in where
     text = text.replace("nu = 0.3", "nu = 0.3\n[element]\nname = 'ANS4'").replace(
         "cells = [4, 2]", "cells = [4, 2]\nlayers = 2"
     )
-    assert [error.what for error in errors(text)] == ["a ring must have a hole", "unknown element"]
+    assert [error.what for error in errors(text)] == [
+        "a flat bottom must lie above the point of the V",
+        "unknown element",
+    ]
 
 
 def test_an_error_travels_between_processes(strip, errors):

@@ -7,7 +7,6 @@ import umform as uf
 from umform import sheet_metals
 from umform.materials import J2, Swift
 from umform.problem import Problem
-from umform.problem.tools import smallest_radius
 
 TOOLS = {
     "Plane": ('point = [0, 0, -3]\nnormal = "z"', uf.Plane((0, 0, -3), "z"), None),
@@ -53,7 +52,7 @@ def test_each_tool_is_that_of_the_library_where_it_was_placed(shape, strip, rng)
     assert np.array_equal(part.build().gap(x)[0], tool.gap(x)[0])
     there = tool.moved((1, 2, 3), (0, np.pi / 6, 0))
     assert np.allclose(placed.contents.tools["it"].build().gap(x)[0], there.gap(x)[0], atol=1e-13)
-    found = smallest_radius(part, part.build())
+    found = min(part.build().convex_radii(), default=None)
     assert found == pytest.approx(radius) if radius else found is None
 
 
@@ -219,7 +218,7 @@ def test_points_and_cells_are_not_both_given(strip, errors):
 
 def test_a_ripple_is_wanted_of_cells_whose_number_follows_from_it(strip, errors):
     (told,) = errors((strip + CONTROLS).replace("penalty = 1e3", "penalty = 1e3\nripple = 0.01"))
-    assert "needs cells = auto" in told.what
+    assert "cells whose number follows" in told.what
 
 
 def test_penalty_and_penetration_are_not_both_given(strip, errors):
@@ -229,10 +228,12 @@ def test_penalty_and_penetration_are_not_both_given(strip, errors):
 
 def test_steps(strip):
     text = strip + '[[steps]]\nkind = "release"\ncontrol = "pull"\n[[steps]]\nkind = "arc"\nto = { pull = 0.2 }\n'
-    move, release, arc = Problem.read(text + 'length = "spherical"\nmost = 3\n').build().steps
+    move, release, arc = (
+        Problem.read(text + 'length = "spherical"\nmost = 3\ncuts = 3\ngrow = 2.0\ntime = 4.0\n').build().steps
+    )
     assert (move.steps, move.to) == (2, [0.1])
     assert release.control.name == "pull"
-    assert (arc.kind, arc.most) == ("spherical", 3)
+    assert (arc.kind, arc.most, arc.cuts, arc.grow, arc.time) == ("spherical", 3, 3, 2.0, 4.0)
 
 
 def test_a_deck_solves_as_the_same_lines_of_python(strip):

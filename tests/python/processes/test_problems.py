@@ -82,7 +82,7 @@ def test_a_path_changes_a_number_and_the_mesh_follows():
     numbers = {one.path: one for one in problem.paths()}
     assert numbers["tools.die.shoulder_radius"].value == BEND.die_radius
     assert numbers["material.hardening.exponent"].value == BEND.material.hardening.exponent
-    assert numbers["steps.0.cuts"].sentence == "How often an increment may be halved."
+    assert numbers["steps.0.cuts"].sentence == "How often an increment may be halved before the run fails."
     assert not [path for path in numbers if path.startswith("output.")]
     changed = problem.with_({"tools.die.shoulder_radius": 2.1, "steps.0.to.stroke": 0.4}, same_topology=True)
     assert changed.contents.tools["die"].shoulder_radius == 2.1

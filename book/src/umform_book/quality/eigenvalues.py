@@ -98,7 +98,7 @@ def every_option(name: str) -> list[Options]:
 
 def zero_modes(name: str, options: Options, shape: str) -> tuple[int, float]:
     """Number of eigenvalues at round-off, and the seventh over the largest."""
-    found = eigenvalues(single_element(element(name, **options), 0.3, 0.3, shape))  # type: ignore[arg-type]
+    found = eigenvalues(single_element(element(name, **options), 0.3, 0.3, shape))
     return int((np.abs(found) < 1e-12 * found[-1]).sum()), float(found[6] / found[-1])
 
 

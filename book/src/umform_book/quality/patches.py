@@ -219,12 +219,12 @@ def stress_forces(mesh: Mesh, S: Floats) -> Floats:
 
 def patch_model(mesh: str, name: str | Element, thickness: float = THICKNESS, **options: int | bool) -> Model:
     """Plate held at its lateral faces, with an element of the catalogue and its options."""
-    return _held(mesh, element(name, **options), MATERIAL, thickness)  # type: ignore[arg-type]
+    return _held(mesh, element(name, **options), MATERIAL, thickness)
 
 
 def plastic_patch_model(mesh: str, name: str, **options: int | bool) -> Model:
     """The same with points and order of a plastic law, which does not flow."""
-    return _held(mesh, element(name, **options), NEVER_FLOWS, THICKNESS)  # type: ignore[arg-type]
+    return _held(mesh, element(name, **options), NEVER_FLOWS, THICKNESS)
 
 
 def _held(mesh: str, technology: Element, material: Material, thickness: float) -> Model:
