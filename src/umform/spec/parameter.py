@@ -259,7 +259,7 @@ def _kind(hint: Any, extras: tuple[Any, ...]) -> Kind:
     rules = tuple(extra for extra in extras if hasattr(extra, "fits"))
     if get_origin(hint) is Literal:
         return Kind(str, get_args(hint), (), rules)
-    known = hint if isinstance(hint, type) and not getattr(hint, "_is_protocol", False) else object
+    known = hint if isinstance(hint, type) and hint is not Any and not getattr(hint, "_is_protocol", False) else object
     if get_origin(hint) in (tuple, list, Sequence):
         known = Collection  # lists, tuples, arrays
     elif get_origin(hint) is Callable:

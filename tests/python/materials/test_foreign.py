@@ -397,7 +397,7 @@ def test_what_is_refused_before_a_run(elastic, kinematic, tmp_path):
         (lambda: uf.Umat(kinematic, symbol="other"), FileProblem, "does not have the function"),
         (lambda: uf.Umat(kinematic, state=-1), InvalidValue, "state of a law"),
         (lambda: uf.Umat(kinematic, state={"a": 0}), InvalidValue, "state of a law"),
-        (lambda: uf.Umat(kinematic, properties=3.0), InvalidValue, "properties must be numbers"),
+        (lambda: uf.Umat(kinematic, properties=3.0), InvalidValue, "constants of the law must be an array"),
         (lambda: uf.Umat(kinematic, state=7, initial=[0.0]), InvalidValue, "size of the state"),
         (lambda: uf.Umat(kinematic, state=1, initial=[math.nan]), NotFinite, "initial"),
         (lambda: uf.CompiledLaw(lambda E: E), InvalidValue, "needs a C function"),

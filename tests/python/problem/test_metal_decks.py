@@ -86,6 +86,7 @@ def test_all_parts_are_built():
         ({RATE: RATE.replace("40.0", "-40.0")}, "rate.reference", "greater than 0"),
         ({RATE: RATE.replace("5.0", "0.2")}, "rate.exponent", "greater than or equal to 1"),
         ({BACK: SURFACES}, "material", "constant size"),
+        ({BACK: f"{BACK}\n{SURFACES}"}, "material (two_surfaces)", "give back_stress or two_surfaces, not both"),
         ({'rolling = "x"': ""}, "material", "rolling"),
         ({'rolling = "x"': 'rolling = "z"'}, "material.rolling", "stands on the sheet"),
         ({'rolling = "x"': 'rolling = "q"'}, "material.rolling", "x, y, z, -x, -y or -z"),
