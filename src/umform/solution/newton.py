@@ -40,6 +40,8 @@ _T = TypeVar("_T")
 _FLIGHT = 1e4
 #: Residual, relative to the forces, at which iterations end where a penalty will grow. docs/theory, 4.11
 _NEAR = 1e-2
+#: Residual, relative to its tolerance, below which an increment is not shortened. docs/theory, 5.4
+_CLOSE = 30.0
 
 
 class Newton:
@@ -254,7 +256,7 @@ class Newton:
             entered, left = self._count((status > 0) & (previous == 0)), self._count((status == 0) & (previous > 0))
             moved = bool(entered or left) or system.ranks.any(not np.array_equal(status, previous))
             solved = bool(iterations) or first is not None
-            done = not evaluation.kept and criteria.met(norm, increment, u, evaluation, moved=moved, solved=solved)
+            done = not evaluation.kept and criteria.met(norm, increment, u, evaluation, solved=solved)
             near = manner.grows and solved and not evaluation.kept and norm <= _NEAR * scale
             if done or (near and system.too_deep(evaluation)):
                 recorder.add(evaluation.flowing, norm / scale, increment, 0.0, entered, left, step_length, pivots)
@@ -303,7 +305,7 @@ class Newton:
         if shifted:
             evaluation, length = lengthened(system, u, du, r, evaluation, length)
         elif manner.line_search:
-            evaluation, length = shortened(system, u, du, r, evaluation, length)
+            evaluation, length = shortened(system, u, du, r, evaluation, length, near=_CLOSE * self.options.residual)
         return evaluation.x, evaluation, length
 
     def ready_solver(self) -> Bordered:

@@ -82,7 +82,7 @@ def test_increments_near_a_saddle_are_doubled_until_the_slope_has_fallen():
         restrict=lambda r: r,
         ranks=SimpleNamespace(dot=lambda a, b: float(a @ b)),
         shorten=shortened.append,
-        evaluate=lambda u: SimpleNamespace(residual=u**3 - u, failed=-1, x=u),
+        evaluate=lambda u: SimpleNamespace(residual=u**3 - u, failed=-1, x=u, force_scale=1.0),
     )
     u, du = np.array([0.01]), np.array([0.02])
     evaluation, length = lengthened(system, u, du, u**3 - u, system.evaluate(u + du), 1.0)
