@@ -36,13 +36,14 @@ class Criteria:
         The system to solve.
     residual, increment : float
         Tolerances.
+    settled : float
+        Residual, relative to the forces, at which iterations end, above the tolerance; zero: none. eq. (5.131)
     """
 
-    def __init__(self, system: System, residual: float, increment: float) -> None:
+    def __init__(self, system: System, residual: float, increment: float, settled: float = 0.0) -> None:
         self._system, self._residual, self._increment = system, residual, increment
         self._at_floor = 0
-        #: Residual, relative to the forces, at which iterations end, above the tolerance; zero: none. eq. (5.131)
-        self.settled = 0.0
+        self.settled = settled
         #: Largest entry of the tangent, for evaluations without one.
         self.entry: float | None = None
 

@@ -28,7 +28,9 @@ class Kinked:
         self.lengths.append(part)
 
     def evaluate(self, u):
-        return SimpleNamespace(x=u, residual=self.stiffness * np.maximum(u - 0.5, 0.0) - 1.0, failed=-1, force_scale=100.0)
+        return SimpleNamespace(
+            x=u, residual=self.stiffness * np.maximum(u - 0.5, 0.0) - 1.0, failed=-1, force_scale=100.0
+        )
 
 
 @pytest.mark.parametrize(("near", "length"), [(0.0, 0.5), (0.02, 0.5), (0.2, 1.0)])

@@ -21,10 +21,12 @@ def iteration(residual: float, increment: float = 1e-5) -> Iteration:
 
 def increment(last: bool, touched: bool):
     attempts = SimpleNamespace(trying=lambda name: nullcontext(), causes=Counter())
-    habits = SimpleNamespace(learn=lambda **what: None, learn_of_cut=lambda what: None, last=last)
+    statistics = SimpleNamespace(record=lambda **what: None, record_cut=lambda what: None, last=last)
     newton = SimpleNamespace(timing=SimpleNamespace(attempts=attempts), settled=0.0)
     model = SimpleNamespace(prepare=lambda: None)
-    return SimpleNamespace(model=model, newton=newton, habits=habits, touched=touched, accept=lambda found: found)
+    return SimpleNamespace(
+        model=model, newton=newton, statistics=statistics, touched=touched, accept=lambda found: found
+    )
 
 
 def attempt(*records: Iteration):
