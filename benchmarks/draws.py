@@ -79,12 +79,10 @@ def measured(name: str, variant: str) -> dict[str, str]:
 
 def numbers(drawn: Drawn) -> str:
     """What is asked of such a part."""
-    measures = {name: value for name, (value, _) in drawn.measures().items()}
-    measures |= {name: limit.value for name, limit in drawn.estimates.items()}
-    errors = drawn.errors()
     names = ["theta1", "theta2", "radius of the wall"] if isinstance(drawn.case, UBend) else ["height, mean"]
-    texts = [f"{measures[name]:.2f}" + (f" ± {errors[name]:.2f}" if errors.get(name) else "") for name in names]
-    return ", ".join([f"{measures['largest punch force']:.2f} kN", *texts])
+    errors = {one.name: one.band.error for one in drawn.quantities if one.band is not None}
+    texts = [f"{drawn[name].best:.2f}" + (f" ± {errors[name]:.2f}" if errors.get(name) else "") for name in names]
+    return ", ".join([f"{drawn['largest punch force'].best:.2f} kN", *texts])
 
 
 def table(rows: list[dict[str, str]]) -> str:

@@ -63,10 +63,10 @@ Technology read_technology() {
     }
     for (int modes = read_count(); modes > 0; --modes) {
         Mode& mode = technology.modes.emplace_back();
-        for (int terms = read_count(); terms > 0; --terms) {
-            const std::vector<double> term = read(5);
-            mode.push_back({static_cast<int>(term[0]), term[1], static_cast<int>(term[2]), static_cast<int>(term[3]),
-                            static_cast<int>(term[4])});
+        for (int parts = read_count(); parts > 0; --parts) {
+            const std::vector<double> part = read(5);
+            mode.push_back({static_cast<int>(part[0]), part[1], static_cast<int>(part[2]), static_cast<int>(part[3]),
+                            static_cast<int>(part[4])});
         }
     }
     return technology;
@@ -75,9 +75,9 @@ Technology read_technology() {
 template <class Law, int Nodes>
 void answer(const Law& law, const SolidShell<Nodes, Counted>& element,
             typename SolidShell<Nodes, Counted>::Workspace& w) {
-    std::array<double, std::max(Law::state_size, 1)> initial{};
+    std::array<double, std::max(Law::table.size(), 1)> initial{};
     law.initial(initial.data());
-    std::array<Counted, std::max(Law::state_size, 1)> state, trial;
+    std::array<Counted, std::max(Law::table.size(), 1)> state, trial;
     std::copy(initial.begin(), initial.end(), state.begin());
     for (int q = 0; q < element.points(); ++q) law.respond(w.E[q], state.data(), w.S[q], w.CC[q], trial.data());
 }

@@ -84,9 +84,9 @@ def description(element: Element, model: Model, constants: list[float], u: np.nd
         numbers += [index(row.component), row.at_layer, len(row.r), *row.r, len(row.s), *row.s]
     numbers.append(len(element.modes))
     for mode in element.modes:
-        numbers.append(len(mode))
-        for term in mode:
-            numbers += [index(term.component), term.factor, term.a, term.b, term.c]
+        numbers.append(len(mode.polynomials))
+        for part in mode.polynomials:
+            numbers += [index(part.component), part.factor, part.a, part.b, part.c]
     t, w = (np.atleast_2d(part) for part in model.body.through)
     numbers += [element.nodes, element.surface_points, *t.shape]
     for heights, weights in zip(t, w, strict=True):

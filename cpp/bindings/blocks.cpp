@@ -131,7 +131,7 @@ void bind_blocks(nb::module_& m) {
     nb::class_<Tying>(m, "Tying", "One row of an assumed-strain rule.")
         .def(nb::init<int, std::vector<double>, std::vector<double>, bool>(), nb::arg("component"), nb::arg("r"),
              nb::arg("s"), nb::arg("at_layer"));
-    nb::class_<Term>(m, "Term", "factor * r^a s^b P_c(t) of an enhanced mode in one covariant component.")
+    nb::class_<Polynomial>(m, "Polynomial", "factor * r^a s^b P_c(t) of an enhanced mode in one covariant component.")
         .def(nb::init<int, double, int, int, int>(), nb::arg("component"), nb::arg("factor"), nb::arg("a"),
              nb::arg("b"), nb::arg("c"));
     nb::class_<Technology>(m, "Technology", "Which strains are tied where, and which are enhanced by what.")
@@ -143,8 +143,8 @@ void bind_blocks(nb::module_& m) {
         .def_prop_ro("modes", &ShellBlock::modes)
         .def_prop_ro("state_size", &ShellBlock::state_size)
         .def_prop_ro(
-            "state_names", [](const ShellBlock& b) { return to_dict(b.state_names()); },
-            nb::sig("def state_names(self) -> dict[str, int]"), "Parts of the history of a point, in their order.")
+            "quantities", [](const ShellBlock& b) { return to_dict(b.quantities()); },
+            nb::sig("def quantities(self) -> dict[str, int]"), "Parts of the history of a point, in their order.")
         .def_prop_ro("symmetric", &ShellBlock::symmetric, "Whether the tangent is symmetric.")
         .def(
             "failing_point",

@@ -164,15 +164,7 @@ void bind_friction(nb::module_& m) {
 void bind_law(nb::module_& m) {
     nb::class_<ContactLaw>(m, "ContactLaw", "Traction at a place of a face from its gap, and what it remembers.")
         .def_prop_rw("penalty", &ContactLaw::penalty, &ContactLaw::set_penalty, "Pressure per penetration.")
-        .def_prop_ro("symmetric", &ContactLaw::symmetric, "Whether its tangent is symmetric.")
-        .def_prop_ro(
-            "quantities",
-            [](const ContactLaw& law) {
-                nb::dict sizes;
-                for (const Quantity& quantity : law.quantities()) sizes[quantity.name.c_str()] = quantity.size;
-                return sizes;
-            },
-            nb::sig("def quantities(self) -> dict[str, int]"), "Names and sizes of what a place remembers.");
+        .def_prop_ro("symmetric", &ContactLaw::symmetric, "Whether its tangent is symmetric.");
     bind_friction(m);
     m.def(
         "coulomb_law",
@@ -264,13 +256,16 @@ void bind_history(nb::class_<ContactBlock>& contact) {
             nb::for_setter(nb::sig("def multipliers(self, values: NDArray[float64], /) -> None")),
             "Pressures that are there without a penetration: those of now, which commit makes the converged ones.")
         .def_prop_ro(
+            "quantities", [](const ContactBlock& b) { return to_dict(b.history().quantities()); },
+            nb::sig("def quantities(self) -> dict[str, int]"), "Parts of the history of a point, in their order.")
+        .def_prop_ro(
             "state",
             [](const ContactBlock& b) {
                 return to_numpy(b.history().state(),
                                 {static_cast<std::size_t>(b.points()), static_cast<std::size_t>(b.history().size())});
             },
             nb::sig("def state(self) -> NDArray[float64]"),
-            "Converged history (points, size) in the order of the quantities of the law.")
+            "Converged history (points, size) in the order of the quantities.")
         .def_prop_ro(
             "read",
             [](const ContactBlock& b) {

@@ -51,7 +51,7 @@ struct MetalCard {
         return std::visit(
             [&](const auto& function) {
                 const Metal law(parts, function);
-                if (state.size() != static_cast<std::size_t>(law.state_size))
+                if (state.size() != static_cast<std::size_t>(law.table.size()))
                     throw std::invalid_argument("the state is not one of this metal");
                 return law.residuals(h, state.data(), step);
             },

@@ -14,7 +14,7 @@
 #include "umform/multifrontal/residual.hpp"
 #include "umform/multifrontal/substitution.hpp"
 
-using namespace umform;
+namespace umform::multifrontal {
 
 namespace {
 
@@ -45,7 +45,7 @@ class Multifrontal {
     std::unique_ptr<Factors> factors_;
 
     void plan(const Rows& upper) {
-        const Quotient quotient = make_quotient(upper.indptr, upper.indices, upper.n);
+        const ordering::Quotient quotient = ordering::make_quotient(upper.indptr, upper.indices, upper.n);
         plan_ = std::make_unique<Plan>(rows(), symmetric_, quotient, eliminate(quotient));
     }
 };
@@ -60,9 +60,7 @@ Function take(const nb::dict& api, const char* name) {
     return reinterpret_cast<Function>(PyCapsule_GetPointer(capsule.ptr(), signature));
 }
 
-}  // namespace
-
-void bind_multifrontal(nb::module_& m) {
+void bind(nb::module_& m) {
     m.def(
         "set_blas",
         [](const nb::dict& api, std::uintptr_t set_threads, std::uintptr_t get_threads) {
@@ -165,3 +163,9 @@ void bind_multifrontal(nb::module_& m) {
             nb::sig("def scales(self) -> tuple[NDArray[float64], NDArray[float64]]"),
             "Powers of two for rows and columns of that; empty where it is the matrix itself.");
 }
+
+}  // namespace
+
+}  // namespace umform::multifrontal
+
+void bind_multifrontal(nb::module_& m) { umform::multifrontal::bind(m); }

@@ -80,20 +80,21 @@ void bind_sparse(nb::module_& m) {
                 return make_scatter(p, part);
             },
             nb::arg("part"), "The map for the elements of one kind.");
-    nb::class_<BlockPattern>(m, "BlockPattern", "Upper triangle in square blocks, one for two neighbouring groups.")
-        .def_prop_ro("size", &BlockPattern::size, "Rows of a block.")
+    nb::class_<ordering::BlockPattern>(m, "BlockPattern",
+                                       "Upper triangle in square blocks, one for two neighbouring groups.")
+        .def_prop_ro("size", &ordering::BlockPattern::size, "Rows of a block.")
         .def_prop_ro(
-            "indptr", [](const BlockPattern& p) { return to_numpy(p.indptr(), {p.indptr().size()}); },
+            "indptr", [](const ordering::BlockPattern& p) { return to_numpy(p.indptr(), {p.indptr().size()}); },
             nb::sig("def indptr(self) -> NDArray[int32]"))
         .def_prop_ro(
-            "indices", [](const BlockPattern& p) { return to_numpy(p.indices(), {p.indices().size()}); },
+            "indices", [](const ordering::BlockPattern& p) { return to_numpy(p.indices(), {p.indices().size()}); },
             nb::sig("def indices(self) -> NDArray[int32]"))
         .def_prop_ro(
-            "place", [](const BlockPattern& p) { return to_numpy(p.place(), {p.place().size()}); },
+            "place", [](const ordering::BlockPattern& p) { return to_numpy(p.place(), {p.place().size()}); },
             nb::sig("def place(self) -> NDArray[int32]"), "Row of each equation; other rows say x = 0.")
         .def(
             "fill",
-            [](const BlockPattern& p, const InputIds& indptr, const InputIds& indices, const Input& values,
+            [](const ordering::BlockPattern& p, const InputIds& indptr, const InputIds& indices, const Input& values,
                const Output& out) {
                 nb::gil_scoped_release release;
                 p.fill(indptr.data(), indices.data(), values.data(), out.data());
@@ -102,27 +103,28 @@ void bind_sparse(nb::module_& m) {
             nb::sig("def fill(self, indptr: NDArray[int32], indices: NDArray[int32], values: NDArray[float64], "
                     "out: NDArray[float64]) -> None"),
             "Entries of the blocks from those of the pattern.");
-    nb::class_<SheetOrder>(m, "SheetOrder", "Order of elimination of a sheet, from the upper triangle of its pattern.")
+    nb::class_<ordering::SheetOrder>(m, "SheetOrder",
+                                     "Order of elimination of a sheet, from the upper triangle of its pattern.")
         .def(
             "__init__",
-            [](SheetOrder* self, const InputIds& indptr, const InputIds& indices) {
+            [](ordering::SheetOrder* self, const InputIds& indptr, const InputIds& indices) {
                 nb::gil_scoped_release release;
-                new (self) SheetOrder(indptr.data(), indices.data(), static_cast<int>(indptr.size()) - 1);
+                new (self) ordering::SheetOrder(indptr.data(), indices.data(), static_cast<int>(indptr.size()) - 1);
             },
             nb::arg("indptr"), nb::arg("indices"),
             nb::sig("def __init__(self, indptr: NDArray[int32], indices: NDArray[int32]) -> None"))
         .def_prop_ro(
-            "vertices", [](const SheetOrder& s) { return to_numpy(s.vertices, {s.vertices.size()}); },
+            "vertices", [](const ordering::SheetOrder& s) { return to_numpy(s.vertices, {s.vertices.size()}); },
             nb::sig("def vertices(self) -> NDArray[int32]"), "Groups in their order; empty if it is no sheet.")
         .def_prop_ro(
             "equations",
-            [](const SheetOrder& s) {
+            [](const ordering::SheetOrder& s) {
                 const std::vector<std::int32_t> order = s.equations();
                 return to_numpy(order, {order.size()});
             },
             nb::sig("def equations(self) -> NDArray[int32]"), "Equations in their order; empty if it is no sheet.")
-        .def_prop_ro("largest", &SheetOrder::largest, "Equations of the largest group.")
+        .def_prop_ro("largest", &ordering::SheetOrder::largest, "Equations of the largest group.")
         .def(
-            "blocks", [](const SheetOrder& s) { return BlockPattern(s.quotient); },
+            "blocks", [](const ordering::SheetOrder& s) { return ordering::BlockPattern(s.quotient); },
             "The matrix in blocks, one row of them for each group.");
 }

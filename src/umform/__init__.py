@@ -4,115 +4,79 @@ from __future__ import annotations
 
 import importlib
 import os
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from umform import errors
+from umform import errors as errors
+from umform.renamed import message
 
 # Before the kernels are loaded: threads that wait actively take the processors from other programs and from each other.
 os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 
 if TYPE_CHECKING:
-    from umform import elements, mesh, processes, sheet_metals, surfaces
-    from umform._core import set_threads, threads
-    from umform.elements import Element, Term, Tying
-    from umform.errors import UmformError
-    from umform.materials import (
-        J2,
-        SVK,
-        Chaboche,
-        CompiledLaw,
-        CowperSymonds,
-        FallingModulus,
-        Hill48,
-        Hosford,
-        JohnsonCook,
-        Linear,
-        LinearVoce,
-        LogarithmicSpace,
-        Metal,
-        Mises,
-        NeoHooke,
-        NeoHookePower,
-        Perfect,
-        Swift,
-        Table,
-        Transformation,
-        Umat,
-        UserLaw,
-        Voce,
-        Yld91,
-        Yld2004,
-        YoshidaUemori,
-        check_law,
-    )
-    from umform.mesh import Mesh
-    from umform.model import Body, Model
-    from umform.model.axes import cylindrical, turned
-    from umform.model.contact.friction import Friction, FrictionByRegion, Region
-    from umform.model.element_check import check_element
-    from umform.model.trim import Trim
-    from umform.results import fields
-    from umform.run import Result, resume, solve
-    from umform.run.stages import Stage, solve_stages
-    from umform.solution.options import NewtonOptions
-    from umform.steps import Arc, Close, Free, Move, Pace, Release
-    from umform.surfaces import (
-        Box,
-        Cylinder,
-        Extruded,
-        LedAround,
-        Plane,
-        Profile,
-        Punch,
-        Revolved,
-        Sphere,
-        Torus,
-        Triangulated,
-        UDie,
-        UserSurface,
-        VDie,
-        WipingDie,
-        check_surface,
-        read_tool,
-        write_tool,
-    )
-    from umform.sweeps import Sweep, sweep
+    from umform import elements as elements
+    from umform import materials as materials
+    from umform import mesh as mesh
+    from umform import processes as processes
+    from umform import sheet_metals as sheet_metals
+    from umform import surfaces as surfaces
+    from umform._core import set_threads as set_threads
+    from umform._core import threads as threads
+    from umform.elements import Element as Element
+    from umform.elements import Mode as Mode
+    from umform.elements import Tying as Tying
+    from umform.errors import UmformError as UmformError
+    from umform.materials import *
+    from umform.mesh import Mesh as Mesh
+    from umform.model import Body as Body
+    from umform.model import Model as Model
+    from umform.model.axes import cylindrical as cylindrical
+    from umform.model.axes import turned as turned
+    from umform.model.contact.friction import Friction as Friction
+    from umform.model.contact.friction import FrictionByRegion as FrictionByRegion
+    from umform.model.contact.friction import Region as Region
+    from umform.model.element_check import check_element as check_element
+    from umform.model.trim import Trim as Trim
+    from umform.results import fields as fields
+    from umform.run import Result as Result
+    from umform.run import resume as resume
+    from umform.run import solve as solve
+    from umform.run.stages import Stage as Stage
+    from umform.run.stages import solve_stages as solve_stages
+    from umform.solution.options import NewtonOptions as NewtonOptions
+    from umform.steps import Arc as Arc
+    from umform.steps import Close as Close
+    from umform.steps import Free as Free
+    from umform.steps import Move as Move
+    from umform.steps import Pace as Pace
+    from umform.steps import Release as Release
+    from umform.studies.sweep import Sweep as Sweep
+    from umform.studies.sweep import sweep as sweep
+    from umform.surfaces import Box as Box
+    from umform.surfaces import Cylinder as Cylinder
+    from umform.surfaces import Extruded as Extruded
+    from umform.surfaces import LedAround as LedAround
+    from umform.surfaces import Plane as Plane
+    from umform.surfaces import Profile as Profile
+    from umform.surfaces import Punch as Punch
+    from umform.surfaces import Revolved as Revolved
+    from umform.surfaces import Sphere as Sphere
+    from umform.surfaces import Torus as Torus
+    from umform.surfaces import Triangulated as Triangulated
+    from umform.surfaces import UDie as UDie
+    from umform.surfaces import UserSurface as UserSurface
+    from umform.surfaces import VDie as VDie
+    from umform.surfaces import WipingDie as WipingDie
+    from umform.surfaces import check_surface as check_surface
+    from umform.surfaces import read_tool as read_tool
+    from umform.surfaces import write_tool as write_tool
 
 __version__ = "0.1.0"
 
 _HOME = {
     "umform._core": ("set_threads", "threads"),
-    "umform.elements": ("Element", "Term", "Tying", "rolling_at"),
+    "umform.elements": ("Element", "Mode", "Tying", "rolling_at"),
     "umform.errors": ("UmformError",),
-    "umform.materials": (
-        "Chaboche",
-        "CompiledLaw",
-        "CowperSymonds",
-        "FallingModulus",
-        "Hill48",
-        "Hosford",
-        "JohnsonCook",
-        "LogarithmicSpace",
-        "Metal",
-        "Mises",
-        "Transformation",
-        "Yld91",
-        "YoshidaUemori",
-        "Yld2004",
-        "J2",
-        "SVK",
-        "Linear",
-        "LinearVoce",
-        "NeoHooke",
-        "NeoHookePower",
-        "Perfect",
-        "Swift",
-        "Table",
-        "Umat",
-        "UserLaw",
-        "Voce",
-        "check_law",
-    ),
     "umform.mesh": ("Mesh",),
     "umform.model": ("Body", "Model"),
     "umform.model.axes": ("cylindrical", "turned"),
@@ -143,103 +107,21 @@ _HOME = {
         "read_tool",
         "write_tool",
     ),
-    "umform.sweeps": ("Sweep", "sweep"),
+    "umform.studies.sweep": ("Sweep", "sweep"),
 }
 _MODULES = {
     "elements": "umform.elements",
+    "errors": "umform.errors",
     "fields": "umform.results.fields",
+    "materials": "umform.materials",
     "mesh": "umform.mesh",
     "processes": "umform.processes",
     "sheet_metals": "umform.sheet_metals",
     "surfaces": "umform.surfaces",
 }
+#: Packages whose classes are public without a line here.
+_SEARCHED = ("umform.surfaces",)
 _HOME_OF = {name: module for module, names in _HOME.items() for name in names}
-
-__all__ = [
-    "J2",
-    "SVK",
-    "Arc",
-    "Body",
-    "Box",
-    "Chaboche",
-    "Close",
-    "CompiledLaw",
-    "CowperSymonds",
-    "Cylinder",
-    "Element",
-    "Extruded",
-    "FallingModulus",
-    "Free",
-    "Friction",
-    "FrictionByRegion",
-    "Hill48",
-    "Hosford",
-    "JohnsonCook",
-    "LedAround",
-    "Linear",
-    "LinearVoce",
-    "LogarithmicSpace",
-    "Mesh",
-    "Metal",
-    "Mises",
-    "Model",
-    "Move",
-    "NeoHooke",
-    "NeoHookePower",
-    "NewtonOptions",
-    "Pace",
-    "Perfect",
-    "Plane",
-    "Profile",
-    "Punch",
-    "Region",
-    "Release",
-    "Result",
-    "Revolved",
-    "Sphere",
-    "Stage",
-    "Sweep",
-    "Swift",
-    "Table",
-    "Term",
-    "Torus",
-    "Transformation",
-    "Triangulated",
-    "Trim",
-    "Tying",
-    "UDie",
-    "Umat",
-    "UmformError",
-    "UserLaw",
-    "UserSurface",
-    "VDie",
-    "Voce",
-    "WipingDie",
-    "Yld91",
-    "Yld2004",
-    "YoshidaUemori",
-    "check_element",
-    "check_law",
-    "check_surface",
-    "cylindrical",
-    "elements",
-    "errors",
-    "fields",
-    "mesh",
-    "processes",
-    "read_tool",
-    "resume",
-    "rolling_at",
-    "set_threads",
-    "sheet_metals",
-    "solve",
-    "solve_stages",
-    "surfaces",
-    "sweep",
-    "threads",
-    "turned",
-    "write_tool",
-]
 
 
 def __getattr__(name: str) -> object:
@@ -248,11 +130,29 @@ def __getattr__(name: str) -> object:
         value = getattr(importlib.import_module(_HOME_OF[name]), name)
     elif name in _MODULES:
         value = importlib.import_module(_MODULES[name])
+    elif name == "__all__":
+        return __dir__()
+    elif name in _materials():
+        value = getattr(importlib.import_module("umform.materials"), name)
+    elif (found := _in_a_file(name)) is not None:
+        value = found
     else:
-        raise AttributeError(f"module 'umform' has no attribute {name!r}")
+        raise AttributeError(message(name) or f"module 'umform' has no attribute {name!r}")
     globals()[name] = value
     return value
 
 
+def _in_a_file(name: str) -> object:
+    """A class of a package whose files are searched; None if there is none."""
+    packages = (importlib.import_module(package) for package in _SEARCHED if name[:1].isupper())
+    return next((found for package in packages if (found := getattr(package, name, None)) is not None), None)
+
+
 def __dir__() -> list[str]:
-    return sorted([*globals(), *__all__])
+    return sorted([*_HOME_OF, *_MODULES, *_materials()])
+
+
+def _materials() -> Iterable[str]:
+    """Names of materials; a new class there is a new name here."""
+    names: Iterable[str] = importlib.import_module("umform.materials").public()
+    return names

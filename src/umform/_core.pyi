@@ -51,7 +51,7 @@ class Material:
     def state_size(self) -> int: ...
 
     @property
-    def state(self) -> dict[str, int]:
+    def quantities(self) -> dict[str, int]:
         """Parts of the history of a point, in their order."""
 
     @property
@@ -387,7 +387,7 @@ class Tying:
 
     def __init__(self, component: int, r: Sequence[float], s: Sequence[float], at_layer: bool) -> None: ...
 
-class Term:
+class Polynomial:
     """
     factor * r^a s^b P_c(t) of an enhanced mode in one covariant component.
     """
@@ -397,7 +397,7 @@ class Term:
 class Technology:
     """Which strains are tied where, and which are enhanced by what."""
 
-    def __init__(self, tying: Sequence[Tying], modes: Sequence[Sequence[Term]]) -> None: ...
+    def __init__(self, tying: Sequence[Tying], modes: Sequence[Sequence[Polynomial]]) -> None: ...
 
 class ShellBlock:
     """All solid-shell elements of one kind with their history."""
@@ -424,7 +424,7 @@ class ShellBlock:
     def state_size(self) -> int: ...
 
     @property
-    def state_names(self) -> dict[str, int]:
+    def quantities(self) -> dict[str, int]:
         """Parts of the history of a point, in their order."""
 
     @property
@@ -623,10 +623,6 @@ class ContactLaw:
     def symmetric(self) -> bool:
         """Whether its tangent is symmetric."""
 
-    @property
-    def quantities(self) -> dict[str, int]:
-        """Names and sizes of what a place remembers."""
-
 class FrictionLaw:
     """The largest tangential traction that a tool can bear."""
 
@@ -793,10 +789,12 @@ class ContactBlock:
     def multipliers(self, values: NDArray[float64], /) -> None: ...
 
     @property
+    def quantities(self) -> dict[str, int]:
+        """Parts of the history of a point, in their order."""
+
+    @property
     def state(self) -> NDArray[float64]:
-        """
-        Converged history (points, size) in the order of the quantities of the law.
-        """
+        """Converged history (points, size) in the order of the quantities."""
 
     @property
     def read(self) -> NDArray[float64]:

@@ -11,6 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+BOOK = tomllib.loads((ROOT / "book" / "pyproject.toml").read_text(encoding="utf-8"))
 SOURCE = ROOT / "src" / "umform"
 (LAYERS,) = (one["layers"] for one in PROJECT["tool"]["importlinter"]["contracts"] if one["type"] == "layers")
 
@@ -43,15 +44,22 @@ def test_each_folder_and_each_file_beside_the_folders_is_on_the_page():
         assert any((parent / name).is_dir() for parent in (SOURCE, ROOT / "cpp" / "include" / "umform")), name
 
 
-@pytest.mark.parametrize("kind", ["dependencies", "build", *PROJECT["project"]["optional-dependencies"]])
+@pytest.mark.parametrize("kind", ["dependencies", "build", "book", *PROJECT["project"]["optional-dependencies"]])
 def test_each_dependency_has_a_reason_on_the_page(kind):
     project = PROJECT["project"]
     required = {
         "dependencies": project["dependencies"],
         "build": PROJECT["build-system"]["requires"],
+        "book": BOOK["build-system"]["requires"] + BOOK["project"]["dependencies"][1:],  # the first is umform
         **project["optional-dependencies"],
     }[kind]
     table = section("Dependencies, and why")
     for requirement in required:
         name = re.match(r"[\w-]+", requirement)[0]
         assert re.search(rf"^\|[^|]*\b{re.escape(name)}\b[^|]*\|", table, flags=re.M), name
+
+
+def test_processes_build_models_from_problems_only():
+    """`Problem.build` is the one builder."""
+    made = [path for path in (SOURCE / "processes").rglob("*.py") if re.search(r"\bModel\(", path.read_text("utf-8"))]
+    assert made == []

@@ -24,10 +24,10 @@ from umform.bench.look import look
 from umform.bench.refusals import said
 from umform.bench.strips import FILES as STRIP_FILES
 from umform.bench.wanted import Wanted, problems_of
-from umform.deck.results import FILES as DECK_FILES
 from umform.errors import InvalidValue, UmformError
+from umform.problem.results import FILES as DECK_FILES
 from umform.processes.air_bending.files import RESULTS as BEND_FILES
-from umform.processes.air_bending.measures import QUANTITIES
+from umform.results.quantity import Quantity, columns
 
 _FILES = frozenset({*BEND_FILES, *DECK_FILES, *STRIP_FILES, SHAPE})
 #: Reports run their own programs: as a page of no origin, which cannot ask this server for anything.
@@ -224,18 +224,24 @@ class _Api:
         return FileResponse(path, filename=path.name, content_disposition_type=kind, headers=headers)
 
     def table(self, request: Request) -> Response:
-        """Some jobs as a table with all measures."""
+        """Some jobs as a table with all quantities."""
         names = request.query_params.get("ids", "")[:20000].split(",")[:500]
-        jobs = [job for job in map(self.queue.index.job, names) if job is not None and "measures" in job.summary]
+        jobs = [
+            job
+            for job in map(self.queue.index.job, names)
+            if job is not None and job.summary.keys() & {"quantities", "measures"}
+        ]
         shown = ("material", "thickness", "opening", "die_angle", "punch_angle", "punch_radius", "length")
         text = io.StringIO()
         table = csv.writer(text)
-        units = [f"{name} {one.unit}".strip() for name, one in QUANTITIES.items()]
-        table.writerow(["job", "title", *shown, "wanted_angle", *units])
-        for job in jobs:
-            given, found = job.parameters, job.summary["measures"]
-            cells = [_cell(given.get(name)) for name in (*shown, "angle")]
-            table.writerow([job.number, _cell(job.title), *cells, *(found.get(name) for name in QUANTITIES)])
+        rows = [
+            [Quantity.of(one) for kind in ("quantities", "checks") for one in job.summary.get(kind, ())] for job in jobs
+        ]
+        found = columns(rows, units=True)
+        table.writerow(["job", "title", *shown, "wanted_angle", *found])
+        for number, job in enumerate(jobs):
+            cells = [_cell(job.parameters.get(name)) for name in (*shown, "angle")]
+            table.writerow([job.number, _cell(job.title), *cells, *(column[number] for column in found.values())])
         headers = {"content-disposition": 'attachment; filename="bends.csv"'}
         return Response(text.getvalue(), media_type="text/csv", headers=headers)
 

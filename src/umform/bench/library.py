@@ -10,7 +10,6 @@ from typing import Any
 from umform import sheet_metals
 from umform.bench.wanted import MESHES, WORKS, Wanted
 from umform.errors import UmformError
-from umform.processes.air_bending.measures import QUANTITIES
 
 #: Degrees between the wanted angle and that of the tools which leave room for springback.
 ROOM = 4.0
@@ -24,7 +23,7 @@ def tools() -> dict[str, Any]:
 
 @cache
 def library() -> dict[str, Any]:
-    """All that the page offers: metals, tools, meshes, quantities, defaults."""
+    """All that the page offers: metals, tools, meshes, defaults."""
     metals = [
         {
             "name": metal.name,
@@ -41,16 +40,11 @@ def library() -> dict[str, Any]:
         }
         for metal in map(sheet_metals.get, (*sheet_metals.names(), *sheet_metals.cards()))
     ]
-    quantities = {
-        name: {"label": quantity.label, "unit": quantity.unit, "decimals": quantity.decimals}
-        for name, quantity in QUANTITIES.items()
-    }
     return {
         "metals": metals,
         "tools": tools(),
         "meshes": list(MESHES),
         "works": list(WORKS),
-        "quantities": quantities,
         "defaults": Wanted().model_dump(),
         "units": _units(),
     }

@@ -33,6 +33,8 @@ _AS_IT_IS = (
     "seconds",
     "contacts",
     "balance",
+    "quantities",
+    "checks",
 )
 
 
@@ -85,7 +87,9 @@ def _of_part(part: Part) -> dict[str, Any]:
         | {"final_angle": found["final_angle"], **found["measures"]}
         for given, found in zip(record["parameters"]["bends"], record["bends"], strict=True)
     ]
-    return {"bends": bends, "flat_length": part.sequence.length, **_shown(record)}
+    columns = [[one.record() for one in column] for column in part.of_bends.values()]
+    sizes = [one.record() for one in part.of_part]
+    return {"bends": bends, "columns": columns, "sizes": sizes, "flat_length": part.sequence.length, **_shown(record)}
 
 
 def _of_hem(hem: Hem) -> dict[str, Any]:

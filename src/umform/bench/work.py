@@ -10,6 +10,7 @@ import json
 import select
 import sys
 import traceback
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -21,15 +22,15 @@ from umform.bench.refusals import said
 from umform.bench.shelf import Shelf
 from umform.bench.strips import run_strip
 from umform.bench.wanted import Wanted
-from umform.deck.findings import accept
-from umform.deck.plausible import of_model
 from umform.errors import UmformError
 from umform.io.atomic import PendingFile
 from umform.io.staging import staging
 from umform.io.tables import write_csv
+from umform.problem.findings import accept
+from umform.problem.plausible import of_model
 from umform.processes.air_bending.bottoming import press_to_force
 from umform.processes.air_bending.branches import FRAMES, Brake
-from umform.processes.air_bending.budget import Budget, error_budget
+from umform.processes.air_bending.budget import error_budget
 from umform.processes.air_bending.case import air_bending
 from umform.processes.air_bending.files import FILES, record, write_files
 from umform.processes.air_bending.search import find_stroke
@@ -114,34 +115,30 @@ def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
             if len(brake.run.result) > 1:
                 write_csv(folder / RESULTS / "history.csv", brake.run.result.table())
             raise
-        budget: Budget | None = None
         if wanted.budget:
             watch.phase("budget", 0.75)
-            budget = error_budget(done.case, done.measures, progress=False)
+            done = replace(done, budget=error_budget(done.case, done.measures, progress=False))
         watch.phase("files", 0.95)
         watch.shape(done.result)
-        write_files(folder / RESULTS, done, (), budget, note=note)
-    summary = record(done, (), budget)
-    summary["spread"] = {} if budget is None else {name: budget.total(name) for name in summary["measures"]}
-    summary["spread"] = {name: value for name, value in summary["spread"].items() if value == value}
+        write_files(folder / RESULTS, done, note)
     watch.phase("end", 1.0)
     needed = press(after(wanted, case, {wanted.work: done.measures.largest_force}))
-    return {**summary, "length": wanted.length, "note": note, "press": needed.over(wanted.length)}
+    return {**record(done), "length": wanted.length, "note": note, "press": needed.over(wanted.length)}
 
 
 def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     """The work of `umform run`, or of `umform resume` where there is a checkpoint."""
-    from umform.deck import running
-    from umform.deck.deck import Deck
-    from umform.deck.kept import Kept
-    from umform.deck.results import CHECKPOINT
+    from umform.problem import running
+    from umform.problem.kept import Kept
+    from umform.problem.problem import Problem
+    from umform.problem.results import CHECKPOINT
 
     results = folder / RESULTS
     checkpoint = results / CHECKPOINT
     taken_up = checkpoint.is_file()
     kept = Kept.read(checkpoint) if taken_up else None
     files = folder.parent.parent  # of the bench: where the check looks for what a deck names
-    deck = kept.deck if kept else Deck.read((folder / DECK).read_text(encoding="utf-8"), DECK, files)
+    deck = kept.deck if kept else Problem.read((folder / DECK).read_text(encoding="utf-8"), DECK, files)
     steps = deck.contents.steps
     told = DeckTold(sum(step.expected for step in steps), len(steps))
     watch = Watch(folder, order["title"], told)
@@ -159,7 +156,9 @@ def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     watch.phase("end", 1.0)
     result = outcome.result
     last = {name: float(value) for name, value in result.rows[-1].items() if abs(float(value)) < float("inf")}
-    return {**result.summary(), "last": last, "resumed": taken_up}
+    record = outcome.record()
+    numbers = {kind: record[kind] for kind in ("quantities", "checks")}
+    return {**result.summary(), **numbers, "last": last, "resumed": taken_up}
 
 
 if __name__ == "__main__":

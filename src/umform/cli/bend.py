@@ -10,13 +10,26 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from umform.cli.bend_screen import show_bend
 from umform.cli.check import Force
 from umform.cli.drawn_tools import drawn_tools
 from umform.cli.given import Given, given_by
 from umform.cli.goals import check_goal, check_length, check_no_goal, check_press, strokes_of
 from umform.cli.metal import law_of
-from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
+from umform.cli.options import (
+    SHEET,
+    SOLUTION,
+    Curve,
+    FlowCurve,
+    Material,
+    Modulus,
+    Poisson,
+    PrintDeck,
+    Yield,
+    Young,
+    option,
+    print_deck,
+)
+from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.sequence import run_sequence
 from umform.cli.timing import Timed, show_timing
@@ -63,12 +76,10 @@ def bend(
     poisson: Poisson = None,
     yield_stress: Yield = None,
     hardening_modulus: Modulus = None,
-    swift: SwiftCurve = None,
+    curve: Curve = None,
     flow_curve: FlowCurve = None,
     processes: Annotated[int | None, option("Runs of the budget at a time.", SOLUTION)] = None,
-    print_deck: Annotated[
-        bool, typer.Option("--print-deck", help="Print the bend as a deck for `umform run`, and run nothing else.")
-    ] = False,
+    deck: PrintDeck = False,
     overwrite: Overwrite = False,
     force: Force = False,
     timing: Timed = False,
@@ -84,6 +95,7 @@ def bend(
     from umform.processes.air_bending.bottoming import with_travel
     from umform.processes.air_bending.branches import FRAMES, Brake
     from umform.processes.air_bending.files import FILES, RESULTS, write_files
+    from umform.processes.air_bending.remarks import total_force
     from umform.processes.air_bending.search import bending_table
     from umform.timing import Timing, timings
 
@@ -101,11 +113,11 @@ def bend(
         from umform.pool import check_processes  # the import is slow
 
         check_processes(processes)
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, given["thickness"])
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     tools = drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer)
     case = AirBending(**{**given, "stroke": stroke}, **tools, material=law)
     if sequence is not None:
-        check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, print_deck)
+        check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, deck)
         run_sequence(sequence, case, note, out, length, tolerance=tolerance, overwrite=overwrite)
         return
     if bottoming:
@@ -114,7 +126,7 @@ def bend(
         check_value(Goal, "force_per_metre", force_per_metre)
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
-    if print_deck:
+    if deck:
         _print_deck(case, angle, force_per_metre, tolerance)
         return
     if angle is not None:
@@ -129,21 +141,21 @@ def bend(
     with staging(place, FILES):
         with _what_was_reached(place) as rows:
             rows += bending_table(case, strokes, brake=brake) if strokes else []
-            done = _bent(brake, case, angle, force_per_metre, tolerance)
-        errors = None
+            done = replace(_bent(brake, case, angle, force_per_metre, tolerance), table=tuple(rows))
         try:
             if budget:
                 from umform.processes.air_bending.budget import error_budget
 
-                errors = error_budget(done.case, done.measures, processes=processes)
+                done = replace(done, budget=error_budget(done.case, done.measures, processes=processes))
             with printing(f"the files of the bend are in {place}"):
-                show_bend(done, rows, errors, note, length)
+                total = "" if length is None else total_force(done.measures.largest_force, length)
+                show_outcome(done, total, note)
         except KeyboardInterrupt as stop:
             stop.add_note(f"  results so far are in {place}: all but the budget")
             raise
         finally:  # even if the table cannot be printed
             with done.result.timing.files:
-                files = write_files(place, done, rows, errors, note=note)
+                files = write_files(place, done, note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
@@ -151,7 +163,6 @@ def bend(
 
 def _print_deck(case: AirBending, angle: float | None, force_per_metre: float | None, tolerance: float) -> None:
     """Print a bend as a deck, with the stroke that its angle or its force needs."""
-    from umform.deck import deck_of
     from umform.processes.air_bending.bottoming import press_to_force
     from umform.processes.air_bending.search import find_stroke
 
@@ -159,7 +170,7 @@ def _print_deck(case: AirBending, angle: float | None, force_per_metre: float | 
         case = press_to_force(case, force_per_metre, frames=1).case
     elif angle is not None:
         case = find_stroke(case, angle, tolerance=tolerance, frames=1).case
-    typer.echo(deck_of(case), nl=False)
+    print_deck(case)
 
 
 def _bent(
@@ -179,8 +190,8 @@ def _bent(
 
 def _refuse_implausible(model: Model, *, force: bool) -> None:
     """Refuse numbers that are certainly wrong, and warn of unusual ones, before the run."""
-    from umform.deck.findings import accept
-    from umform.deck.plausible import of_model
+    from umform.problem.findings import accept
+    from umform.problem.plausible import of_model
 
     for warning in accept(of_model(model, millimetres=True), force=force):
         typer.echo(f"umform: {warning}", err=True)
@@ -199,14 +210,13 @@ def _what_was_reached(out: Path) -> Iterator[list[Measures]]:
     try:
         yield rows
     except (UmformError, KeyboardInterrupt) as stop:
-        from umform.io.tables import write_csv
-        from umform.processes.air_bending.words import columns
+        from umform.processes.air_bending.files import write_table
 
         reached: Result | None = getattr(stop, "result", None)
         rows = rows or getattr(stop, "rows", rows)
         files = [out / "table.csv"] if rows else []
         if rows:
-            write_csv(out / "table.csv", columns(rows))
+            write_table(out / "table.csv", rows)
         if reached is not None and reached.frames:
             files += [reached.write(out / name) for name in ("history.csv", "bend.vtkhdf")]
         if files:

@@ -11,14 +11,15 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from umform.cli.given import Given, given_by
-from umform.cli.options import SOLUTION, option
+from umform.cli.options import SOLUTION, PrintDeck, option, print_deck
+from umform.cli.outcome_screen import print_table
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.timing import Timed, show_timing
 from umform.cli.typed import as_typed, options_of
 from umform.processes.bending.spec import RECONSTRUCTION, FreeBending
 
 if TYPE_CHECKING:
-    from umform.processes.bending.showcase import Outcome
+    from umform.processes.bending.showcase import Demo
 
 demos = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", help="Run an example and show the results.")
 app.add_typer(demos, name="demo")
@@ -49,9 +50,7 @@ def free_bending(
         list[str] | None, option("Contact points per direction and facet, or nodes; may be repeated.", _RUNS)
     ] = None,
     processes: Annotated[int | None, option("Runs at a time; default: the processors.", SOLUTION)] = None,
-    print_deck: Annotated[
-        bool, typer.Option("--print-deck", help="Print the first run as a deck, and run none.")
-    ] = False,
+    deck: PrintDeck = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
@@ -76,10 +75,8 @@ def free_bending(
     )
     base = FreeBending(**{name: value for name, value in given.items() if value is not None})
     runs = selection.runs(base, sharp=all(given[name] is None for name in _THROUGH))
-    if print_deck:
-        from umform.deck import deck_of
-
-        typer.echo(deck_of(runs[0]), nl=False)
+    if deck:  # that of the first run
+        print_deck(runs[0])
         return
     say = partial(typer.echo, err=True)
     place = folder_for(
@@ -90,21 +87,13 @@ def free_bending(
         _show(outcome, place, options_of(context.command), timing=timing)
 
 
-def _show(outcome: Outcome, out: Path, options: Mapping[str, str], *, timing: bool) -> None:
+def _show(outcome: Demo, out: Path, options: Mapping[str, str], *, timing: bool) -> None:
     """Print the table, the files, and failures."""
-    from rich import box
-    from rich.table import Table
-
-    from umform.processes.bending.table import header, legend, rows
+    from umform.processes.bending.table import legend, table
     from umform.report.repeats import counted
 
-    table = Table(title="Free bending of a strip over a cylinder", box=box.SIMPLE_HEAD)
-    for number, name in enumerate(header(outcome.runs)):
-        table.add_column(name, justify="left" if number == 0 else "right", no_wrap=number > 0)
-    for row in rows(outcome.runs):
-        table.add_row(*row)
     screen = console()
-    screen.print(table)
+    print_table(table(outcome.runs), "Free bending of a strip over a cylinder")
     for line in legend(outcome.runs):
         screen.print(line)
     screen.print(RECONSTRUCTION)

@@ -12,11 +12,24 @@ import typer
 
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
-from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
+from umform.cli.options import (
+    SHEET,
+    SOLUTION,
+    Curve,
+    FlowCurve,
+    Material,
+    Modulus,
+    Poisson,
+    PrintDeck,
+    Yield,
+    Young,
+    option,
+    print_deck,
+)
+from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
-from umform.cli.run_checks import show_checks
 from umform.cli.timing import Timed, show_timing
-from umform.cli.warnings import echo_warnings, print_warnings_once
+from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
 from umform.processes.draw.cup import CLEARANCE, ESAFORM, Cup
 from umform.processes.draw.u_bend import NUMISHEET, UBend
@@ -86,9 +99,10 @@ def cup(
     poisson: Poisson = None,
     yield_stress: Yield = None,
     hardening_modulus: Modulus = None,
-    swift: SwiftCurve = None,
+    curve: Curve = None,
     flow_curve: FlowCurve = None,
     limit_curve: LimitCurve = None,
+    deck: PrintDeck = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
@@ -101,9 +115,12 @@ def cup(
     from umform.processes.draw.case import draw
 
     given = _on_mesh(Cup, given, coarse, fine)
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, given["thickness"])
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     given |= {"punch_radius": 0.5 * punch, "blank_radius": 0.5 * blank, "holder_force": given["holder_force"] or None}
     case = Cup(**given, die_radius=None if opening is None else 0.5 * opening, material=law)
+    if deck:
+        print_deck(case)
+        return
     _run(case, draw, out, "cup", note, limit_curve, overwrite=overwrite, timing=timing)
 
 
@@ -119,7 +136,7 @@ def u(
     poisson: Poisson = None,
     yield_stress: Yield = None,
     hardening_modulus: Modulus = None,
-    swift: SwiftCurve = None,
+    curve: Curve = None,
     flow_curve: FlowCurve = None,
     limit_curve: LimitCurve = None,
     extrapolate: Annotated[
@@ -130,6 +147,7 @@ def u(
             "--extrapolate/--no-extrapolate",
         ),
     ] = None,
+    deck: PrintDeck = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
@@ -143,8 +161,11 @@ def u(
     from umform.processes.draw.three_meshes import extrapolated
 
     given = _on_mesh(UBend, given, coarse, fine)
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, given["thickness"])
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     case = UBend(**given, material=law)
+    if deck:
+        print_deck(case)
+        return
     three = not coarse if extrapolate is None else extrapolate
     how = extrapolated if three else draw
     _run(case, how, out, "u-bend", note, limit_curve, overwrite=overwrite, timing=timing)
@@ -216,7 +237,7 @@ def _run(
         drawn = how(case, limit=curve)
         try:
             with printing(f"the files of the part are in {place}"):
-                _show(drawn, note)
+                show_outcome(drawn, note)
         finally:  # even if the table cannot be printed
             with drawn.result.timing.files:
                 files = write_files(place, drawn, note, blank)
@@ -225,26 +246,3 @@ def _run(
         show_timing(drawn.result.timing)
     if drawn.released is None:
         raise typer.Exit(1)
-
-
-def _show(drawn: Drawn, note: str) -> None:
-    """Print the measures."""
-    from rich import box
-    from rich.table import Table
-
-    from umform.processes.draw.words import about_errors, summary, title
-
-    columns, *rows = summary(drawn)
-    table = Table(title=title(drawn), box=box.SIMPLE_HEAD)
-    for name in columns:
-        table.add_column(name, justify="left" if name in ("quantity", "unit") else "right")
-    for row in rows:
-        table.add_row(*row)
-    screen = console()
-    screen.print(table)
-    show_checks(screen, drawn.stages)
-    if remark := about_errors(drawn):
-        screen.print(remark, soft_wrap=True)
-    if note:
-        screen.print(note, soft_wrap=True)
-    echo_warnings(drawn.warnings)

@@ -29,7 +29,7 @@ def _described(element: Element) -> tuple[str, str, str, str]:
     tied = " ".join(dict.fromkeys(f"E{row.component}" for row in element.tying)) or "none"
     counts: dict[str, int] = {}
     for mode in element.modes:
-        component = "+".join(dict.fromkeys(f"E{term.component}" for term in mode))
+        component = "+".join(dict.fromkeys(f"E{part.component}" for part in mode.polynomials))
         counts[component] = counts.get(component, 0) + 1
     enhanced = ", ".join(f"{count} {component}" for component, count in counts.items()) or "none"
     return str(element.nodes), tied, enhanced, element.citation

@@ -9,10 +9,10 @@ from typing import Annotated
 import typer
 
 from umform.cli.metal import law_of
-from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
+from umform.cli.options import SHEET, SOLUTION, Curve, FlowCurve, Material, Modulus, Poisson, Yield, Young, option
+from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
-from umform.cli.run_checks import show_checks
-from umform.cli.warnings import echo_warnings, print_warnings_once
+from umform.cli.warnings import print_warnings_once
 
 _HEM, _TOOLS = "Hem (mm, degrees)", "Tools of the first bend (mm, degrees)"
 
@@ -46,7 +46,7 @@ def hem(
     poisson: Poisson = None,
     yield_stress: Yield = None,
     hardening_modulus: Modulus = None,
-    swift: SwiftCurve = None,
+    curve: Curve = None,
     flow_curve: FlowCurve = None,
     layers: Annotated[int, option("Elements through the thickness.", SOLUTION)] = 2,
     elements_per_thickness: Annotated[float, option("Elements per thickness along the sheet.", SOLUTION)] = 3.0,
@@ -63,13 +63,12 @@ def hem(
     from umform.processes.air_bending.spec import AirBending
     from umform.processes.hemming import Hemming, hemming
     from umform.processes.hemming.files import FILES, RESULTS, write_files
-    from umform.processes.hemming.words import remarks, rows
 
     def size(given: float | None, thicknesses: float) -> float:
         return thicknesses * thickness if given is None else given
 
     print_warnings_once()
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, thickness)
     sheet = AirBending(
         thickness=thickness,
         opening=size(opening, 8.0),
@@ -96,24 +95,7 @@ def hem(
         done = hemming(case)
         try:
             with printing(f"the files of the hem are in {place}"):
-                _show(rows(done.measures), [*remarks(done), note])
-                show_checks(console(), done.stages)
-                echo_warnings(list(done.warnings))
+                show_outcome(done, note)
         finally:  # even if the table cannot be printed
             files = write_files(place, done, note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
-
-
-def _show(rows: list[list[str]], remarks: list[str]) -> None:
-    """Print the measures, and what belongs to them."""
-    from rich import box
-    from rich.table import Table
-
-    table = Table("quantity", title="Hem", box=box.SIMPLE_HEAD)
-    table.add_column("value", justify="right")
-    table.add_column("unit")
-    for row in rows:
-        table.add_row(*row)
-    console().print(table)
-    for remark in filter(None, remarks):
-        console().print(remark, soft_wrap=True)

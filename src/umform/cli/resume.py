@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from umform.cli.check import deck_errors
+from umform.cli.check import Trust, deck_errors
 from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks, petsc_options
 from umform.cli.root import Debug, Overwrite, Verbose, app
 from umform.cli.run import Every, finish
@@ -26,6 +26,7 @@ def resume(
     ] = None,
     every: Every = 60.0,
     overwrite: Overwrite = False,
+    trust: Trust = False,
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
@@ -34,14 +35,14 @@ def resume(
     The checkpoint contains the deck. Mesh files of the deck must exist unchanged. With `mpiexec`, a run on many ranks
     continues on any number of ranks.
     """
-    from umform.deck import running
-    from umform.deck.kept import Kept
+    from umform.problem import running
+    from umform.problem.kept import Kept
 
     let_the_first_talk()
     print_warnings_once()
     with deck_errors():
         checkpoint = _file_of(checkpoint)
-        kept = Kept.read(checkpoint)
+        kept = Kept.read(checkpoint, trust)
         with on_all_ranks(kept.chosen_solver, petsc_options(ctx)):
             outcome = running.resume(checkpoint, kept, out, every=every, overwrite=overwrite)
     finish(outcome)
@@ -49,7 +50,7 @@ def resume(
 
 def _file_of(path: Path) -> Path:
     """The checkpoint, or that in the folder of a run."""
-    from umform.deck.results import CHECKPOINT, FILES, STATE
+    from umform.problem.results import CHECKPOINT, FILES, STATE
 
     if not path.is_dir() or (path / CHECKPOINT).is_file():
         return path / CHECKPOINT if path.is_dir() else path

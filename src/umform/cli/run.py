@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from umform.cli import INTERRUPTED
-from umform.cli.check import Changes, DeckFile, Force, deck_errors, read
+from umform.cli.check import Changes, DeckFile, Force, Trust, deck_errors, read
+from umform.cli.outcome_screen import print_table
 from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks, petsc_options
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing, say_of
 from umform.cli.run_checks import show_checks
@@ -20,10 +21,7 @@ from umform.cli.warnings import echo_warnings, print_warnings_once
 from umform.errors import FileProblem, UmformError
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
-    from umform.deck.measured import Taken
-    from umform.deck.running import Outcome
+    from umform.problem.running import ProblemOutcome
 
 Every = Annotated[float, typer.Option(metavar="SECONDS", help="Seconds between checkpoints; 0: after each increment.")]
 
@@ -44,6 +42,7 @@ def run(
     every: Every = 60.0,
     overwrite: Overwrite = False,
     force: Force = False,
+    trust: Trust = False,
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
@@ -57,12 +56,12 @@ def run(
     On many ranks: `mpiexec -n 4 umform run deck.toml --solver petsc`. Options of PETSc take the prefix `-umform_`, such
     as `-umform_ksp_type cg -umform_pc_type gamg` (docs/parallel.md).
     """
-    from umform.deck import running
+    from umform.problem import running
 
     let_the_first_talk()
     print_warnings_once()
     with deck_errors():
-        loaded = read(deck, changes or ())
+        loaded = read(deck, changes or (), trust)
         chosen = solver or loaded.contents.solution.solver
         with on_all_ranks(chosen, petsc_options(ctx)):
             running.refuse_folder(chosen, out, overwrite=overwrite)
@@ -73,7 +72,7 @@ def run(
     finish(outcome, timing=timing)
 
 
-def finish(outcome: Outcome, *, timing: bool = False) -> None:
+def finish(outcome: ProblemOutcome, *, timing: bool = False) -> None:
     """Print the outcome of a run; exit with the code of an early end, or of a failure to print."""
     kept = f"the files of the run are in {outcome.files[0].parent}" if outcome.files else ""
     try:
@@ -88,7 +87,7 @@ def finish(outcome: Outcome, *, timing: bool = False) -> None:
     end(outcome)
 
 
-def show(outcome: Outcome) -> None:
+def show(outcome: ProblemOutcome) -> None:
     """The table, events, and the files."""
     from umform.report.symmetry import modelled_part
 
@@ -101,8 +100,9 @@ def show(outcome: Outcome) -> None:
     part = modelled_part(result.model)
     if part:
         screen.print(part, soft_wrap=True)
-    show_checks(screen, {"run": result})
-    show_measures(outcome.taken, screen)
+    show_checks(screen, outcome.stages)
+    for rows in outcome.tables.values():
+        print_table(rows)
     for event in result.events:
         screen.print(event, soft_wrap=True, markup=False)
     if outcome.files:
@@ -111,23 +111,7 @@ def show(outcome: Outcome) -> None:
     echo_warnings(result.warnings)
 
 
-def show_measures(taken: Taken, screen: Console) -> None:
-    """The table of the measures."""
-    from rich import box
-    from rich.table import Table
-
-    if not taken.measures:
-        return
-    header, *rows = taken.table
-    table = Table(box=box.SIMPLE_HEAD)
-    for name in header:
-        table.add_column(name, justify="right" if name in ("formed", "released") else "left", no_wrap=True)
-    for row in rows:
-        table.add_row(*row)
-    screen.print(table, soft_wrap=True)
-
-
-def end(outcome: Outcome) -> None:
+def end(outcome: ProblemOutcome) -> None:
     """The message and the exit code of a run that ended early."""
     error = outcome.ended_by
     if error is None:

@@ -8,13 +8,11 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import console, printing
-from umform.cli.run_checks import show_checks
-from umform.cli.warnings import echo_warnings
 
 if TYPE_CHECKING:
     from umform.processes.air_bending.spec import AirBending
-    from umform.processes.bend_sequence import Part
 
 
 def run_sequence(
@@ -30,6 +28,7 @@ def run_sequence(
     """Bend the part of a file, print the results and write them; a part that collides ends with exit code 1."""
     from umform.io.folders import folder_for
     from umform.io.staging import staging
+    from umform.processes.air_bending.remarks import total_force
     from umform.processes.bend_sequence import bend_sequence
     from umform.processes.bend_sequence.files import FILES, RESULTS, write_files
     from umform.processes.bend_sequence.foreseen import foreseen_collisions, foreseen_text
@@ -46,7 +45,9 @@ def run_sequence(
         part = bend_sequence(sequence, tolerance=tolerance)
         try:
             with printing(f"the files of the part are in {place}"):
-                _show(part, note, length)
+                largest = max(done.measures.largest_force for done in part.bends)
+                total = "" if length is None else total_force(largest, length)
+                show_outcome(part, total, note, without=part.collisions)
         finally:  # even if the table cannot be printed
             files = write_files(place, part, note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
@@ -54,29 +55,3 @@ def run_sequence(
         text = "umform: this part cannot be bent so: " + "; ".join(part.collisions)
         typer.secho(text, fg=typer.colors.RED, err=True)
         raise typer.Exit(1)
-
-
-def _show(part: Part, note: str, length: float | None) -> None:
-    """Print a column for each bend, and the flanges."""
-    from rich import box
-    from rich.table import Table
-
-    from umform.processes.air_bending.remarks import total_force
-    from umform.processes.bend_sequence.words import bend_rows, flanges, remarks
-
-    header, *rows = bend_rows(part)
-    table = Table(header[0], title="Bends", box=box.SIMPLE_HEAD)
-    for name in header[1:-1]:
-        table.add_column(name, justify="right", no_wrap=True)
-    table.add_column(header[-1])
-    for row in rows:
-        table.add_row(*row)
-    screen = console()
-    screen.print(table)
-    said = [flanges(part)]
-    if length is not None:
-        said.append(total_force(max(done.measures.largest_force for done in part.bends), length))
-    for text in (*said, *remarks(part), *([note] if note else [])):
-        screen.print(text, soft_wrap=True)
-    show_checks(screen, part.stages)
-    echo_warnings(text for text in part.warnings if text not in part.collisions)

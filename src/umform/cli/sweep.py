@@ -10,14 +10,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from umform.cli.check import Changes, DeckFile, Force, deck_errors, read
+from umform.cli.check import Changes, DeckFile, Force, Trust, deck_errors, read
+from umform.cli.outcome_screen import print_table
 from umform.cli.root import Debug, Verbose, app, console
 from umform.cli.warnings import print_warnings_once
 from umform.errors import FileProblem, InvalidValue
 
 if TYPE_CHECKING:
-    from umform.sweeps import Sweep
-    from umform.sweeps.values import Written
+    from umform.studies.sweep import Sweep
+    from umform.studies.sweep.values import Written
 
 
 @app.command()
@@ -36,7 +37,8 @@ def sweep(
         list[str] | None,
         typer.Option(
             metavar="NAME",
-            help="Column of the history, such as punch_force:max (or last, min, peak, sum), or springback; repeatable.",
+            help="Column of the history, such as punch_force:max (or last, min, peak, sum), springback, or a quantity, "
+            "such as hat.theta1.released; repeatable.",
         ),
     ] = None,
     changes: Changes = None,
@@ -47,6 +49,7 @@ def sweep(
     files: Annotated[bool, typer.Option("--files", help="Write all files of the deck for each job.")] = False,
     retry: Annotated[bool, typer.Option("--retry", help="Repeat jobs that were refused or did not converge.")] = False,
     force: Force = False,
+    trust: Trust = False,
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
@@ -55,12 +58,12 @@ def sweep(
     Name keys as in `--set`, or by their last part if that is unique. The same command continues a stopped sweep; with
     more values it runs only the new jobs. A failure is a row with its reason.
     """
-    from umform.sweeps import sweep as run_sweep
+    from umform.studies.sweep import sweep as run_sweep
 
     print_warnings_once()
     with deck_errors():
         found = run_sweep(
-            read(deck, changes or ()),
+            read(deck, changes or (), trust),
             _axes(vary or []),
             jobs=None if jobs is None else _jobs(jobs),
             measures=measure or (),
@@ -95,7 +98,7 @@ def _axes(texts: list[str]) -> dict[str, str]:
 
 def _jobs(path: Path) -> list[dict[str, Written]]:
     """Jobs of a CSV file."""
-    from umform.sweeps.values import Written
+    from umform.studies.sweep.values import Written
 
     remedy = "a CSV file with commas: keys in the first line, the values of a job in each other line"
     try:
@@ -117,24 +120,28 @@ def _say(row: dict[str, Any]) -> None:
 
 def _show(found: Sweep) -> None:
     """The table with the first measures, the causes of failures, and the files."""
-    from rich import box
-    from rich.table import Table
-
-    from umform.sweeps.table import telling
+    from umform.studies.sweep.measures import heading
+    from umform.studies.sweep.table import telling
 
     screen, measures = console(), telling(found.rows, found.measures)
     counts = Counter(row["outcome"] for row in found.rows)
     title = ", ".join(f"{count} {outcome}" for outcome, count in counts.items())
-    table = Table(title=f"{len(found.rows)} jobs: {title}", box=box.SIMPLE_HEAD)
-    for name in (*found.varied, "outcome", *measures):
-        table.add_column(name, justify="left" if name == "outcome" else "right")
-    for row in found.rows:
-        table.add_row(*(_cell(row[name]) for name in (*found.varied, "outcome", *measures)))
-    screen.print(table)
+    header = [*found.varied, "outcome", *(heading(found.rows, name) for name in measures)]
+    rows = [
+        [*(_cell(row[name]) for name in (*found.varied, "outcome")), *(_measured(row, name) for name in measures)]
+        for row in found.rows
+    ]
+    print_table([header, *rows], f"{len(found.rows)} jobs: {title}")
     for reason, count in Counter(row["reason"] for row in found.rows if row["reason"]).items():
         screen.print(f"{count} x {reason}", soft_wrap=True, markup=False)
     names = ", ".join(file.name for file in found.files)
     screen.print(f"Written to {found.files[0].parent}: {names}", soft_wrap=True, markup=False)
+
+
+def _measured(row: dict[str, Any], name: str) -> str:
+    """A measure of a job, red beyond its limit."""
+    one = row["quantities"][name]
+    return "" if one is None or one.value is None else one.text
 
 
 def _cell(value: Any) -> str:

@@ -12,8 +12,9 @@ from umform.elements.catalogue import (
     thickness_modes,
 )
 from umform.elements.complete_order import at_order, at_order_by_column, column_modes
+from umform.elements.options import BodyOptions, ElementOptions
 from umform.elements.rolling import Rolling, rolling_at, rolling_directions
-from umform.elements.technology import COMPONENTS, Element, Mode, Term, Tying
+from umform.elements.technology import COMPONENTS, Element, Mode, Polynomial, Tying
 from umform.elements.through_thickness import thickness_rule
 
 __all__ = [
@@ -24,10 +25,12 @@ __all__ = [
     "MITC9_IN_PLANE_SHEAR",
     "MITC9_MEMBRANE",
     "MITC9_SHEAR",
+    "BodyOptions",
     "Element",
+    "ElementOptions",
     "Mode",
+    "Polynomial",
     "Rolling",
-    "Term",
     "Tying",
     "at_order",
     "at_order_by_column",

@@ -1,7 +1,7 @@
 """The catalogue of elements, with the names of the literature: tying rules and enhanced modes.
 
 An element is data. A tying rule is a list of :class:`Tying` rows (docs/theory, eq. (2.2)), an enhancement a list of
-modes, each a sum of :class:`Term` (eq. (2.10)); the kernels need nothing else. A new element is a few rows here, or in
+modes (:class:`Mode`, eq. (2.10)); the kernels need nothing else. A new element is a few rows here, or in
 the user's own script: ``Element("MINE", "hex8", tying=(...), modes=(...))``.
 """
 
@@ -9,12 +9,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TypedDict
+from typing import Any, TypedDict
 
+from umform.elements.options import ElementOptions
 from umform.elements.plane_strain import in_plane_strain
-from umform.elements.technology import Element, Mode, Term, Tying
+from umform.elements.technology import Element, Mode, Polynomial, Tying
 from umform.elements.through_thickness import MOST_POINTS
 from umform.errors import InvalidValue
+from umform.spec import takes
 
 _A = 1.0 / math.sqrt(3.0)
 _B = math.sqrt(3.0 / 5.0)
@@ -50,7 +52,9 @@ def _nodal(component: str, order: int) -> dict[tuple[int, int], Mode]:
     half, square = 0.5 / _B, 0.5 / _B**2
     of_point = (((1, -half), (2, square)), ((0, 1.0), (2, -2.0 * square)), ((1, half), (2, square)))
     return {
-        (i, j): tuple(Term(component, a, b, order, factor=f * g) for b, g in of_point[j] for a, f in of_point[i])
+        (i, j): Mode.of(
+            Polynomial(component, a, b, order, factor=f * g) for b, g in of_point[j] for a, f in of_point[i]
+        )
         for j in range(3)
         for i in range(3)
     }
@@ -81,7 +85,7 @@ def thickness_modes(count: int, order: int, order_count: int = 1) -> tuple[Mode,
         raise InvalidValue(f"the thickness order must be 1 to {MOST_POINTS - 1}", value=order)
     counts = {1: count} | dict.fromkeys(range(2, order + 1), order_count)
     few: tuple[Mode, ...] = tuple(
-        (Term("33", a, b, p),)
+        Mode("33", a, b, p)
         for p, modes in counts.items()
         if modes < 9
         for b in range(math.isqrt(modes))
@@ -93,13 +97,13 @@ def thickness_modes(count: int, order: int, order_count: int = 1) -> tuple[Mode,
 
 def membrane_modes(count: int) -> tuple[Mode, ...]:
     """Modes of the in-plane strains: 4 or 5 (Simo & Rifai 1990), or 7 (Andelfinger & Ramm 1993)."""
-    four: tuple[Mode, ...] = ((Term("11", 1),), (Term("22", 0, 1),), (Term("12", 1),), (Term("12", 0, 1),))
-    coupled: Mode = (Term("11", 1, 1), Term("22", 1, 1, factor=-1.0), Term("12", 2), Term("12", 0, 2, factor=-1.0))
+    four = (Mode("11", 1), Mode("22", 0, 1), Mode("12", 1), Mode("12", 0, 1))
+    coupled = Mode("11", 1, 1) + Mode("22", 1, 1, factor=-1.0) + Mode("12", 2) + Mode("12", 0, 2, factor=-1.0)
     modes: dict[int, tuple[Mode, ...]] = {
         0: (),
         4: four,
         5: (*four, coupled),
-        7: (*four, (Term("11", 1, 1),), (Term("22", 1, 1),), (Term("12", 1, 1),)),
+        7: (*four, Mode("11", 1, 1), Mode("22", 1, 1), Mode("12", 1, 1)),
     }
     if count not in modes:
         raise InvalidValue("the number of membrane modes must be 0, 4, 5 or 7", value=count)
@@ -211,54 +215,23 @@ CATALOGUE: dict[str, Callable[..., Element]] = {
 }
 
 
-def element(
-    name: str | Element,
-    *,
-    thickness_modes: int | None = None,
-    thickness_order: int | None = None,
-    order_modes: int | None = None,
-    membrane_modes: int | None = None,
-    tie_E33: bool | None = None,
-    compatible_E12: bool | None = None,
-    plane_strain: bool | None = None,
-) -> Element:
+@takes(ElementOptions)
+def element(name: str | Element, **options: Any) -> Element:
     """An element of the catalogue.
 
     Parameters
     ----------
     name : str or Element
         A name of :data:`CATALOGUE`, or your own element (then without options).
-    thickness_modes : {1, 4, 9}, optional
-        Number of enhanced modes of E_33 linear in t; default 4 (8 nodes) or 9 (18 nodes, there only).
-    thickness_order : int, optional
-        Order of the thickness strain in t, 1 to 19; the literature has 1. Default: with a plastic law the complete
-        order, the number of thickness points minus one; else 1, but 4 with BEND8 and BEND18.
-    order_modes : {1, 4, 9}, optional
-        Number of polynomials in the surface for each order above 1; default 1 (8 nodes) or 9 (18 nodes).
-    membrane_modes : {4, 5, 7}, optional
-        Number of enhanced in-plane modes of EAS3DEAS; default 7.
-    tie_E33 : bool, optional
-        Tie E_33 at the corners (18 nodes: at the nodes) against curvature-thickness locking; BEND8 and BEND18 do.
-    compatible_E12 : bool, optional
-        Omit the tying of E_12 in MI9K3DEAS or BEND18.
-    plane_strain : bool, optional
-        Take one Gauss point less in s, for cells that do not move along s and whose displacements do not vary along s.
+    **options
+        Fields of :class:`umform.elements.ElementOptions`.
 
     Raises
     ------
     InvalidValue
         If the name is unknown or the element has no such option.
     """
-    options = {
-        "thickness_modes_count": thickness_modes,
-        "thickness_order": thickness_order,
-        "order_modes_count": order_modes,
-        "membrane_modes_count": membrane_modes,
-        "tie_E33": tie_E33,
-        "compatible_E12": compatible_E12,
-        "plane_strain": plane_strain,
-    }
-    given = {key: value for key, value in options.items() if value is not None}
+    given = ElementOptions(**options).of_element()
     if isinstance(name, Element):
         if given:
             raise InvalidValue(
@@ -273,15 +246,15 @@ def element(
             cause="a typing mistake, or a name of another program",
             remedy="one of " + ", ".join(CATALOGUE),
         )
-    if compatible_E12 and name not in ("MI9K3DEAS", "BEND18"):
+    if given.get("compatible_E12") and name not in ("MI9K3DEAS", "BEND18"):
         raise InvalidValue(f"{name} does not tie E_12", remedy="leave compatible_E12 out, or take MI9K3DEAS or BEND18")
-    return CATALOGUE[name](**given)
+    return CATALOGUE[name](**{f"{key}_count" if key.endswith("modes") else key: value for key, value in given.items()})
 
 
 __all__ = [
     "CATALOGUE",
     "Element",
-    "Term",
+    "Mode",
     "Tying",
     "element",
     "membrane_modes",

@@ -10,7 +10,7 @@ import numpy as np
 from umform import _core
 from umform.elements.catalogue import thickness_modes
 from umform.elements.plane_strain import uniform_modes
-from umform.elements.technology import Element, Mode, Term
+from umform.elements.technology import Element, Mode, Polynomial
 
 
 def at_order(made: Element, order: int) -> Element:
@@ -29,8 +29,8 @@ def at_order(made: Element, order: int) -> Element:
     Examples
     --------
     >>> import umform as uf
-    >>> own = uf.Element("own", "hex8", modes=((uf.Term("12", 1),), (uf.Term("33", c=1),)))
-    >>> [mode[0].c for mode in uf.elements.at_order(own, 4).modes]
+    >>> own = uf.Element("own", "hex8", modes=(uf.Mode("12", 1), uf.Mode("33", c=1)))
+    >>> [mode.polynomials[0].c for mode in uf.elements.at_order(own, 4).modes]
     [0, 1, 2, 3, 4]
     """
     changed = _exchanged(made, order) or {"modes": made.modes + _missing(made, order)}
@@ -50,7 +50,9 @@ def at_order_by_column(made: Element, order: int) -> Element:
     order : int
         Highest Legendre polynomial in t, 1 to 19.
     """
-    others = tuple(mode for mode in made.modes if any(term.component != "33" or term.c == 0 for term in mode))
+    others = tuple(
+        mode for mode in made.modes if any(part.component != "33" or part.c == 0 for part in mode.polynomials)
+    )
     modes = others + column_modes(made.surface_rule, order)
     return replace(made, thickness_order=order, complete=False, modes=modes)
 
@@ -59,8 +61,8 @@ def column_modes(surface: tuple[int, int], order: int) -> tuple[Mode, ...]:
     """P_1(t) ... P_order(t) of E_33, each times the Lagrange polynomials of the Gauss points of the surface."""
     along, across = (_lagrange(count) for count in surface)
     return tuple(
-        tuple(
-            Term("33", a, b, p, factor=float(f * g))
+        Mode.of(
+            Polynomial("33", a, b, p, factor=float(f * g))
             for b, g in enumerate(of_s)
             for a, f in enumerate(of_r)
             if f * g != 0.0
@@ -88,7 +90,7 @@ def _exchanged(made: Element, order: int) -> dict[str, Any] | None:
     if at is None:
         return None
     before, after = made.modes[:at], made.modes[at + len(listed) :]
-    if any(term.component == "33" for mode in before + after for term in mode):
+    if any(part.component == "33" for mode in before + after for part in mode.polynomials):
         return None
     modes = before + _listed(made, order) + after
     return {"modes": modes, "options": options | {"thickness_order": order}}

@@ -37,5 +37,5 @@ def in_plane_strain(made: Element) -> Element:
 
 def uniform_modes(modes: Sequence[Mode]) -> tuple[Mode, ...]:
     """Modes on the line s = 0 of the strains that are not zero; modes that vanish there are left out."""
-    on_line = (tuple(term for term in mode if term.b == 0 and term.component not in _ZERO) for mode in modes)
-    return tuple(mode for mode in on_line if mode)
+    on_line = ([part for part in mode.polynomials if part.b == 0 and part.component not in _ZERO] for mode in modes)
+    return tuple(Mode.of(parts) for parts in on_line if parts)

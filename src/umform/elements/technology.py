@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -46,25 +47,8 @@ class Tying:
 
 
 @dataclass(frozen=True)
-class Term:
-    """The term ``factor * r**a * s**b * P_c(t)`` of an enhanced mode in one covariant component (P_c: Legendre).
-
-    Parameters
-    ----------
-    component : str
-        One of :data:`COMPONENTS`.
-    a, b : int
-        Powers of r and s.
-    c : int
-        Degree of the Legendre polynomial in t.
-    factor : float
-        Factor of the term.
-
-    Examples
-    --------
-    >>> import umform as uf
-    >>> linear_in_thickness = uf.Term("33", c=1)
-    """
+class Polynomial:
+    """The polynomial ``factor * r**a * s**b * P_c(t)`` in one covariant component (P_c: Legendre)."""
 
     component: str
     a: int = 0
@@ -87,7 +71,51 @@ class Term:
         return float(self.factor * (wr @ r**self.a) * (ws @ s**self.b) / 4.0)
 
 
-Mode = tuple[Term, ...]
+@dataclass(frozen=True, init=False)
+class Mode:
+    """An enhanced mode: ``factor * r**a * s**b * P_c(t)`` in one covariant component, or a sum of such modes.
+
+    Parameters
+    ----------
+    component : str
+        One of :data:`COMPONENTS`.
+    a, b : int
+        Powers of r and s.
+    c : int
+        Degree of the Legendre polynomial in t.
+    factor : float
+        Factor of the polynomial.
+
+    Attributes
+    ----------
+    polynomials : tuple of Polynomial
+        Those whose sum it is.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> linear_in_thickness = uf.Mode("33", c=1)
+    >>> without_mean = uf.Mode("11", 2) + uf.Mode("11", factor=-1 / 3)
+    """
+
+    polynomials: tuple[Polynomial, ...]
+
+    def __init__(self, component: str, a: int = 0, b: int = 0, c: int = 0, factor: float = 1.0) -> None:
+        object.__setattr__(self, "polynomials", (Polynomial(component, a, b, c, factor),))
+
+    @classmethod
+    def of(cls, polynomials: Iterable[Polynomial]) -> Mode:
+        """The sum of polynomials, at least one."""
+        made = cls.__new__(cls)
+        object.__setattr__(made, "polynomials", tuple(polynomials))
+        return made
+
+    def __add__(self, other: Mode) -> Mode:
+        return Mode.of(self.polynomials + other.polynomials)
+
+    def __call__(self, r: NDArray[np.float64], s: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Sum of the values at natural coordinates."""
+        return np.asarray(sum(polynomial(r, s, t) for polynomial in self.polynomials))
 
 
 def _without_mean(order: int, t: NDArray[np.float64], w: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -172,25 +200,32 @@ class Element:
             object.__setattr__(self, "surface_points", 2 if self.cell == "hex8" else 3)
         if self.width_points == 0:
             object.__setattr__(self, "width_points", self.surface_points)
+        given: object = self.modes
+        if not isinstance(given, tuple) or not all(isinstance(mode, Mode) for mode in given):
+            raise InvalidValue(
+                "modes are a tuple of Mode",
+                where=self.name,
+                value=given,
+                cause="a mode in place of a tuple, or a tuple in place of a mode",
+                remedy="with the comma: modes=(Mode(...), Mode(...) + Mode(...), ...)",
+            )
         for mode in self.modes:
             self._check_mode(mode)
-        orders = [term.c for mode in self.modes for term in mode if term.component == "33"]
+        orders = [part.c for mode in self.modes for part in mode.polynomials if part.component == "33"]
         object.__setattr__(self, "thickness_order", max([self.thickness_order, *orders]))
 
     def _check_mode(self, mode: Mode) -> None:
-        """Reject a mode that is no tuple of terms, or whose mean does not vanish at the Gauss points. eq. (2.12)"""
-        if isinstance(mode, Term):
+        """Reject a mode of no component, or whose mean does not vanish at the Gauss points. eq. (2.12)"""
+        components = {part.component for part in mode.polynomials}
+        if not components <= set(COMPONENTS):
             raise InvalidValue(
-                "a mode is a tuple of terms",
+                "a mode is one of a strain component",
                 where=self.name,
                 value=mode,
-                cause="a term in place of a mode",
-                remedy="with the comma: modes=((Term(...),), ...)",
+                remedy="components: " + ", ".join(COMPONENTS),
             )
-        if not mode or any(term.component not in COMPONENTS for term in mode):
-            raise InvalidValue("a mode is a tuple of terms in known components", where=self.name, value=mode)
-        for component in {term.component for term in mode}:
-            mean = sum(term.mean(self.surface_rule) for term in mode if term.component == component)
+        for component in components:
+            mean = sum(part.mean(self.surface_rule) for part in mode.polynomials if part.component == component)
             if abs(mean) > 1e-12:
                 raise InvalidValue(
                     "the mean of an enhanced mode over the element must vanish",
@@ -198,7 +233,7 @@ class Element:
                     value=f"{mode}: mean {mean:.3g} at {self.surface_points} x {self.width_points} Gauss points",
                     cause="such a mode takes part in constant strain: the patch test is lost",
                     remedy="odd powers of r or s, or Legendre order c > 0; or subtract the mean at these points "
-                    "by another term",
+                    "by another polynomial",
                 )
 
     @property
@@ -236,11 +271,12 @@ class Element:
         along, across = (_core.gauss(count)[0] for count in self.surface_rule)
         s, r = (grid.ravel()[:, None] for grid in np.meshgrid(across, along, indexing="ij"))
         values = np.zeros((len(COMPONENTS), len(self.modes), len(r), np.shape(t)[-1]))
-        through = {c: _without_mean(c, t, w) for c in {term.c for mode in self.modes for term in mode}}
+        orders = {part.c for mode in self.modes for part in mode.polynomials}
+        through = {c: _without_mean(c, t, w) for c in orders}
         for k, mode in enumerate(self.modes):
-            for term in mode:
-                in_plane = term.factor * r**term.a * s**term.b
-                values[COMPONENTS.index(term.component), k] += in_plane * through[term.c]
+            for part in mode.polynomials:
+                in_plane = part.factor * r**part.a * s**part.b
+                values[COMPONENTS.index(part.component), k] += in_plane * through[part.c]
         values = np.moveaxis(values, 1, -1)
         return values.reshape(len(COMPONENTS) * len(r) * np.shape(t)[-1], len(self.modes))
 
@@ -257,7 +293,7 @@ class Element:
             f"{self.surface_points} x {self.width_points} x {np.shape(t)[-1]} points",
         )
         for mode, largest in zip(self.modes, np.abs(values).max(axis=0), strict=True):
-            if largest <= 1e-10 * max(abs(term.factor) for term in mode):
+            if largest <= 1e-10 * max(abs(part.factor) for part in mode.polynomials):
                 raise InvalidValue(
                     "an enhanced mode vanishes at the Gauss points",
                     where=self.name,
@@ -279,5 +315,8 @@ class Element:
         index = COMPONENTS.index
         return _core.Technology(
             [_core.Tying(index(row.component), list(row.r), list(row.s), row.at_layer) for row in self.tying],
-            [[_core.Term(index(t.component), t.factor, t.a, t.b, t.c) for t in mode] for mode in self.modes],
+            [
+                [_core.Polynomial(index(p.component), p.factor, p.a, p.b, p.c) for p in mode.polynomials]
+                for mode in self.modes
+            ],
         )

@@ -5,15 +5,26 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from os import PathLike
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from umform import _core
 from umform.errors import InvalidValue
 from umform.materials.checks import check_finite
-from umform.materials.library import address, content, named_state, numbers
+from umform.materials.library import (
+    IN_FOLDER,
+    Numbers,
+    State,
+    Symbol,
+    ThicknessPoints,
+    address,
+    content,
+    named_state,
+    numbers,
+)
 from umform.materials.user_law import Floats, named_parts
+from umform.spec import InDeck, check_fields
 
 
 @dataclass(frozen=True)
@@ -29,73 +40,53 @@ class CompiledLaw:
     state (size); Voigt order 11 22 33 12 23 13, engineering shears, in the axes of the sheet. The function must not
     change the old state. It returns 0; any other value reports failure and cuts the increment.
 
-    Parameters
-    ----------
-    function : str, int or object
-        Name of the function in ``library``; or its address, a cfunc of numba or a function of ctypes.
-    library : str or path-like, optional
-        Shared library.
-    state : int or mapping of str to int
-        Number of state variables, or their names and sizes, which name the fields; ``eqps`` is the accumulated plastic
-        strain. They begin at ``initial``, by default at zero.
-    properties : sequence of float
-        Constants of the law, passed on unchanged.
-    initial : sequence of float
-        State of the virgin material; default: zeros.
-    energy : str, int or object, optional
-        A function ``int energy(int points, const double* strain, const double* state, const double* properties, double*
-        energies)`` that fills elastic energy and plastic work (2) of each point, for a strain and the converged state
-        at it. Without it the energies of a run are NaN.
-    strain : {"logarithmic", "green-lagrange"}
-        Strain that it gets: logarithmic, which makes a small-strain law one of finite strain, or Green-Lagrange.
-    symmetric : bool
-        Whether the tangent is symmetric at any strain; an asymmetric one then raises an error.
-    parallel : bool
-        Whether several threads may call it at the same time: it has no static variables.
-    sees_points : bool
-        Whether it uses axes and length of the cell; else they are null and 0.
-    directional : bool
-        Whether it is anisotropic, so that a model needs the rolling direction.
-    thickness_points : int, optional
-        Default number of Gauss points through the thickness. Without it a law with a history counts as plastic: the
-        points and the complete order of the element for plastic laws, mostly staggered points; one without has 2.
-    name : str
-        For messages and fingerprints of runs; without a library, give each function its own name.
-
     Examples
     --------
     >>> import umform as uf
     >>> law = uf.CompiledLaw("law", "law.so", state={"eqps": 1}, properties=(210e3, 0.3))  # doctest: +SKIP
     """
 
-    function: Any = field(compare=False)
-    library: str | PathLike[str] | None = field(default=None, compare=False)
-    state: int | Mapping[str, int] = field(default=0, hash=False)
-    properties: Sequence[float] = ()
-    initial: Sequence[float] = ()
-    energy: Any = field(default=None, compare=False)
+    function: Annotated[Any, InDeck(Symbol)] = field(compare=False)
+    """Name of the function in the library; or its address, a cfunc of numba or a function of ctypes."""
+    library: Annotated[str | PathLike[str] | None, replace(IN_FOLDER, needed=True)] = field(default=None, compare=False)
+    """Shared library."""
+    state: State = field(default=0, hash=False)
+    """Number of state variables, or their names and sizes in their order; fields have these names, and ``eqps`` is the
+    accumulated plastic strain. They begin at ``initial``."""
+    properties: Numbers = ()
+    """Constants of the law, passed on unchanged."""
+    initial: Numbers = ()
+    """State of the virgin material; without it zeros."""
+    energy: Annotated[Any, InDeck(Symbol)] = field(default=None, compare=False)
+    """Name of the function of its energies, ``int energy(int points, const double* strain, const double* state, const
+    double* properties, double* energies)``: it fills elastic energy and plastic work (2) of each point, for a strain
+    and the converged state at it. Without it the energies of a run are NaN."""
     strain: Literal["logarithmic", "green-lagrange"] = "logarithmic"
+    """Strain that it receives; logarithmic strains make a small-strain law one of finite strain."""
     symmetric: bool = True
+    """Whether the tangent is symmetric; an asymmetric one then raises an error."""
     parallel: bool = True
+    """Whether several threads may call it at the same time: it has no static variables."""
     sees_points: bool = False
+    """Whether it uses axes and length of the cell; else they are null and 0."""
     directional: bool = False
-    thickness_points: int | None = None
-    name: str = "compiled law"
+    """Whether it is anisotropic and needs the rolling direction."""
+    thickness_points: ThicknessPoints | None = None
+    """Default number of Gauss points through the thickness; without it, a law with a history has the points and the
+    complete order of the element for plastic laws, mostly staggered points, and one without a history has 2."""
+    name: str = ""
+    """Name in messages and fingerprints of runs; without it, that of the function. Without a library, give each
+    function its own name."""
     content: str = field(default="", init=False)
 
     def __post_init__(self) -> None:
-        where, put = self.name, object.__setattr__
+        put = object.__setattr__
+        check_fields(self)
+        put(self, "name", self.name or (self.function if isinstance(self.function, str) else "compiled law"))
+        where = self.name
         put(self, "state", named_state(where, self.state))
         put(self, "properties", numbers(where, "properties", self.properties))
         put(self, "initial", initial_state(where, self.state, self.initial))
-        if self.strain not in ("logarithmic", "green-lagrange"):
-            raise InvalidValue(
-                "a law gets logarithmic or Green-Lagrange strains",
-                where=where,
-                value=self.strain,
-                cause="another word",
-                remedy='strain="logarithmic" or strain="green-lagrange"',
-            )
         if self.library is not None:
             functions = [name for name in (self.function, self.energy) if name is not None]
             put(self, "content", f"{content(self.library, where)} {' '.join(map(str, functions))}")

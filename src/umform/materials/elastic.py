@@ -5,23 +5,29 @@ Elastic constants are given as E and nu, or as kappa and mu. Stresses in any uni
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass, field
+from typing import Annotated
+
+from annotated_types import Gt, Lt
 
 from umform import _core
 from umform.errors import InvalidValue
-from umform.materials.checks import check_finite
+from umform.spec import About, check_fields
+from umform.spec.types import FOLLOWS
+
+_EXCHANGED = About(
+    cause="a sign, a stress in place of a ratio, or the two exchanged", remedy="nearly incompressible: nu = 0.4999"
+)
+_MODULI = About(
+    cause="a sign, or Lamé's constants in place of the moduli", remedy="kappa = lambda + 2 mu / 3; or give E and nu"
+)
+_Modulus = Annotated[float, Gt(0.0), _MODULI]
 
 
-@dataclass(frozen=True, init=False)
+@dataclass(frozen=True)
 class Elastic:
-    """Isotropic elastic constants.
-
-    Parameters
-    ----------
-    E, nu : float
-        Young's modulus and Poisson's ratio, or
-    kappa, mu : float
-        bulk and shear modulus.
+    """Isotropic elastic constants: E and nu, or kappa and mu.
 
     Raises
     ------
@@ -29,67 +35,55 @@ class Elastic:
         If not exactly one pair is given, or if the constants violate stability (E > 0, -1 < nu < 1/2).
     """
 
-    kappa: float
-    mu: float
+    E: Annotated[float, Gt(0.0), _EXCHANGED] = field(default=FOLLOWS, repr=False, compare=False)
+    """Young's modulus."""
+    nu: Annotated[float, Gt(-1.0), Lt(0.5), _EXCHANGED] = field(default=FOLLOWS, repr=False, compare=False)
+    """Poisson's ratio."""
+    _: KW_ONLY
+    kappa: _Modulus = FOLLOWS
+    """Bulk modulus."""
+    mu: _Modulus = FOLLOWS
+    """Shear modulus."""
 
-    def __init__(
-        self, E: float | None = None, nu: float | None = None, *, kappa: float | None = None, mu: float | None = None
-    ) -> None:
-        where = type(self).__name__
-        if E is not None and nu is not None and kappa is None and mu is None:
-            check_finite(where, E=E, nu=nu)
-            if not E > 0 or not -1 < nu < 0.5:
-                raise InvalidValue(
-                    "E must be positive and nu between -1 and 0.5",
-                    where=where,
-                    value=f"E={E}, nu={nu}",
-                    cause="a sign, a stress in place of a ratio, or the two exchanged",
-                    remedy="nearly incompressible: nu = 0.4999",
-                )
-            kappa, mu = E / (3 * (1 - 2 * nu)), E / (2 * (1 + nu))
-        elif kappa is not None and mu is not None and E is None and nu is None:
-            check_finite(where, kappa=kappa, mu=mu)
-            if not kappa > 0 or not mu > 0:
-                raise InvalidValue(
-                    "kappa and mu must be positive",
-                    where=where,
-                    value=f"kappa={kappa}, mu={mu}",
-                    cause="a sign, or Lamé's constants in place of the moduli",
-                    remedy="kappa = lambda + 2 mu / 3; or give E and nu",
-                )
-        else:
+    def __post_init__(self) -> None:
+        check_fields(self)
+        kappa, mu = self.kappa, self.mu
+        given = {name for name in ("E", "nu", "kappa", "mu") if getattr(self, name) is not None}
+        if given == {"E", "nu"}:
+            kappa, mu = self.E / (3 * (1 - 2 * self.nu)), self.E / (2 * (1 + self.nu))
+        elif not {"kappa", "mu"} <= given or any(
+            getattr(self, name) not in (None, value) for name, value in _young_and_poisson(kappa, mu).items()
+        ):
             raise InvalidValue(
-                "give E and nu, or kappa and mu",
-                where=where,
+                "give E and nu, or kappa and mu, and no others",
+                where=type(self).__name__,
                 cause="one of a pair is missing, or both pairs are given",
                 remedy="two constants: J2(E=210e3, nu=0.3, ...) for one",
             )
-        object.__setattr__(self, "kappa", float(kappa))
-        object.__setattr__(self, "mu", float(mu))
+        kappa, mu = float(kappa), float(mu)
+        for name, value in {"kappa": kappa, "mu": mu, **_young_and_poisson(kappa, mu)}.items():
+            object.__setattr__(self, name, value)
 
     @property
     def lambda_(self) -> float:
         """Lamé's first constant."""
         return self.kappa - 2.0 / 3.0 * self.mu
 
-    @property
-    def E(self) -> float:
-        """Young's modulus."""
-        return 9 * self.kappa * self.mu / (3 * self.kappa + self.mu)
+    def written(self) -> Mapping[str, float | None]:
+        """The pair of constants that gives these to the last bit, E and nu if they do; None for the others."""
+        E, nu = float(f"{self.E:.12g}"), float(f"{self.nu:.12g}")
+        if Elastic(E, nu) == Elastic(kappa=self.kappa, mu=self.mu):
+            return {"E": E, "nu": nu, "kappa": None, "mu": None}
+        return {"E": None, "nu": None}
 
-    @property
-    def nu(self) -> float:
-        """Poisson's ratio."""
-        return (3 * self.kappa - 2 * self.mu) / (2 * (3 * self.kappa + self.mu))
+
+def _young_and_poisson(kappa: float, mu: float) -> dict[str, float]:
+    """Young's modulus and Poisson's ratio of a bulk and a shear modulus."""
+    return {"E": 9 * kappa * mu / (3 * kappa + mu), "nu": (3 * kappa - 2 * mu) / (2 * (3 * kappa + mu))}
 
 
 class SVK(Elastic):
-    """Saint Venant-Kirchhoff: S = lambda tr(E) 1 + 2 mu E. For small strains; it softens in strong compression.
-
-    Parameters
-    ----------
-    E, nu, kappa, mu : float
-        Elastic constants, see :class:`Elastic`.
+    """St. Venant-Kirchhoff: S = lambda tr(E) 1 + 2 mu E. For small strains; it softens in strong compression.
 
     Examples
     --------
@@ -109,11 +103,6 @@ class SVK(Elastic):
 class NeoHooke(Elastic):
     """Compressible neo-Hooke, logarithmic form: W = mu/2 (I1 - 3) - mu ln J + lambda/2 ln² J.
 
-    Parameters
-    ----------
-    E, nu, kappa, mu : float
-        Elastic constants, see :class:`Elastic`.
-
     Examples
     --------
     >>> import umform as uf
@@ -131,11 +120,6 @@ class NeoHooke(Elastic):
 
 class NeoHookePower(Elastic):
     """Compressible neo-Hooke, power form: W = c (I1 - 3) + c/beta (I3^-beta - 1), c = mu/2, beta = nu/(1 - 2 nu).
-
-    Parameters
-    ----------
-    E, nu, kappa, mu : float
-        Elastic constants, see :class:`Elastic`.
 
     Examples
     --------

@@ -1,13 +1,29 @@
-"""Hardening curves: yield stress as a function of the accumulated plastic strain."""
+"""Hardening curves: yield stress as a function of the accumulated plastic strain.
+
+A class of this file is a curve of Python, of decks and of the command line.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Protocol
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Annotated, Protocol
+
+from annotated_types import Ge, Gt, Le, MinLen
 
 from umform import _core
 from umform.errors import HardeningNotMonotone, InvalidValue
 from umform.materials.checks import check_finite
+from umform.materials.known import known
+from umform.spec import About, OneOf, Rule, check_fields
+from umform.spec.types import NotNegative, Positive
+
+YieldStress = Annotated[
+    float,
+    Gt(0.0),
+    About(cause="a sign, or zero for an elastic material", remedy="SVK or a neo-Hooke for an elastic material"),
+]
+_SWIFT = About(cause="a sign, per cent, or the three in another order", remedy="Swift(520.0, 0.004, 0.22)")
 
 
 class Hardening(Protocol):
@@ -17,31 +33,22 @@ class Hardening(Protocol):
         """The curve as the kernels take it."""
 
 
-def _check_yield(where: str, yield_stress: float) -> None:
-    if not yield_stress > 0:
-        raise InvalidValue(
-            "the yield stress must be positive",
-            where=where,
-            value=yield_stress,
-            cause="a sign, or zero for an elastic material",
-            remedy="SVK or a neo-Hooke for an elastic material",
-        )
+#: One of the curves; the word ``curve`` of a deck names it.
+Curve = Annotated[
+    Hardening,
+    Rule(
+        lambda curve: callable(getattr(curve, "curve", None)) and not isinstance(curve, type),
+        "hardening must be a hardening curve",
+        cause="a number, or the name of a curve in place of a curve",
+        remedy="Perfect(160.0) or another of Linear, Voce, LinearVoce, Swift, Table",
+    ),
+    OneOf("curve", partial(known, Hardening)),
+]
 
 
 @dataclass(frozen=True)
-class LinearVoce:
-    """y = y0 + H e + (y_inf - y0)(1 - exp(-d e)).
-
-    Parameters
-    ----------
-    yield_stress : float
-        y0.
-    modulus : float
-        H, not negative.
-    saturation : float
-        y_inf, not below y0.
-    rate : float
-        d, not negative.
+class LinearVoce(Hardening):
+    """Linear and Voce hardening: y = yield_stress + modulus e + (saturation - yield_stress)(1 - exp(-rate e)).
 
     Examples
     --------
@@ -50,109 +57,92 @@ class LinearVoce:
     >>> aluminium = uf.J2(E=70e3, nu=0.33, hardening=curve)
     """
 
-    yield_stress: float
-    modulus: float
-    saturation: float
-    rate: float
+    yield_stress: YieldStress
+    """Initial yield stress."""
+    modulus: NotNegative
+    """Slope of the linear part, a stress."""
+    saturation: Positive
+    """Saturation stress of the Voce part, not below the initial yield stress."""
+    rate: NotNegative
+    """Rate of saturation of the Voce part, dimensionless."""
 
     def __post_init__(self) -> None:
-        where = type(self).__name__
-        check_finite(
-            where, yield_stress=self.yield_stress, modulus=self.modulus, saturation=self.saturation, rate=self.rate
-        )
-        _check_yield(where, self.yield_stress)
-        if self.modulus < 0 or self.rate < 0 or self.saturation < self.yield_stress:
-            raise HardeningNotMonotone(
-                "the yield stress must not fall",
-                where=where,
-                value=self,
-                cause="softening needs a length scale that this law does not have",
-                remedy="modulus and rate >= 0, saturation >= yield_stress",
-            )
+        least = {"modulus": 0.0, "rate": 0.0, "saturation": self.yield_stress}
+        for name, value in {name: getattr(self, name) for name in least}.items():
+            if value < least[name] and self.yield_stress > 0.0:
+                raise HardeningNotMonotone(
+                    "the yield stress must not fall",
+                    where=name,
+                    value=value,
+                    cause="softening needs a length scale that this law does not have",
+                    remedy="modulus and rate >= 0, saturation >= yield_stress",
+                )
+        check_fields(self)
 
     def curve(self) -> _core.Hardening:
         """The curve as the kernels take it."""
         return _core.linear_voce(self.yield_stress, self.modulus, self.saturation, self.rate)
 
 
-def Perfect(yield_stress: float) -> LinearVoce:
-    """Perfect plasticity: y = y0.
-
-    Parameters
-    ----------
-    yield_stress : float
-        y0, a stress.
-
-    Returns
-    -------
-    LinearVoce
+@dataclass(frozen=True)
+class Perfect(LinearVoce):
+    """Perfect plasticity: y = yield_stress.
 
     Examples
     --------
     >>> import umform as uf
     >>> lead = uf.J2(E=16e3, nu=0.44, hardening=uf.Perfect(12.0))
     """
-    return LinearVoce(yield_stress, 0.0, yield_stress, 0.0)
+
+    modulus: float = field(default=0.0, init=False, repr=False)
+    saturation: float = field(init=False, repr=False)
+    rate: float = field(default=0.0, init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "saturation", self.yield_stress)
+        super().__post_init__()
 
 
-def Linear(yield_stress: float, modulus: float) -> LinearVoce:
-    """Linear hardening: y = y0 + H e.
-
-    Parameters
-    ----------
-    yield_stress : float
-        y0, a stress.
-    modulus : float
-        H, a stress, not negative.
-
-    Returns
-    -------
-    LinearVoce
+@dataclass(frozen=True)
+class Linear(LinearVoce):
+    """Linear hardening: y = yield_stress + modulus e.
 
     Examples
     --------
     >>> import umform as uf
     >>> steel = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(yield_stress=160.0, modulus=500.0))
     """
-    return LinearVoce(yield_stress, modulus, yield_stress, 0.0)
+
+    modulus: NotNegative
+    """Slope over the plastic strain, a stress."""
+    saturation: float = field(init=False, repr=False)
+    rate: float = field(default=0.0, init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "saturation", self.yield_stress)
+        super().__post_init__()
 
 
-def Voce(yield_stress: float, saturation: float, rate: float) -> LinearVoce:
-    """Voce hardening: y = y_inf - (y_inf - y0) exp(-d e).
-
-    Parameters
-    ----------
-    yield_stress : float
-        y0, a stress.
-    saturation : float
-        y_inf, a stress, not below y0.
-    rate : float
-        d, dimensionless, not negative.
-
-    Returns
-    -------
-    LinearVoce
+@dataclass(frozen=True)
+class Voce(LinearVoce):
+    """Voce hardening: y = saturation - (saturation - yield_stress) exp(-rate e).
 
     Examples
     --------
     >>> import umform as uf
     >>> aluminium = uf.J2(E=70e3, nu=0.33, hardening=uf.Voce(yield_stress=125.0, saturation=290.0, rate=12.0))
     """
-    return LinearVoce(yield_stress, 0.0, saturation, rate)
+
+    modulus: float = field(default=0.0, init=False, repr=False)
+    saturation: Positive
+    """Saturation stress, not below the initial yield stress."""
+    rate: NotNegative
+    """Rate of saturation, dimensionless."""
 
 
 @dataclass(frozen=True)
-class Swift:
-    """y = K (e0 + e)^n.
-
-    Parameters
-    ----------
-    strength : float
-        K.
-    offset : float
-        e0, positive.
-    exponent : float
-        n, between 0 and 1.
+class Swift(Hardening):
+    """Swift hardening: y = strength (offset + e)^exponent.
 
     Examples
     --------
@@ -160,20 +150,15 @@ class Swift:
     >>> steel = uf.J2(E=210e3, nu=0.3, hardening=uf.Swift(strength=520.0, offset=0.004, exponent=0.2))
     """
 
-    strength: float
-    offset: float
-    exponent: float
+    strength: Annotated[Positive, _SWIFT]
+    """K, a stress."""
+    offset: Annotated[Positive, _SWIFT]
+    """e0, a plastic strain."""
+    exponent: Annotated[float, Ge(0.0), Le(1.0), _SWIFT]
+    """n."""
 
     def __post_init__(self) -> None:
-        check_finite("Swift", strength=self.strength, offset=self.offset, exponent=self.exponent)
-        if not self.strength > 0 or not self.offset > 0 or not 0 <= self.exponent <= 1:
-            raise InvalidValue(
-                "K and e0 must be positive and n between 0 and 1",
-                where="Swift",
-                value=self,
-                cause="a sign, per cent, or the three in another order",
-                remedy="Swift(strength=520.0, offset=0.004, exponent=0.22)",
-            )
+        check_fields(self)
 
     def curve(self) -> _core.Hardening:
         """The curve as the kernels take it."""
@@ -181,15 +166,8 @@ class Swift:
 
 
 @dataclass(frozen=True)
-class Table:
-    """Piecewise linear table of points (eqps, stress), constant beyond its end.
-
-    Parameters
-    ----------
-    eqps : tuple of float
-        Plastic strains from 0, increasing.
-    stress : tuple of float
-        Yield stresses, not decreasing.
+class Table(Hardening):
+    """Piecewise linear curve through measured points, constant beyond the last one.
 
     Examples
     --------
@@ -198,8 +176,10 @@ class Table:
     >>> steel = uf.J2(E=210e3, nu=0.3, hardening=curve)
     """
 
-    eqps: tuple[float, ...]
-    stress: tuple[float, ...]
+    eqps: Annotated[tuple[float, ...], MinLen(2)]
+    """Plastic strains, increasing from 0."""
+    stress: Annotated[tuple[float, ...], MinLen(2)]
+    """Yield stresses, not decreasing."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "eqps", tuple(float(e) for e in self.eqps))
@@ -230,7 +210,7 @@ class Table:
                 cause="the curve of a tensile test as it was measured",
                 remedy="give the plastic strain, not the total one",
             )
-        _check_yield("Table, row 0", self.stress[0])
+        Perfect(self.stress[0])
 
     def curve(self) -> _core.Hardening:
         """The curve as the kernels take it."""

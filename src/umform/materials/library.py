@@ -8,8 +8,21 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 from os import PathLike
 from pathlib import Path
+from typing import Annotated
+
+from annotated_types import Ge, Le, MinLen
 
 from umform.errors import FileProblem, InvalidValue
+from umform.spec import InDeck
+
+#: Path of a shared library in a deck.
+IN_FOLDER = InDeck(Annotated[str, MinLen(1)], key="file", path=True)
+#: Number of state variables, or their names and sizes.
+State = Annotated[int | Mapping[str, int], InDeck(Annotated[int, Ge(0)] | dict[str, Annotated[int, Ge(1)]])]
+Numbers = Annotated[Sequence[float], InDeck(list[float])]
+#: Name of a function.
+Symbol = Annotated[str, MinLen(1)]
+ThicknessPoints = Annotated[int, Ge(2), Le(20)]
 
 
 def address(library: str | PathLike[str], symbols: Sequence[str], where: str) -> int:

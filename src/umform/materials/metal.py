@@ -3,36 +3,37 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
+from typing import Annotated
 
 import numpy as np
+from annotated_types import Gt
 from numpy.typing import ArrayLike
 
 from umform import _core
 from umform.errors import InvalidValue
-from umform.materials.back_stress import Chaboche, YoshidaUemori
-from umform.materials.checks import check_finite
+from umform.materials.back_stress import BackStress, Chaboche, YoshidaUemori
 from umform.materials.hardening import Hardening
 from umform.materials.j2 import Plastic
 from umform.materials.material import Material
-from umform.materials.rate_factor import RateFactor
+from umform.materials.rate_factor import Factor, RateFactor
 from umform.materials.user_law import Floats
-from umform.materials.yield_functions import Mises, YieldFunction
+from umform.materials.yield_functions import Function, Mises
+from umform.spec import About, check_fields
 
 #: Largest yield stress over E.
 _LARGEST_YIELD = 0.2
 
 
+_FALLING = About(
+    cause="a sign, or a modulus that does not fall",
+    remedy="FallingModulus(saturated=152e3, rate=30.8); none for a constant modulus",
+)
+
+
 @dataclass(frozen=True)
 class FallingModulus:
     """Young's modulus that falls with the plastic strain: E = E0 - (E0 - saturated)(1 - exp(-rate p)).
-
-    Parameters
-    ----------
-    saturated : float
-        Limit of E, a stress.
-    rate : float
-        Rate of the decrease, dimensionless.
 
     Examples
     --------
@@ -40,44 +41,25 @@ class FallingModulus:
     >>> steel = uf.Metal(206e3, 0.3, hardening=uf.Perfect(200.0), modulus=uf.FallingModulus(saturated=160e3, rate=40.0))
     """
 
-    saturated: float
-    rate: float
+    saturated: Annotated[float, Gt(0.0), _FALLING]
+    """Limit of the modulus, a stress."""
+    rate: Annotated[float, Gt(0.0), _FALLING]
+    """Rate of the decrease, dimensionless."""
 
     def __post_init__(self) -> None:
-        check_finite("FallingModulus", saturated=self.saturated, rate=self.rate)
-        if not self.saturated > 0 or not self.rate > 0:
-            raise InvalidValue(
-                "saturated and rate must be positive",
-                where="FallingModulus",
-                value=self,
-                cause="a sign, or a modulus that does not fall",
-                remedy="FallingModulus(saturated=152e3, rate=30.8); none for a constant modulus",
-            )
+        check_fields(self)
 
     def share(self, E: float, eqps: Floats) -> Floats:
         """Modulus over its first value E, at plastic strains."""
         return 1.0 - (1.0 - self.saturated / E) * -np.expm1(-self.rate * eqps)
 
 
-@dataclass(frozen=True, init=False)
+@dataclass(frozen=True)
 class Metal(Plastic):
-    """Plasticity in logarithmic strains: yield function, back stresses, falling modulus (docs/theory, 3.9 to 3.13).
+    """Plasticity with a yield function, back stresses, a falling modulus and a rate factor (docs/theory, 3.9 to 3.13).
 
-    Parameters
-    ----------
-    E, nu, kappa, mu : float
-        Elastic constants, see :class:`Elastic`.
-    hardening : Hardening
-        Perfect, Linear, Voce, LinearVoce, Swift or Table: size of the yield surface.
-    yield_function : YieldFunction
-        Mises, Hill48, Hosford, Yld91 or Yld2004. One with directions needs the ``rolling`` direction of the model.
-    back_stress : Chaboche or YoshidaUemori, optional
-        Motion of the yield surface.
-    modulus : FallingModulus, optional
-        Young's modulus as a function of the plastic strain.
-    rate : CowperSymonds or JohnsonCook, optional
-        Factor of the yield stress as a function of the plastic strain rate; time is that of the steps. A model that is
-        evaluated without a time increment responds elastically.
+    A yield function with directions needs the ``rolling`` direction of the model. With a rate factor, a model that is
+    evaluated without a time increment responds elastically.
 
     Examples
     --------
@@ -93,50 +75,29 @@ class Metal(Plastic):
     >>> model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=mild, rolling=along_x)
     """
 
-    yield_function: YieldFunction = field(default_factory=Mises)
-    back_stress: Chaboche | YoshidaUemori | None = None
+    _: KW_ONLY
+    yield_function: Function = field(default_factory=Mises)
+    """Shape of the yield surface: Mises, Hill48, Hosford, Yld91, Yld2004, or a function of your own."""
+    back_stress: BackStress | None = None
+    """Motion of the yield surface."""
     modulus: FallingModulus | None = None
-    rate: RateFactor | None = None
+    """Decrease of Young's modulus."""
+    rate: Factor | None = None
+    """Factor of the yield stress as a function of the plastic strain rate; time is that of the steps."""
 
-    def __init__(
-        self,
-        E: float | None = None,
-        nu: float | None = None,
-        *,
-        kappa: float | None = None,
-        mu: float | None = None,
-        hardening: Hardening,
-        yield_function: YieldFunction | None = None,
-        back_stress: Chaboche | YoshidaUemori | None = None,
-        modulus: FallingModulus | None = None,
-        rate: RateFactor | None = None,
-    ) -> None:
-        super().__init__(E, nu, kappa=kappa, mu=mu, hardening=hardening)
-        function = Mises() if yield_function is None else yield_function
-        if not callable(getattr(function, "function", None)) or isinstance(function, type):
-            raise InvalidValue(
-                "yield_function must be a yield function",
-                where="Metal",
-                value=function,
-                cause="its name, or its class in place of one",
-                remedy="Hill48(r0=1.8, r45=1.5, r90=2.2) or another of Mises, Hosford, Yld91, Yld2004",
-            )
-        if modulus is not None and not self.E / 3.0 < modulus.saturated < self.E:
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.modulus is not None and not self.E / 3.0 < self.modulus.saturated < self.E:
             raise InvalidValue(
                 "the modulus must fall, to no less than a third: saturated between E / 3 and E",
                 where="Metal",
-                value=f"E={self.E:.6g}, saturated={modulus.saturated:.6g}",
+                value=f"E={self.E:.6g}, saturated={self.modulus.saturated:.6g}",
                 cause="the two exchanged, or one of them in GPa",
                 remedy="saturated of 0.7 E to 0.95 E, in the unit of E",
             )
-        if isinstance(back_stress, YoshidaUemori):
-            _check_surfaces(back_stress, hardening)
-        _check_rate(rate, back_stress)
+        if isinstance(self.back_stress, YoshidaUemori):
+            _check_surfaces(self.back_stress, self.hardening, self.rate)
         _check_first_yield(self)
-        object.__setattr__(self, "yield_function", function)
-        object.__setattr__(self, "back_stress", back_stress)
-        object.__setattr__(self, "modulus", modulus)
-        object.__setattr__(self, "rate", rate)
 
     @property
     def directional(self) -> bool:
@@ -210,28 +171,6 @@ class Metal(Plastic):
         return shown
 
 
-def _check_rate(rate: object, back_stress: object) -> None:
-    """Reject an invalid rate factor, and a rate factor with two-surface hardening."""
-    if rate is None:
-        return
-    if not callable(getattr(rate, "factor", None)) or isinstance(rate, type):
-        raise InvalidValue(
-            "rate must be a rate factor",
-            where="Metal",
-            value=rate,
-            cause="a strain rate, or the name of a factor in place of one",
-            remedy="CowperSymonds(reference=40.0, exponent=5.0) or JohnsonCook(reference=1.0, strength=0.014)",
-        )
-    if isinstance(back_stress, YoshidaUemori):
-        raise InvalidValue(
-            "the yield surface of Yoshida and Uemori has a constant size: no rate",
-            where="Metal",
-            value=rate,
-            cause="a rate factor beside two surfaces",
-            remedy="Chaboche for the back stress, or no rate",
-        )
-
-
 def _check_first_yield(metal: Plastic) -> None:
     """Reject a yield stress that is too large for the elastic modulus."""
     first, _ = metal.hardening.curve()(0.0)
@@ -245,8 +184,16 @@ def _check_first_yield(metal: Plastic) -> None:
         )
 
 
-def _check_surfaces(surfaces: YoshidaUemori, hardening: Hardening) -> None:
-    """Reject a yield surface that grows, or that exceeds the bounding surface."""
+def _check_surfaces(surfaces: YoshidaUemori, hardening: Hardening, rate: RateFactor | None) -> None:
+    """Reject a yield surface that grows, also by a rate factor, or that exceeds the bounding surface."""
+    if rate is not None:
+        raise InvalidValue(
+            "the yield surface of Yoshida and Uemori has a constant size: no rate",
+            where="Metal",
+            value=rate,
+            cause="a rate factor beside two surfaces",
+            remedy="Chaboche for the back stress, or no rate",
+        )
     first, slope = hardening.curve()(0.0)
     if slope != 0.0 or hardening.curve()(1.0)[0] != first:
         raise InvalidValue(
@@ -270,12 +217,6 @@ def _check_surfaces(surfaces: YoshidaUemori, hardening: Hardening) -> None:
 class LogarithmicSpace:
     """A small-strain law at finite strain: it receives logarithmic strains, and its stress is work-conjugate to them.
 
-    Parameters
-    ----------
-    small : Material
-        Any law, including your own: it receives ln(C)/2 in place of the Green-Lagrange strain, engineering shears, in
-        the axes of the sheet. SVK becomes Hencky's law.
-
     Examples
     --------
     >>> import umform as uf
@@ -285,6 +226,8 @@ class LogarithmicSpace:
     """
 
     small: Material
+    """Any law, also one of your own; it receives ln(C)/2 in place of the Green-Lagrange strain, with engineering
+    shears, in the axes of the sheet. SVK becomes Hencky's law."""
 
     @property
     def thickness_points(self) -> int | None:

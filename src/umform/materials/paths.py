@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -12,6 +13,7 @@ from numpy.typing import ArrayLike
 from umform import _core
 from umform.errors import InvalidValue, NoConvergence
 from umform.materials.user_law import Floats
+from umform.quantities import named
 
 
 class SmallStrainLaw(Protocol):
@@ -29,13 +31,13 @@ class PointPath:
     ----------
     strain, stress : ndarray, shape (n, 6)
         Logarithmic strain (engineering shears) and its conjugate stress in the axes of the test.
-    state : ndarray, shape (n, size)
-        History of the law.
+    history : mapping of str to ndarray, shape (n, size)
+        History of the law by name.
     """
 
     strain: Floats
     stress: Floats
-    state: Floats
+    history: Mapping[str, Floats]
 
 
 def point_path(
@@ -92,7 +94,7 @@ def point_path(
             cause="a stress beyond what the metal can carry",
             remedy="prescribe the strain along the load",
         )
-    return PointPath(strains, stresses, states)
+    return PointPath(strains, stresses, named(states, law.quantities))
 
 
 def tension(
@@ -144,7 +146,7 @@ def tension(
     path = np.full((len(along), 6), np.nan)
     path[:, component] = along
     found = point_path(material, path, np.zeros_like(path), angle, time=time)
-    plastic = _plastic_strain(_law(material), found.state) @ _turned(-math.radians(angle)).T
+    plastic = _plastic_strain(found) @ _turned(-math.radians(angle)).T
     return found.strain[:, component], found.stress[:, component], plastic
 
 
@@ -163,14 +165,11 @@ def _law(material: SmallStrainLaw) -> _core.Material:
     return law
 
 
-def _plastic_strain(law: _core.Material, states: Floats) -> Floats:
-    """The part of histories (n, size) called plastic_strain, shape (n, 6); NaN if a law has none."""
-    first = 0
-    for name, size in law.state.items():
-        if name == "plastic_strain" and size == 6:
-            return states[:, first : first + 6]
-        first += size
-    return np.full((len(states), 6), np.nan)
+def _plastic_strain(found: PointPath) -> Floats:
+    """The part of the history called plastic_strain, shape (n, 6); NaN if a law has none."""
+    none = np.full_like(found.strain, np.nan)
+    plastic = found.history.get("plastic_strain", none)
+    return plastic if plastic.shape == none.shape else none
 
 
 def _durations(material: SmallStrainLaw, time: ArrayLike | None, rows: int) -> Floats:

@@ -1,13 +1,28 @@
-"""Factors of the yield stress as functions of the plastic strain rate (docs/theory, 3.14)."""
+"""Factors of the yield stress as functions of the plastic strain rate (docs/theory, 3.14).
+
+A class of this file is a factor of Python and of decks.
+"""
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from typing import Protocol
+from dataclasses import dataclass
+from functools import partial
+from typing import Annotated, Protocol
+
+from annotated_types import Ge, Gt, Le
 
 from umform import _core
-from umform.errors import InvalidValue
-from umform.materials.checks import check_finite
+from umform.materials.known import known
+from umform.spec import About, OneOf, Rule, check_fields
+
+_MILD = About(
+    cause="a sign, the two exchanged, or the exponent as a fraction",
+    remedy="mild steel: CowperSymonds(reference=40.0, exponent=5.0), per second",
+)
+_TYPICAL = About(
+    cause="a sign, the two exchanged, or a metal without a rate",
+    remedy="JohnsonCook(reference=1.0, strength=0.014), per second; no rate for none",
+)
 
 
 class RateFactor(Protocol):
@@ -17,16 +32,22 @@ class RateFactor(Protocol):
         """The factor as the kernels take it."""
 
 
-@dataclass(frozen=True)
-class CowperSymonds:
-    """Cowper and Symonds (1957): 1 + (rate / reference)^(1 / exponent).
+#: One of the factors; the word ``factor`` of a deck names it.
+Factor = Annotated[
+    RateFactor,
+    Rule(
+        lambda rate: callable(getattr(rate, "factor", None)) and not isinstance(rate, type),
+        "rate must be a rate factor",
+        cause="a strain rate, or the name of a factor in place of one",
+        remedy="CowperSymonds(reference=40.0, exponent=5.0) or JohnsonCook(reference=1.0, strength=0.014)",
+    ),
+    OneOf("factor", partial(known, RateFactor)),
+]
 
-    Parameters
-    ----------
-    reference : float
-        Plastic strain rate at which the yield stress is twice the static one, 1 / time.
-    exponent : float
-        Between 1 and 20.
+
+@dataclass(frozen=True)
+class CowperSymonds(RateFactor):
+    """Cowper and Symonds (1957): 1 + (rate / reference)^(1 / exponent).
 
     Examples
     --------
@@ -35,19 +56,13 @@ class CowperSymonds:
     >>> steel = uf.Metal(206e3, 0.3, hardening=uf.Swift(520.0, 0.004, 0.2), rate=rate)
     """
 
-    reference: float
-    exponent: float
+    reference: Annotated[float, Gt(0.0), _MILD]
+    """Plastic strain rate at which the yield stress is twice the static one, 1 / time."""
+    exponent: Annotated[float, Ge(1.0), Le(20.0), _MILD]
+    """Exponent, from 1 to 20."""
 
     def __post_init__(self) -> None:
-        check_finite("CowperSymonds", **asdict(self))
-        if not self.reference > 0 or not 1 <= self.exponent <= 20:
-            raise InvalidValue(
-                "the reference rate must be positive, the exponent from 1 to 20",
-                where="CowperSymonds",
-                value=self,
-                cause="a sign, the two exchanged, or the exponent as a fraction",
-                remedy="mild steel: CowperSymonds(reference=40.0, exponent=5.0), per second",
-            )
+        check_fields(self)
 
     def factor(self) -> _core.RateFactor:
         """The factor as the kernels take it."""
@@ -55,15 +70,8 @@ class CowperSymonds:
 
 
 @dataclass(frozen=True)
-class JohnsonCook:
+class JohnsonCook(RateFactor):
     """Johnson and Cook (1983): 1 + strength ln(rate / reference), 1 below the reference rate.
-
-    Parameters
-    ----------
-    reference : float
-        Plastic strain rate of the hardening curve, 1 / time.
-    strength : float
-        C, between 0.001 and 1.
 
     Examples
     --------
@@ -72,19 +80,13 @@ class JohnsonCook:
     >>> steel = uf.Metal(206e3, 0.3, hardening=uf.Swift(520.0, 0.004, 0.2), rate=rate)
     """
 
-    reference: float
-    strength: float
+    reference: Annotated[float, Gt(0.0), _TYPICAL]
+    """Plastic strain rate of the hardening curve, 1 / time."""
+    strength: Annotated[float, Ge(1e-3), Le(1.0), _TYPICAL]
+    """C, from 0.001 to 1."""
 
     def __post_init__(self) -> None:
-        check_finite("JohnsonCook", **asdict(self))
-        if not self.reference > 0 or not 1e-3 <= self.strength <= 1:
-            raise InvalidValue(
-                "the reference rate must be positive, the strength from 0.001 to 1",
-                where="JohnsonCook",
-                value=self,
-                cause="a sign, the two exchanged, or a metal without a rate",
-                remedy="JohnsonCook(reference=1.0, strength=0.014), per second; no rate for none",
-            )
+        check_fields(self)
 
     def factor(self) -> _core.RateFactor:
         """The factor as the kernels take it."""

@@ -2,14 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from os import PathLike
+from typing import Annotated
+
+from annotated_types import MaxLen, MinLen
 
 from umform import _core
 from umform.materials.compiled import initial_state
-from umform.materials.library import address, content, named_state, numbers
+from umform.materials.library import (
+    IN_FOLDER,
+    Numbers,
+    State,
+    Symbol,
+    ThicknessPoints,
+    address,
+    content,
+    named_state,
+    numbers,
+)
 from umform.materials.user_law import Floats, named_parts
+from umform.spec import check_fields
 
 #: Names that Fortran compilers, C and Windows give the subroutine.
 _SYMBOLS = ("umat_", "umat", "UMAT", "umat__")
@@ -24,32 +38,7 @@ class Umat:
     over the whole run, KSTEP is 1, KINC is 1 in the first increment and 2 later, NOEL is the number of the cell plus
     one, CELENT its length. PNEWDT below 1 cuts the increment in half.
 
-    Parameters
-    ----------
-    library : str or path-like
-        Shared library: ``gfortran -O2 -shared -fPIC -o umat.so umat.f``.
-    state : int or mapping of str to int
-        Number of state variables, or their names and sizes in their order, which name the fields: ``eqps`` is the
-        accumulated plastic strain. They begin at ``initial``, by default at zero.
-    properties : sequence of float
-        PROPS.
-    initial : sequence of float
-        State of the virgin material; default: zeros.
-    symmetric : bool
-        Whether DDSDDE is symmetric at any strain; an asymmetric one then raises an error.
-    energies : bool
-        Whether it fills SSE, SPD and SCD, which enter the energy balance; otherwise the energies of a run are NaN.
-    parallel : bool
-        Whether several threads may call it at the same time: no SAVE, no COMMON, no files. MPI ranks always do.
-    directional : bool
-        Whether it is anisotropic, so that a model needs the rolling direction; False for an isotropic one.
-    thickness_points : int, optional
-        Default number of Gauss points through the thickness. Without it a law with a history counts as plastic: the
-        points and the complete order of the element for plastic laws, mostly staggered points; one without has 2.
-    symbol : str, optional
-        Name of the function; default: the usual names that compilers give to UMAT.
-    name : str
-        CMNAME, and for messages.
+    ``gfortran -O2 -shared -fPIC -o umat.so umat.f`` makes the library.
 
     Examples
     --------
@@ -57,20 +46,34 @@ class Umat:
     >>> law = uf.Umat("umat.so", state=7, properties=(210e3, 0.3, 200.0))  # doctest: +SKIP
     """
 
-    library: str | PathLike[str] = field(compare=False)
-    state: int | Mapping[str, int] = field(default=0, hash=False)
-    properties: Sequence[float] = ()
-    initial: Sequence[float] = ()
+    library: Annotated[str | PathLike[str], IN_FOLDER] = field(compare=False)
+    """Shared library."""
+    state: State = field(default=0, hash=False)
+    """Number of state variables, or their names and sizes in their order; fields have these names, and ``eqps`` is the
+    accumulated plastic strain. They begin at ``initial``."""
+    properties: Numbers = ()
+    """Constants of the law, PROPS."""
+    initial: Numbers = ()
+    """State of the virgin material; without it zeros."""
     symmetric: bool = True
+    """Whether the tangent DDSDDE is symmetric; an asymmetric one then raises an error."""
     energies: bool = False
+    """Whether it fills SSE, SPD and SCD, which enter the energy balance; otherwise the energies of a run are NaN."""
     parallel: bool = False
+    """Whether several threads may call it at the same time: no SAVE, no COMMON, no files. MPI ranks always do."""
     directional: bool = True
-    thickness_points: int | None = None
-    symbol: str | None = None
-    name: str = "UMAT"
+    """Whether it is anisotropic and needs the rolling direction."""
+    thickness_points: ThicknessPoints | None = None
+    """Default number of Gauss points through the thickness; without it, a law with a history has the points and the
+    complete order of the element for plastic laws, mostly staggered points, and one without a history has 2."""
+    symbol: Symbol | None = None
+    """Name of the function; without it the usual names that compilers give to UMAT."""
+    name: Annotated[str, MinLen(1), MaxLen(80)] = "UMAT"
+    """CMNAME, and name in messages."""
     content: str = field(default="", init=False)
 
     def __post_init__(self) -> None:
+        check_fields(self)
         where, put = self.name, object.__setattr__
         put(self, "state", named_state(where, self.state))
         put(self, "properties", numbers(where, "properties", self.properties))

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import chain, count
+from typing import Any
 
 from numpy.typing import ArrayLike
 
 from umform.errors import InvalidBead
 from umform.mesh import Selector
-from umform.model.contact.bead import Bead, bead_line
+from umform.model.contact.bead import Bead, BeadOptions, bead_line
 from umform.model.contact.pair import Contact
 from umform.model.term import Term
 from umform.model.tool import Tool
 from umform.model.touched import Touched
+from umform.spec import takes
 
 
 class Beaded(Touched):
@@ -29,19 +31,15 @@ class Beaded(Touched):
         """All terms that involve tools: contacts, and beads."""
         return [*self.contacts, *(term for term in self.others if isinstance(term, Bead))]
 
+    @takes(BeadOptions, "curve")
     def bead(
         self,
         faces: Selector,
         tool: Contact | Tool,
         curve: ArrayLike | Sequence[ArrayLike],
         *,
-        restraint: float,
-        uplift: float = 0.0,
-        width: float,
-        closed: bool = False,
-        slip: float | None = None,
-        points: int | None = None,
         name: str = "",
+        **options: Any,
     ) -> Bead:
         """Add an equivalent draw bead: a line on a tool that restrains the sheet, in place of a modelled bead.
 
@@ -56,22 +54,11 @@ class Beaded(Touched):
             The tool that the line lies on, or a pair that touches it.
         curve : array_like, shape (k, 3)
             Corners of the line on the tool, in its initial position.
-        restraint : float
-            Force per length of the line to draw the sheet across it. `umform bead` computes it from the section of a
-            bead.
-        uplift : float
-            Force per length of the line that lifts the sheet off the tool, as a bead does while it bends the sheet.
-        width : float
-            Width of the band over which a smooth hat function spreads the forces.
-        closed : bool
-            Join the last point to the first.
-        slip : float, optional
-            Allowed elastic slip; default 1/200 of the thickness.
-        points : int, optional
-            Gauss points per direction and facet, 1 to 10; default: as many as the band needs. eq. (4.105)
         name : str, optional
             For the history: the columns ``<name>_restraint`` and ``_lift`` are the sums of these forces, ``_work`` is
             the work of the restraint; ``_active`` and ``_slipping`` count points in the band.
+        **options
+            Restraint, width, uplift ...: the fields of :class:`umform.model.contact.bead.BeadOptions`.
 
         Returns
         -------
@@ -96,18 +83,12 @@ class Beaded(Touched):
                 cause="a surface, or a tool of another model",
                 remedy="what contact() or tool() of this model returned",
             )
-        line = bead_line(
-            self.mesh,
-            tool,
-            curve,
-            restraint=restraint,
-            uplift=uplift,
-            width=width,
-            slip=slip,
-            closed=closed,
-            where=where,
-        )
-        bead = Bead(self.mesh, faces, tool, line, points, name)
+        try:
+            wanted = BeadOptions(curve, **options)  # type: ignore[arg-type]
+        except InvalidBead as error:
+            error.where = f"{where}, {error.where}"
+            raise
+        bead = Bead(self.mesh, faces, tool, bead_line(self.mesh, tool, wanted, where), wanted.points, name)
         self.add(bead)
         tool.pairs.append(bead)
         return bead

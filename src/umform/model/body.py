@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import _core
-from umform.elements import Element, Rolling, rolling_directions
+from umform.elements import BodyOptions, Element, Rolling, rolling_directions
 from umform.elements import element as catalogue_element
 from umform.elements import thickness_rule as make_thickness_rule
 from umform.errors import InvalidValue, WrongCellType
@@ -24,6 +24,7 @@ from umform.model.failing_point import at_failing_point
 from umform.model.selected_cells import Cells, cell_numbers
 from umform.model.term import At, Energies, Found, Into, Term, Tree
 from umform.model.through_thickness import completed, points_through
+from umform.spec import takes
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
@@ -60,7 +61,7 @@ class Body(Term):
         Indices of the cells, a mask, or a predicate of the coordinates x, y, z of their centres; default all cells.
     name : str
         For messages and fields.
-    thickness_points, thickness_rule, rolling, **options
+    rolling, **options
         As those of :class:`umform.Model`.
 
     Raises
@@ -80,6 +81,7 @@ class Body(Term):
     timed_as = "elements"
     fixed = ("element", "material", "thickness_points", "thickness_rule", "rolling")
 
+    @takes(BodyOptions)
     def __init__(
         self,
         element: str | Element = "ANS3DEAS",
@@ -87,13 +89,12 @@ class Body(Term):
         material: Material,
         cells: Cells | None = None,
         name: str = "sheet",
-        thickness_points: int | None = None,
-        thickness_rule: str | None = None,
         rolling: Rolling | None = None,
-        **options: int | bool | None,
+        **options: Any,
     ) -> None:
         self.name = name
-        made = catalogue_element(element, **options)  # type: ignore[arg-type]
+        wanted = BodyOptions(**options)
+        made = catalogue_element(element, **wanted.of_element())
         if not isinstance(material, Material) or isinstance(material, type):
             raise InvalidValue(
                 "material must be a material law",
@@ -109,7 +110,7 @@ class Body(Term):
                 cause="its yield function differs along and across the rolling direction",
                 remedy="rolling=(1, 0, 0), one vector for each cell, or umform.rolling_at(45) to a bend line",
             )
-        through = points_through(made, material, thickness_points, thickness_rule)
+        through = points_through(made, material, wanted.thickness_points, wanted.thickness_rule)
         self.thickness_points, self.thickness_rule = through
         self.element = completed(made, material, *through)
         least = self.element.thickness_order + 1

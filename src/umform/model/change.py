@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.model.body import Body
+from umform.quantities import named
 
 Floats = NDArray[np.float64]
 
@@ -28,8 +29,8 @@ def _fibres(x: Floats, lower: NDArray[np.int32], upper: NDArray[np.int32]) -> Fl
 
 def strained(body: Body) -> float:
     """Largest increase of the accumulated plastic strain in the last increment; zero for laws without ``eqps``."""
-    names = body.block.state_names
-    if "eqps" not in names or not body.before.size:
+    quantities, state = body.block.quantities, body.block.state
+    if "eqps" not in quantities or not body.before.size:
         return 0.0
-    column = sum(size for name, size in names.items() if list(names).index(name) < list(names).index("eqps"))
-    return float((body.block.state[..., column] - body.before.reshape(body.block.state.shape)[..., column]).max())
+    before, after = (named(history, quantities)["eqps"] for history in (body.before.reshape(state.shape), state))
+    return float((after - before).max())

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import _core
+from umform.quantities import named
 
 
 def at_failing_point(block: _core.ShellBlock, cell: int, u: NDArray[np.float64]) -> str:
@@ -23,9 +24,6 @@ def at_failing_point(block: _core.ShellBlock, cell: int, u: NDArray[np.float64])
     point, E = block.failing_point(cell, u)
     if point < 0:
         return ""
-    names = list(block.state_names)
     text = f" at its point {point} with the strain ({', '.join(f'{value:.4g}' for value in E)})"
-    if "eqps" not in names:
-        return text
-    place = sum(size for name, size in block.state_names.items() if names.index(name) < names.index("eqps"))
-    return f"{text}, plastic strain {block.state[cell, point, place]:.4g}"
+    eqps = named(block.state[cell, point], block.quantities).get("eqps")
+    return text if eqps is None else f"{text}, plastic strain {eqps.item():.4g}"

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.elements import Element, Rolling
+from umform.elements import BodyOptions, Element, Rolling
 from umform.errors import InvalidValue
 from umform.materials import Material
 from umform.mesh import Mesh, Selector
@@ -27,6 +27,7 @@ from umform.model.standing import Standing
 from umform.model.support import Support
 from umform.model.tool import Tool
 from umform.model.tool_controls import ToolForce
+from umform.spec import takes
 
 
 class Model(Standing):
@@ -42,23 +43,14 @@ class Model(Standing):
         SVK, NeoHooke, NeoHookePower, J2, Metal, or your own law.
     bodies : sequence of Body, optional
         Several bodies instead of element and material; each cell belongs to one.
-    thickness_points : int, optional
-        Points through the thickness, 2 to 20, at least thickness_order + 1. Default: those of the law, if it names a
-        number; else 2 with an elastic law, the ``plastic_points`` of the element with a plastic one (any law with a
-        history): 12 in each of 2 x 2 columns, 18 of 3 x 3, 20 with ``plane_strain`` and 8 nodes, 5 without an enhanced
-        thickness strain. With a plastic law the thickness order of an element that is ``complete`` is then the number
-        of points minus one, see :class:`umform.Element`.
-    thickness_rule : {"gauss", "lobatto", "split", "graded", "staggered"}, optional
-        Quadrature rule, see :func:`umform.elements.thickness_rule`; default staggered where the default number of
-        points of a plastic law applies and the element has an enhanced thickness strain, else gauss.
     rolling : array_like, shape (3,) or (cells, 3), or callable, optional
         Rolling direction of the sheet, or that of each cell, or a function of the coordinates x, y, z of the centres of
         the cells; :func:`umform.rolling_at` for an angle to a bend line. e_1 of the local axes is its projection onto
         the layer, eq. (1.26). By default e_1 lies along G_1 and follows the numbering of the mesh, which an isotropic
         law does not see.
     **options
-        Options of the element: thickness_modes, thickness_order, order_modes, membrane_modes, tie_E33,
-        compatible_E12, plane_strain.
+        Options of the element, and its points through the thickness: thickness_points, thickness_rule,
+        thickness_order, plane_strain ..., the fields of :class:`umform.elements.BodyOptions`.
 
     Raises
     ------
@@ -86,6 +78,7 @@ class Model(Standing):
 
     carries_loose_sheet = True
 
+    @takes(BodyOptions)
     def __init__(
         self,
         mesh: Mesh,
@@ -93,15 +86,12 @@ class Model(Standing):
         *,
         material: Material | None = None,
         bodies: Sequence[Body] | None = None,
-        thickness_points: int | None = None,
-        thickness_rule: str | None = None,
         rolling: Rolling | None = None,
-        **options: int | bool | None,
+        **options: Any,
     ) -> None:
         super().__init__(mesh)
         if bodies is None:
-            given: dict[str, Any] = {"thickness_rule": thickness_rule, "rolling": rolling, **options}
-            bodies = [Body(element, material=material, thickness_points=thickness_points, **given)]  # type: ignore[arg-type]
+            bodies = [Body(element, material=material, rolling=rolling, **options)]  # type: ignore[arg-type]
         elif material is not None:
             raise InvalidValue("give bodies, or element and material", where="Model", remedy="leave one of them away")
         self._embody(bodies)

@@ -6,6 +6,7 @@ checkpoints and ranks are implemented here. docs/extending.md
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Self
 
@@ -56,8 +57,8 @@ class NodalTerm(Term):
         For messages, files and the history.
     nodes : array_like of int, shape (n,)
         Numbers of the nodes, ``mesh.nodes("z0")`` for instance.
-    history : int
-        Number of history variables per node, zero at first.
+    history : mapping of str to int, or int
+        Names and sizes of what each node remembers, zero at first; or how many numbers.
 
     Attributes
     ----------
@@ -65,6 +66,8 @@ class NodalTerm(Term):
         Names of attributes of a derived class with one row for each node, which ranks divide.
     history : ndarray, shape (n, k)
         Converged history.
+    quantities : dict of str to int
+        Names and sizes of its parts, for :func:`umform.quantities.named`.
 
     Raises
     ------
@@ -76,7 +79,7 @@ class NodalTerm(Term):
     each_node: tuple[str, ...] = ()
     memory = (*Term.memory, "history", "before")
 
-    def __init__(self, name: str, nodes: ArrayLike, history: int = 0) -> None:
+    def __init__(self, name: str, nodes: ArrayLike, history: Mapping[str, int] | int = 0) -> None:
         given = np.asarray(nodes)
         if given.ndim != 1 or not np.issubdtype(given.dtype, np.integer):
             raise InvalidValue(
@@ -86,8 +89,9 @@ class NodalTerm(Term):
                 remedy="mesh.nodes(...) gives the numbers of a set, a predicate or a mask",
             )
         self.name, self.nodes = name, given.astype(np.int32)
-        self.history: Floats = np.zeros((len(given), history))
-        self.before: Floats = np.zeros((0, history))
+        self.quantities = {"history": history} if isinstance(history, int) else dict(history)
+        self.history: Floats = np.zeros((len(given), sum(self.quantities.values())))
+        self.before = self.history[:0]
 
     def respond(self, u: Floats, history: Floats, at: At) -> tuple[Floats, Floats, Floats]:
         """Forces of the nodes on the ground, their derivatives, and the trial history.

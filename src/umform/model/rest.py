@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from umform.model.checks import held_by_tools
 from umform.model.nodal_term import NodalFound, NodalTerm
 from umform.model.term import At, Found
+from umform.quantities import named
 from umform.ranks import Ranks
 
 Floats = NDArray[np.float64]
@@ -40,22 +41,24 @@ class Rest(NodalTerm):
     def __init__(self, name: str, u: Floats, stiffness: float, motions: str = "") -> None:
         self.motions = motions
         self.origin = u.reshape(-1, 3).copy()
-        super().__init__(name, np.arange(len(self.origin), dtype=np.int32), history=2)  # removed, energy at removal
+        nodes = np.arange(len(self.origin), dtype=np.int32)
+        super().__init__(name, nodes, history={"removed": 1, "energy at removal": 1})
         self.each = stiffness / len(self.origin)
 
     def respond(self, u: Floats, history: Floats, at: At) -> tuple[Floats, Floats, Floats]:
         """Linear springs, or zero."""
-        stiffness = self.each * (1.0 - history[:, :1])
+        stiffness = self.each * (1.0 - named(history, self.quantities)["removed"])
         return stiffness * (u - self.origin), stiffness[:, :, None] * np.eye(3), history
 
     def energy(self, u: Floats, history: Floats) -> tuple[Floats, Floats]:
         """Energy of the springs while they act."""
-        stored = 0.5 * self.each * (1.0 - history[:, 0]) * ((u - self.origin) ** 2).sum(axis=1)
+        acts = 1.0 - named(history, self.quantities)["removed"].ravel()
+        stored = 0.5 * self.each * acts * ((u - self.origin) ** 2).sum(axis=1)
         return stored, np.zeros(len(u))
 
     def acts(self, ranks: Ranks) -> bool:
         """Whether the springs still act."""
-        return ranks.any(bool((self.history[:, 0] == 0.0).any()))
+        return ranks.any(bool((named(self.history, self.quantities)["removed"] == 0.0).any()))
 
     def settled(self, model: Any, evaluation: Any) -> None:
         """Remove the springs once tools hold the sheet and the forces of the springs are negligible."""
@@ -66,14 +69,17 @@ class Rest(NodalTerm):
         springs = ranks.sum(float(np.abs(own.forces).sum()))
         if springs <= _NEGLIGIBLE * bearing and held_by_tools(model, evaluation):
             stored = self.energy(self._at_nodes(evaluation.u), self.history)[0]
-            self.history = np.column_stack([np.ones(len(stored)), stored])
+            self.history = np.empty_like(self.history)
+            parts = named(self.history, self.quantities)
+            parts["removed"][:], parts["energy at removal"][:] = 1.0, stored[:, None]
 
     def columns(self, found: Found, ranks: Ranks) -> dict[str, float]:
         """Energy, and whether the springs act, at the evaluated state."""
         assert isinstance(found, NodalFound)
         acts = self.acts(ranks)
         squares = (found.forces**2).sum() / (2.0 * self.each)
-        energy = ranks.sum(float(squares if acts else self.history[:, 1].sum()))
+        at_removal = named(self.history, self.quantities)["energy at removal"]
+        energy = ranks.sum(float(squares if acts else at_removal.sum()))
         return {f"{self.name}_energy": energy, f"{self.name}_acts": float(acts)}
 
     def column_names(self) -> Iterable[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import count
+from typing import Any
 
 import numpy as np
 
@@ -11,12 +12,12 @@ from umform.errors import InvalidValue
 from umform.mesh import Mesh, Selector
 from umform.model.body import Body
 from umform.model.contact.encounter import sheet_thickness
-from umform.model.contact.friction import AnyFriction
 from umform.model.contact.pair import Contact
-from umform.model.contact.settings import contact_settings
+from umform.model.contact.settings import ContactOptions, contact_settings
 from umform.model.now import Now
 from umform.model.tool import Tool
 from umform.model.tooled import Tooled
+from umform.spec import takes
 from umform.surfaces import Surface, UserSurface
 from umform.surfaces.user_check import check_beside
 
@@ -54,20 +55,14 @@ class Touched(Tooled):
         self.tools.append(tool)
         return tool
 
+    @takes(ContactOptions)
     def contact(
         self,
         faces: Selector,
         tool: Surface | Tool,
         *,
-        penalty: float | None = None,
-        penetration: float | None = None,
-        points: int | str | None = None,
-        cells: int | str | None = None,
-        ripple: float | None = None,
-        augmented: bool = False,
-        friction: AnyFriction | None = None,
-        slip: float | None = None,
         name: str = "",
+        **options: Any,
     ) -> Contact:
         """Define contact of faces with a rigid tool.
 
@@ -78,32 +73,10 @@ class Touched(Tooled):
         tool : Surface or Tool
             A tool of :mod:`umform.surfaces`, or UserSurface; or the return value of :meth:`tool`, which several pairs
             share.
-        penalty : float, optional
-            Pressure per penetration. Default: from the allowed penetration, the strength of the sheet and the
-            radius of the tool. eq. (4.29)
-        penetration : float, optional
-            Allowed penetration, instead of the penalty; default 1/200 of the sheet thickness. A run that exceeds it
-            warns.
-        points : int, "auto" or "nodes"
-            Gauss points per direction and facet, 1 to 10, or as many as the contact length requires by eq. (4.31),
-            or the nodes with their tributary areas; default 2. Use at least 2 on 4-node and 3 on 9-node facets.
-        cells : int or "auto", optional
-            Instead of points: cells per direction and facet, 1 to 20, over which a linear gap is integrated up to the
-            moving edge of contact, so that the force is smooth; "auto": as many as the allowed ripple requires, eq.
-            (4.122). Use at least 3 on 4-node and 5 on 9-node facets. The tangent is unsymmetric. docs/cells.md
-        ripple : float, optional
-            Allowed relative ripple of the force with cells="auto"; default 0.001.
-        augmented : bool
-            Remove excess penetration by multipliers; penalty and penetration may then both be given. Costs a few
-            iterations per increment.
-        friction : float, Friction, FrictionByRegion or callable, optional
-            Coefficient of friction or a law, see :class:`umform.Friction`, or a function (pressure, accumulated slip,
-            position in the tool frame) -> largest tangential traction. Default: none.
-        slip : float, optional
-            Allowed elastic slip: displacement of a sticking point before it slips, at any pressure; default 1/200 of
-            the sheet thickness. Multipliers remove it.
         name : str, optional
             For the history: the columns ``<name>_fx`` ... are the force on the tool.
+        **options
+            Penalty, penetration, points, friction ...: the fields of :class:`umform.model.contact.ContactOptions`.
 
         Raises
         ------
@@ -124,22 +97,13 @@ class Touched(Tooled):
             facets = self.mesh.facets(faces)[:, :4]
             check_beside(surface, self.mesh.points[facets], sheet_thickness(self.mesh), f"contact {name}")
         body = self._body_of(faces)
-        settings = contact_settings(
-            self.mesh,
-            faces,
-            surface,
-            body.material,
-            penalty=penalty,
-            penetration=penetration,
-            points=points,
-            cells=cells,
-            ripple=ripple,
-            augmented=augmented,
-            friction=friction,
-            slip=slip,
-            where=f"contact {name}",
-        )
-        if body.element.plane_strain and not augmented and settings.cells is None and self._one_side(faces):
+        try:
+            wanted = ContactOptions(**options)
+        except InvalidValue as error:
+            error.where = f"contact {name}, {error.where}"
+            raise
+        settings = contact_settings(self.mesh, faces, surface, body.material, wanted, f"contact {name}")
+        if body.element.plane_strain and not wanted.augmented and settings.cells is None and self._one_side(faces):
             settings = replace(settings, width_points=body.element.width_points)
         touched = tool if isinstance(tool, Tool) else Tool(name, tool, self.now)
         contact = Contact(self.mesh, faces, touched, settings, name)

@@ -19,6 +19,7 @@ from umform.mesh import Mesh
 from umform.mesh.fitted.places import bilinear, located
 from umform.mesh.fitted.sheet import Sheet
 from umform.model.body import Body
+from umform.quantities import named
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
@@ -147,7 +148,7 @@ class Transfer:
         self._old, self._weights = old, weights
         block = old.block
         E, self._frame = _strains(old, cells, u, block.alpha[cells], old.mesh)
-        self._parts = _parts(block.state_names, block.state[cells])
+        self._parts = _parts(block.quantities, block.state[cells])
         if self._parts:
             self._elastic = _elastic(self._parts, E, _logarithm(E), isinstance(old.material, J2))
 
@@ -168,25 +169,23 @@ class Transfer:
             Cells with a history. The others have the initial one: they are free of stress where they are flat.
         """
         probe = _Probe(new, own, mesh, u)
-        names = new.block.state_names
+        quantities = new.block.quantities
         state = np.tile(np.asarray(new.material.law().initial(), dtype=float), (len(own), new.block.points, 1))
-        if not names:
+        if not quantities:
             return state, probe.alpha
         wanted = self._moved(self._elastic, probe.frame)
         probe.meet(np.trace(wanted, axis1=2, axis2=3))
-        at = 0
         moved = np.empty_like(state)
-        for name, size in names.items():
+        for name, part in named(moved, quantities).items():
             values = self._parts[name]
-            if size == 1:
-                moved[..., at] = self._weights.mean(values)
+            if quantities[name] == 1:
+                part[..., 0] = self._weights.mean(values)
             elif name == "Cp_inv":
-                moved[..., at : at + 6] = _voigt(_metric(probe.E, wanted), 1.0)
+                part[:] = _voigt(_metric(probe.E, wanted), 1.0)
             elif name == "plastic_strain":
-                moved[..., at : at + 6] = _voigt(_logarithm(probe.E) - wanted, 2.0)
+                part[:] = _voigt(_logarithm(probe.E) - wanted, 2.0)
             else:
-                moved[..., at : at + 6] = _voigt(self._moved(values, probe.frame), 1.0)
-            at += size
+                part[:] = _voigt(self._moved(values, probe.frame), 1.0)
         state[plastic] = moved[plastic]
         return state, probe.alpha
 
@@ -201,7 +200,7 @@ class Transfer:
 
 def flowed(old: Body, cells: Numbers, weights: Weights) -> NDArray[np.bool_]:
     """New cells of one layer with a point that lies beside one that has flowed."""
-    eqps = _parts(old.block.state_names, old.block.state[cells]).get("eqps")
+    eqps = _parts(old.block.quantities, old.block.state[cells]).get("eqps")
     if eqps is None:
         return np.zeros(len(weights.of), dtype=bool)
     return np.asarray((weights.mean(eqps) > _ZERO).any(axis=1))
@@ -223,7 +222,7 @@ class _Probe:
         modes = body.element.modes
         self.alpha = np.zeros((len(rows), len(modes)))
         self.E, self.frame = _strains(body, rows, u, self.alpha, mesh)
-        self._thick = [k for k, mode in enumerate(modes) if all(term.component == "33" for term in mode)]
+        self._thick = [k for k, mode in enumerate(modes) if all(p.component == "33" for p in mode.polynomials)]
 
     def meet(self, trace: Floats) -> None:
         """Find the modes of the thickness strain for a trace of the logarithmic strain, by least squares. eq. (1.33)"""
@@ -260,17 +259,15 @@ def _strains(body: Body, rows: Numbers, u: Floats, alpha: Floats, mesh: Mesh) ->
     return _tensor(E, 0.5), frame
 
 
-def _parts(names: dict[str, int], history: Floats) -> dict[str, Floats]:
+def _parts(quantities: dict[str, int], history: Floats) -> dict[str, Floats]:
     """The history by name: scalars (cells, points), tensors (cells, points, 3, 3); shears of strains are halved."""
-    made, at = {}, 0
-    for name, size in names.items():
-        values = history[..., at : at + size]
-        made[name] = values[..., 0] if size == 1 else _tensor(values, 0.5 if name == "plastic_strain" else 1.0)
-        at += size
-    unknown = [name for name, size in names.items() if size not in (1, 6)]
+    unknown = [name for name, size in quantities.items() if size not in (1, 6)]
     if unknown:
         raise InvalidValue("the history of a law cannot be moved to other points", value=", ".join(unknown))
-    return made
+    return {
+        name: values[..., 0] if quantities[name] == 1 else _tensor(values, 0.5 if name == "plastic_strain" else 1.0)
+        for name, values in named(history, quantities).items()
+    }
 
 
 def _elastic(parts: dict[str, Floats], E: Floats, logarithm: Floats, j2: bool) -> Floats:

@@ -7,10 +7,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Self
 
+from umform.results.quantity import Band
+
 #: Ratio of the element sizes of successive meshes.
 FINER = math.sqrt(2.0)
 #: Two limits may agree by chance: the error is at least this part of the extrapolated difference.
 _LEAST = 0.2
+_SOURCE = "extrapolation to zero element size; numbers without an error, and all pictures, are from the finest mesh"
 
 
 @dataclass(frozen=True)
@@ -47,6 +50,11 @@ class Limit:
         """
         before, last = cls.of(numbers[0], numbers[1], refined), cls.of(numbers[1], numbers[2], refined)
         return cls(last.value, last.off, max(abs(last.value - before.value), least * abs(numbers[2] - last.value)))
+
+    @property
+    def band(self) -> Band:
+        """The limit with its error, as the band of the number on the finer mesh."""
+        return Band(math.nan if self.error is None else self.error, _SOURCE, middle=self.value)
 
     @property
     def inverse(self) -> Limit:

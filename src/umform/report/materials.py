@@ -49,7 +49,9 @@ def _part_text(part: object) -> str:
         return f"({', '.join(map(_part_text, part))})"
     if not is_dataclass(part):
         return str(part)
-    constants = ", ".join(f"{field.name} = {_part_text(getattr(part, field.name))}" for field in fields(part))
+    constants = ", ".join(
+        f"{field.name} = {_part_text(getattr(part, field.name))}" for field in fields(part) if field.repr
+    )
     return f"{type(part).__name__}({constants})" if constants else type(part).__name__
 
 

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from umform.results.history import History
+    from umform.results.outcome import Outcome
 
 _ENERGIES = {
     "external work": "external_work",
@@ -110,6 +111,38 @@ def _parts(result: History, live: Live, deck: str, note: str, more: Iterable[str
     yield from closing({"run": result}, result)
 
 
+def outcome_parts(
+    outcome: Outcome, middle: Iterable[str], parameters: Mapping[str, object], note: str, *, model: str = "Model"
+) -> Iterator[str]:
+    """The report of a process.
+
+    Parameters
+    ----------
+    outcome : Outcome
+        What the process reports.
+    middle : iterable of str
+        What only this process has, behind the numbers.
+    parameters : mapping of str to object
+        The parameters, for people.
+    note : str
+        Source of the material data; may be empty.
+    model : str
+        Heading of the model of the last run.
+    """
+    for message in counted(outcome.warnings):
+        yield parts.note(message, bad=True)
+    for title, (header, *rows) in outcome.tables.items():
+        yield parts.heading(title)
+        yield parts.table(header, rows)
+    yield from map(parts.note, outcome.all_notes)
+    yield from middle
+    yield from parameter_parts(parameters, note)
+    main = list(outcome.stages.values())[-1]
+    yield parts.heading(model)
+    yield parts.pairs(settings(main))
+    yield from closing(outcome.stages, main)
+
+
 def parameter_parts(values: Mapping[str, object], note: str) -> Iterator[str]:
     """The parameters of a process, with the source of its material data."""
     yield parts.heading("Parameters")
@@ -192,7 +225,7 @@ def _balance_table(found: Mapping[str, Balanced]) -> str:
     rows: list[list[str]] = [
         ["largest imbalance of forces", *(f"{one.force_imbalance:.1e}" for one in ones)],
         ["largest imbalance of moments", *(f"{one.moment_imbalance:.1e}" for one in ones)],
-        ["largest drift of the energies, %", *(_drift(one) for one in ones)],
+        ["largest drift of the energies, %", *(one.quantity.text for one in ones)],
         ["in step", *(str(one.drift_step) for one in ones)],
         ["energies at the start", *(f"{one.before:.6g}" for one in ones)],
         *(
@@ -202,8 +235,3 @@ def _balance_table(found: Mapping[str, Balanced]) -> str:
         *([f"{name} at the end", *(f"{getattr(one, key):.6g}" for one in ones)] for name, key in _ENERGIES.items()),
     ]
     return parts.table(["", *found], rows)
-
-
-def _drift(one: Balanced) -> str:
-    text = f"{100.0 * one.drift:.2g}"
-    return text if one.small else parts.Bad(text)

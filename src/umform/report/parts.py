@@ -15,10 +15,7 @@ import umform
 from umform.errors import InvalidValue
 from umform.io.atomic import PendingFile
 from umform.plotting import inline_svg
-
-
-class Bad(str):
-    """Text of a cell that is beyond a limit."""
+from umform.results.quantity import Bad
 
 
 def heading(text: str) -> str:

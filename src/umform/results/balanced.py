@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from umform.results.history import History
+from umform.results.quantity import Quantity
 
 #: Drift from which on it is a warning.
 LIMIT = 0.01
@@ -53,12 +54,18 @@ class Balanced:
     works: dict[str, float]
 
     @property
+    def quantity(self) -> Quantity:
+        """The drift with its limit, which round-off has not."""
+        limit = None if self.small and self.drift > LIMIT else 100.0 * LIMIT
+        return Quantity("drift of the energies", "%", value=100.0 * self.drift, limit=limit, digits=2)
+
+    @property
     def text(self) -> str:
         """The imbalances as a line."""
         if math.isnan(self.drift):
             energies = "energies of the material unknown"
         else:
-            limit = "" if self.small else f": more than the limit of {100.0 * LIMIT:g} %"
+            limit = "" if self.small else f", {100.0 * LIMIT:g} % allowed: {self.quantity.verdict}"
             energies = f"work and energies differ by up to {100.0 * self.drift:.2g} % (step {self.drift_step}){limit}"
         return (
             f"{energies}; forces are in balance to {self.force_imbalance:.1g}, moments to {self.moment_imbalance:.1g}"

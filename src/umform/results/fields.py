@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from umform import _core
 from umform.errors import InvalidValue
 from umform.model import Body, Evaluation, Model
+from umform.quantities import columns, history_of
 
 Floats = NDArray[np.float64]
 
@@ -132,9 +133,7 @@ def body_fields(body: Body, u: Floats) -> PointFields:
 
 def named_history(body: Body) -> dict[str, Floats]:
     """Parts of the converged history of a body by their names, arrays (cells, points, size)."""
-    sizes, state = body.block.state_names, body.block.state
-    ends = np.cumsum([0, *sizes.values()])
-    return {name: state[..., begin : begin + size] for (name, size), begin in zip(sizes.items(), ends, strict=False)}
+    return history_of(body.block)
 
 
 def cell_fields(model: Model) -> dict[str, Floats]:
@@ -150,12 +149,10 @@ def cell_fields(model: Model) -> dict[str, Floats]:
 def _cell_fields(body: Body, u: Floats) -> dict[str, Floats]:
     """Means and maxima over the cells of all bodies, as `body_fields` gives them, with less memory."""
     names = list(_STRESSES)
-    place = -1
-    if "eqps" in body.block.state_names:
-        parts = list(body.block.state_names)
-        place = sum(body.block.state_names[name] for name in parts[: parts.index("eqps")])
+    eqps = columns(body.block.quantities).get("eqps")
+    if eqps is not None:
         names += ["plastic_strain_mean", "plastic_strain_max"]
-    return dict(zip(names, body.block.cell_fields(u, place), strict=True))
+    return dict(zip(names, body.block.cell_fields(u, -1 if eqps is None else eqps.start), strict=True))
 
 
 def _rolling(at: PointFields) -> Floats:

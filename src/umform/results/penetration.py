@@ -13,6 +13,7 @@ from umform.model.contact import Contact
 from umform.model.contact.encounter import sheet_thickness
 from umform.model.contact.settings import ALLOWED
 from umform.results.history import History
+from umform.results.quantity import Quantity
 
 #: Penetration relative to the thickness that is reported, and that of a sufficient penalty.
 _DEEP, _SHALLOW = 0.1, 0.02
@@ -49,13 +50,18 @@ class Reached:
     @property
     def kept(self) -> bool:
         """Whether every state of the run kept the allowed penetration."""
-        return self.reached <= (1.0 + _ROUND_OFF) * self.allowed
+        return not self.quantity.missed
+
+    @property
+    def quantity(self) -> Quantity:
+        """The largest penetration with its limit."""
+        label = f"penetration of {self.contact}"
+        return Quantity(label, value=self.reached, limit=self.allowed, slack=_ROUND_OFF, digits=3)
 
     @property
     def text(self) -> str:
         """All of it as a line."""
-        share = self.reached / self.allowed
-        kept = "" if self.kept else f": MISSED {share:.3g} times over"
+        kept = "" if self.kept else f": {self.quantity.verdict}"
         grown = "" if self.penalty == self.initial else f", {self.initial:.3g} at the start"
         force = f"; it changes the forces by about {100.0 * self.force_error:.2g} %"
         return (

@@ -4,25 +4,19 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import cache
 from importlib import resources
 from typing import Any
 
 from umform import materials
 from umform.materials import Hardening, Metal, YieldFunction
+from umform.materials.known import known
 from umform.sheet_metals.directional_fit import Directions
 from umform.sheet_metals.sheet_metal import SheetMetal
 from umform.sheet_metals.tension_test import tension_test
 
 Row = Mapping[str, Any]
-
-_CURVES: dict[str, Callable[..., Hardening]] = {
-    "Perfect": materials.Perfect,
-    "Voce": materials.Voce,
-    "LinearVoce": materials.LinearVoce,
-    "Swift": materials.Swift,
-}
 
 
 @cache
@@ -65,22 +59,19 @@ def _law(row: Row) -> Metal:
     if "modulus" in row:
         parts["modulus"] = materials.FallingModulus(**row["modulus"])
     constants = dict(row["hardening"])
-    hardening = _CURVES[constants.pop("curve")](**constants)
+    hardening = known(Hardening)[constants.pop("curve")](**constants)
     return Metal(E=float(row["E"]), nu=float(row["nu"]), hardening=hardening, **parts)
 
 
 def _yield_function(row: Row) -> YieldFunction:
     constants = dict(row)
-    match constants.pop("function"):
-        case "Hill48":
-            return materials.Hill48(**constants)
-        case "Hosford":
-            return materials.Hosford(**constants)
-        case "Yld2004":
-            first, second = (materials.Transformation(**constants[which]) for which in ("first", "second"))
-            return materials.Yld2004(first, second, constants["exponent"])
-        case _:
-            return materials.Mises()
+    kind = known(YieldFunction)[constants.pop("function")]
+    parts = {
+        name: materials.Transformation(**value) if isinstance(value, Mapping) else value
+        for name, value in constants.items()
+    }
+    function: YieldFunction = kind(**parts)
+    return function
 
 
 def _measured(row: Row | None) -> Directions | None:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from umform.materials import Chaboche, Metal, Perfect, Voce, YieldFunction, YoshidaUemori, tension
+from umform.materials import Chaboche, Metal, Mises, Perfect, Voce, YieldFunction, YoshidaUemori, tension
 from umform.sheet_metals.curve_fit import pairs
 from umform.sheet_metals.least_squares import Fit, fit
 
@@ -99,7 +99,7 @@ def fit_chaboche(
     def build(c: Mapping[str, float]) -> Metal:
         back = Chaboche(tuple((c[f"C{n}"], c[f"gamma{n}"]) for n in range(1, parts + 1)))
         curve = Voce(c["Y"], c["Y"] + c["Q"], c["d"])
-        return Metal(young, poisson, hardening=curve, yield_function=yield_function, back_stress=back)
+        return Metal(young, poisson, hardening=curve, yield_function=yield_function or Mises(), back_stress=back)
 
     return fit_tests(tests, build, start, largest_step, bounds={"Y": (0.05 * top, top)})
 
@@ -125,7 +125,9 @@ def fit_yoshida_uemori(
 
     def build(c: Mapping[str, float]) -> Metal:
         back = YoshidaUemori(c["C"], c["Y"] + c["B - Y"], c["growth"], c["b"], c["m"], c["h"])
-        return Metal(young, poisson, hardening=Perfect(c["Y"]), yield_function=yield_function, back_stress=back)
+        return Metal(
+            young, poisson, hardening=Perfect(c["Y"]), yield_function=yield_function or Mises(), back_stress=back
+        )
 
     return fit_tests(tests, build, start, largest_step, bounds={"h": (0.0, 1.0), "Y": (0.05 * top, top)})
 

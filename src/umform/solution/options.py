@@ -4,38 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
+from typing import Annotated, Literal
 
-from umform.errors import InvalidValue
+from annotated_types import Le
+
+from umform.spec import About, check_fields
+from umform.spec.types import Count, NotNegative, Positive
 
 
 @dataclass(frozen=True)
 class NewtonOptions:
     """Tolerances and strategies of Newton's method.
-
-    Attributes
-    ----------
-    residual : float
-        Tolerance of the residual, relative to the element forces.
-    increment : float
-        Tolerance of the increment, relative to the largest displacement.
-    max_iterations : int
-        Largest number of iterations.
-    line_search : bool, optional
-        Shorten increments that are too long, see :mod:`umform.solution.line_search`. Default: if a law has a history.
-    extrapolate : int
-        Predictor: 0 from the tangent; 1 from the last increment of the step, extrapolated; 2 from the parabola through
-        the last three states, also across the end of a move if the next one continues its direction. eq. (5.50) The
-        parabola suits smooth paths: many increments, and contact at many points.
-    factor_cost : float, optional
-        Cost of a factorisation relative to an evaluation with a solve. If it is large, factors are reused, see
-        :mod:`umform.solution.factor_reuse`. Default: an estimate from the entries of the factors; 0 never reuses them.
-    mixed : bool, optional
-        Compute the geometric stiffness from the stress predicted by the last increment, not from the present one: thin
-        elastic sheets then allow larger steps and need fewer iterations. eq. (5.39) Default: if no law has a history.
-    keep : bool
-        Whether the first evaluation of an extrapolated increment keeps the contact points of the last one, also where
-        they have opened. eq. (4.230) It halves the evaluations of drawn parts; bends with few points may take other
-        paths.
 
     Examples
     --------
@@ -47,27 +26,32 @@ class NewtonOptions:
     >>> result = uf.solve(model, uf.Move(tip, to=-0.1, steps=2), options=options)
     """
 
-    residual: float = 1e-9
-    increment: float = 1e-6
-    max_iterations: int = 25
+    residual: Positive = 1e-9
+    """Tolerance of the residual, relative to the element forces."""
+    increment: Positive = 1e-6
+    """Tolerance of the increment, relative to the largest displacement."""
+    max_iterations: Annotated[Count, Le(1000)] = 25
+    """Largest number of iterations before an increment is cut."""
     line_search: bool | None = None
-    extrapolate: int = 1
-    factor_cost: float | None = None
+    """Shorten increments that are too long, see :mod:`umform.solution.line_search`; default: if a law has a history."""
+    extrapolate: Annotated[
+        Literal[0, 1, 2], About(cause="another order", remedy="0 from the tangent, 1 from a line, 2 from a parabola")
+    ] = 1
+    """Predictor: 0 from the tangent; 1 from the last increment of the step, extrapolated; 2 from the parabola through
+    the last three states, also across the end of a move if the next one continues its direction. eq. (5.50) The
+    parabola suits smooth paths: many increments, and contact at many points."""
+    factor_cost: NotNegative | None = None
+    """Cost of a factorisation relative to an evaluation with a solve. If it is large, factors are reused, see
+    :mod:`umform.solution.factor_reuse`; 0 never reuses them; default: an estimate from the entries of the factors."""
     mixed: bool | None = None
+    """Compute the geometric stiffness from the stress predicted by the last increment, not from the present one: thin
+    elastic sheets then allow larger steps and need fewer iterations. eq. (5.39) Default: if no law has a history."""
     keep: bool = False
+    """Start an increment that is extrapolated with the contact points of the last one, also where they have opened. eq.
+    (4.230) It halves the evaluations of drawn parts; bends with few points may take other paths."""
 
     def __post_init__(self) -> None:
-        if not self.residual > 0 or not self.increment > 0 or self.max_iterations < 1:
-            raise InvalidValue("tolerances and iterations must be positive", where="NewtonOptions", value=self)
-        if self.extrapolate not in (0, 1, 2):
-            raise InvalidValue(
-                "an increment starts from the tangent, a line or a parabola",
-                where="extrapolate",
-                value=self.extrapolate,
-                remedy="0, 1 or 2",
-            )
-        if self.factor_cost is not None and not self.factor_cost >= 0:
-            raise InvalidValue("a cost is zero or more", where="factor_cost", value=self.factor_cost)
+        check_fields(self)
 
 
 class IndefiniteTangent(Enum):

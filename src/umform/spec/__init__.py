@@ -12,7 +12,28 @@ mistake to a type, and `umform.spec.types` has the usual types:
 the help of a command starts quickly.
 """
 
-from umform.spec.parameter import About, Parameter, parameters
-from umform.spec.rule import Rule, check_fields, check_value
+from umform.spec.in_deck import InDeck, OneOf, deck_keys, entries, note_of
+from umform.spec.parameter import About, Parameter, parameters, sentences
+from umform.spec.paths import Scalar, changed, scalars
+from umform.spec.rule import Checked, Rule, check_fields, check_value
+from umform.spec.takes import takes
 
-__all__ = ["About", "Parameter", "Rule", "check_fields", "check_value", "parameters"]
+__all__ = [
+    "About",
+    "Checked",
+    "InDeck",
+    "OneOf",
+    "Parameter",
+    "Rule",
+    "Scalar",
+    "changed",
+    "check_fields",
+    "check_value",
+    "deck_keys",
+    "entries",
+    "note_of",
+    "parameters",
+    "scalars",
+    "sentences",
+    "takes",
+]

@@ -9,8 +9,8 @@ import operator
 import re
 import sys
 import textwrap
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import Field, dataclass, field, fields
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import MISSING, Field, dataclass, field, fields
 from functools import cache, reduce
 from itertools import pairwise
 from numbers import Integral, Real
@@ -18,6 +18,8 @@ from types import UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from annotated_types import Ge, Gt, Le, Lt
+
+from umform.errors import InvalidValue
 
 #: Bounds of the vocabulary: the name of the limit in its class, what holds, and the text.
 _BOUNDS: dict[type, tuple[str, Callable[[Any, Any], bool], str]] = {
@@ -38,11 +40,14 @@ class About:
         Unit.
     cause, remedy : str
         Likely cause of an invalid value, and remedy; by default the unit and the default of the field.
+    error : type, optional
+        Class of the error; by default `InvalidValue`, or `NotFinite` for NaN and infinity.
     """
 
     unit: str = ""
     cause: str = ""
     remedy: str = ""
+    error: type[InvalidValue] | None = None
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Callable[[Any], dict[str, Any]]) -> dict[str, Any]:
         """The JSON schema with the unit."""
@@ -51,11 +56,15 @@ class About:
 
 @dataclass(frozen=True)
 class Kind:
-    """One type that a value may have: a number with bounds, a flag, a word, or an object of any kind."""
+    """One type that a value may have: a number with bounds, a flag, a word, or an object of any kind.
+
+    Further conditions have ``fits(value)``, in the order of the annotation.
+    """
 
     type: type
     choices: tuple[Any, ...] = ()
     bounds: tuple[Any, ...] = ()
+    rules: tuple[Any, ...] = ()
 
     def fits(self, value: Any) -> bool:
         """Whether a value has this type and lies within the bounds."""
@@ -77,11 +86,14 @@ class Kind:
 
     def __str__(self) -> str:
         if self.choices:
-            return " or ".join(map(str, self.choices))
+            *some, last = map(str, self.choices)
+            return f"{', '.join(some)} or {last}" if some else last
         if self.type is bool:
             return "true or false"
         by = {name: f"{limit:.15g}" for name, limit, _, _ in self.limits()}
-        noun = {int: "a whole number", float: "a number", str: "a text"}.get(self.type, "an object")
+        nouns: dict[Any, str] = {int: "a whole number", float: "a number", str: "a text", object: "an object"}
+        nouns |= {Collection: "an array", Callable: "a function"}
+        noun = nouns.get(self.type, f"an object {self.type.__name__}")
         if {"ge", "le"} <= set(by):
             return f"{noun} from {by['ge']} to {by['le']}"
         if {"gt", "lt"} <= set(by):
@@ -102,31 +114,44 @@ class Parameter:
         Its name.
     default : object
         Its default; `dataclasses.MISSING` without one, or where a factory makes it.
-    sentence : str
-        What it is: a noun phrase, then, after a semicolon, what holds without it.
+    spec : type
+        The Spec.
     kinds : tuple of Kind
         Types that it may have.
     optional : bool
         Whether it may be None.
     about : About
         Unit and likely mistake.
-    rules : tuple
-        Further conditions, in the order of the annotation: each has ``fits(value)``.
+    hint : object
+        The annotation.
+    factory : callable or None
+        Makes the default.
     """
 
     name: str
     default: Any
-    sentence: str
+    spec: type
     kinds: tuple[Kind, ...]
     optional: bool = False
     about: About = field(default_factory=About)
-    rules: tuple[Any, ...] = ()
+    hint: Any = None
+    factory: Callable[[], Any] | None = None
 
     def fits(self, value: Any) -> bool:
         """Whether a value is valid."""
         if value is None:
-            return self.optional
-        return any(kind.fits(value) for kind in self.kinds) and all(rule.fits(value) for rule in self.rules)
+            return self.absent
+        kind = self.kind_of(value)
+        return kind is not None and all(rule.fits(value) for rule in kind.rules)
+
+    def kind_of(self, value: Any) -> Kind | None:
+        """The first type that a value has within its bounds."""
+        return None if value is None else next((kind for kind in self.kinds if kind.fits(value)), None)
+
+    @property
+    def absent(self) -> bool:
+        """Whether a value may be missing: it is optional, or others determine it."""
+        return self.optional or self.default is None
 
     @property
     def most(self) -> Any:
@@ -135,10 +160,20 @@ class Parameter:
         return limits[0] if limits else math.inf
 
     @property
+    def sentence(self) -> str:
+        """What it is: a noun phrase, then, after a semicolon, what holds without it."""
+        return sentences(self.spec).get(self.name, "")
+
+    @property
     def noun(self) -> str:
         """The first clause of the sentence, within a sentence."""
         clause = self._clauses[0]
         return clause if clause[:2].isupper() else clause[:1].lower() + clause[1:]
+
+    @property
+    def subject(self) -> str:
+        """The same with its article, which the name of a person does not have."""
+        return self._clauses[0] if re.match(r"[A-Z]\w*'s ", self.sentence) else f"the {self.noun}"
 
     @property
     def text(self) -> str:
@@ -170,23 +205,25 @@ class Parameter:
 @cache
 def parameters(spec: type) -> Mapping[str, Parameter]:
     """The parameters of a Spec by name, in the order of its fields."""
-    sentences = _sentences(spec)
-    return {one.name: _parameter(spec, one, sentences.get(one.name, "")) for one in fields(spec)}
+    return {one.name: _parameter(spec, one) for one in fields(spec) if one.init}
 
 
-def _parameter(spec: type, one: Field[Any], sentence: str) -> Parameter:
-    arms = list(_arms(_hint(spec, one)))
+def _parameter(spec: type, one: Field[Any]) -> Parameter:
+    hint = _hint(spec, one)
+    arms = list(_arms(hint))
     kinds = tuple(_kind(arm, extras) for arm, extras in arms if arm is not type(None))
     extras = [extra for _, more in arms for extra in more]
     abouts = [extra for extra in extras if isinstance(extra, About)]
     about = reduce(_over, abouts, About())
-    rules = tuple(extra for extra in extras if hasattr(extra, "fits"))
-    return Parameter(one.name, one.default, sentence, kinds, len(kinds) < len(arms), about, rules)
+    optional = len(kinds) < len(arms)
+    factory = None if one.default_factory is MISSING else one.default_factory
+    return Parameter(one.name, one.default, spec, kinds, optional, about, hint, factory)
 
 
 def _over(under: About, over: About) -> About:
     """Two descriptions, the outer one over the inner."""
-    return About(over.unit or under.unit, over.cause or under.cause, over.remedy or under.remedy)
+    pairs = ((getattr(over, name), getattr(under, name)) for name in ("unit", "cause", "remedy", "error"))
+    return About(*(first or second for first, second in pairs))
 
 
 def _hint(spec: type, one: Field[Any]) -> Any:
@@ -219,23 +256,33 @@ def _arms(hint: Any, extras: tuple[Any, ...] = ()) -> Iterator[tuple[Any, tuple[
 
 
 def _kind(hint: Any, extras: tuple[Any, ...]) -> Kind:
+    rules = tuple(extra for extra in extras if hasattr(extra, "fits"))
     if get_origin(hint) is Literal:
-        return Kind(str, get_args(hint))
-    known = hint if hint in (float, int, bool, str) else object
-    return Kind(known, (), tuple(extra for extra in extras if type(extra) in _BOUNDS))
+        return Kind(str, get_args(hint), (), rules)
+    known = hint if isinstance(hint, type) and not getattr(hint, "_is_protocol", False) else object
+    if get_origin(hint) in (tuple, list, Sequence):
+        known = Collection  # lists, tuples, arrays
+    elif get_origin(hint) is Callable:
+        known = Callable
+    return Kind(known, (), tuple(extra for extra in extras if type(extra) in _BOUNDS), rules)
 
 
-def _sentences(spec: type) -> dict[str, str]:
+@cache
+def sentences(spec: type) -> dict[str, str]:
     """The strings below the fields of a class and its bases."""
     found: dict[str, str] = {}
     for base in reversed(spec.__mro__):
         if "__annotations__" not in vars(base):
             continue
-        body = ast.parse(textwrap.dedent(inspect.getsource(base))).body[0]
+        try:
+            text = textwrap.dedent(inspect.getsource(base))
+        except (OSError, TypeError):  # a class that no file has
+            continue
+        body = ast.parse(text).body[0]
         assert isinstance(body, ast.ClassDef)
         for first, second in pairwise(body.body):
             if isinstance(first, ast.AnnAssign) and isinstance(first.target, ast.Name):
-                text = second.value if isinstance(second, ast.Expr) else None
-                if isinstance(text, ast.Constant) and isinstance(text.value, str):
-                    found[first.target.id] = inspect.cleandoc(text.value).replace("\n", " ")
+                below = second.value if isinstance(second, ast.Expr) else None
+                if isinstance(below, ast.Constant) and isinstance(below.value, str):
+                    found[first.target.id] = inspect.cleandoc(below.value).replace("\n", " ")
     return found

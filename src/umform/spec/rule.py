@@ -48,6 +48,31 @@ class Rule:
             raise _error(self.what, name, value, self.cause, self.remedy)
 
 
+@dataclass(frozen=True)
+class Checked:
+    """Condition that a function checks; metadata of a type as `Rule`.
+
+    Attributes
+    ----------
+    function : callable
+        Takes value and name, and raises `InvalidValue`.
+    """
+
+    function: Callable[[Any, str], object]
+
+    def fits(self, value: Any) -> bool:
+        """Whether a value is valid."""
+        try:
+            self.function(value, "")
+        except InvalidValue:
+            return False
+        return True
+
+    def check(self, name: str, value: Any) -> None:
+        """Reject an invalid value."""
+        self.function(value, name)
+
+
 def check_fields(spec: Any) -> None:
     """Reject invalid values of a Spec, one by one.
 
@@ -70,18 +95,22 @@ def check_value(spec: type, name: str, value: Any) -> None:
         ``where`` is the name of the field.
     """
     parameter = parameters(spec)[name]
-    if value is None and parameter.optional:
+    if value is None and parameter.absent:
         return
-    if value is None or not any(kind.fits(value) for kind in parameter.kinds):
-        subject = name if bool in (kind.type for kind in parameter.kinds) else f"the {parameter.noun}"
+    kind = parameter.kind_of(value)
+    if kind is None:
+        subject = name if bool in (kind.type for kind in parameter.kinds) else parameter.subject
         what = f"{subject} must be {parameter.must_be}"
-        raise _error(what, name, value, parameter.about.cause, parameter.remedy)
-    for rule in parameter.rules:
+        raise _error(what, name, value, parameter.about.cause, parameter.remedy, parameter.about.error)
+    for rule in kind.rules:
         rule.check(name, value)
 
 
-def _error(what: str, name: str, value: Any, cause: str, remedy: str) -> InvalidValue:
-    kind = NotFinite if isinstance(value, float) and not math.isfinite(value) else InvalidValue
+def _error(
+    what: str, name: str, value: Any, cause: str, remedy: str, kind: type[InvalidValue] | None = None
+) -> InvalidValue:
+    if kind is None:
+        kind = NotFinite if isinstance(value, float) and not math.isfinite(value) else InvalidValue
     return kind(what, where=name, value=_shown(value), cause=cause, remedy=remedy)
 
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
-from annotated_types import Ge, Gt, Le, Lt
+from annotated_types import Ge, Gt, Le, Lt, MinLen
 
 from umform.spec.parameter import About
 
 _MISSING = "a sign, or a missing value"
+
+#: Default of a parameter that follows from others.
+FOLLOWS: Any = None
 
 #: A length in mm.
 Length = Annotated[float, Gt(0.0), About("mm", cause=_MISSING)]
@@ -20,9 +23,29 @@ Force = Annotated[float, Gt(0.0), About("N", cause=_MISSING)]
 Penalty = Annotated[float, Gt(0.0), About("MPa/mm", cause=_MISSING)]
 #: Another positive number.
 Positive = Annotated[float, Gt(0.0), About(cause=_MISSING)]
+#: A number that may be zero.
+NotNegative = Annotated[float, Ge(0.0), About(cause="a sign, nan or inf", remedy="zero or more")]
+#: A text that is not empty.
+Text = Annotated[str, MinLen(1)]
 #: An angle between two straight lines.
 Degrees = Annotated[
     float, Gt(0.0), Lt(180.0), About("degrees", cause="radians, a sign, or the angle of bending instead")
+]
+#: A part of a whole.
+Share = Annotated[float, Gt(0.0), Le(1.0), About(cause="a percentage, or a sign")]
+#: A number of things.
+Count = Annotated[int, Ge(1), About(cause="a fraction, or a sign")]
+#: Number of increments of a step.
+Increments = Annotated[int, Ge(1), Le(1_000_000), About(cause="a fraction, or a sign", remedy="a whole number, 50")]
+#: How often an increment may be halved.
+Cuts = Annotated[int, Ge(0), Le(40), About(cause="a fraction, or a sign", remedy="10 is the default")]
+#: Ratio of the largest increment to the first one.
+Growth = Annotated[float, Ge(1.0), About(cause="a ratio below 1", remedy="1 never exceeds the first increment")]
+#: Duration of a step.
+Duration = Annotated[
+    float,
+    Gt(0.0),
+    About(cause="a sign, or the time at the end in place of what the step takes", remedy="1 is the default"),
 ]
 #: The rolling direction of a sheet that is bent about one line.
 Rolling = Annotated[

@@ -13,9 +13,10 @@ from umform.model import Model
 from umform.model.press import Press
 from umform.model.tool_controls import ToolForce, ToolTurn
 from umform.solution.records import Failed
+from umform.spec import check_fields
+from umform.spec.types import Duration, Positive
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
-from umform.steps.move import check_time
 from umform.steps.saved import Saved, tightened
 
 #: Largest residual of the last increment relative to the force.
@@ -38,17 +39,6 @@ class Close:
     converges easily. The last one prescribes the force, with the displacement as an unknown, and meets it exactly.
     Under displacement control the column of the control has the required force.
 
-    Parameters
-    ----------
-    control : ToolForce
-        Return value of ``press``, ``press_turn`` or ``spring`` of the model.
-    force : float
-        Closing force (or moment) on the tool, in the direction of the control.
-    way : float, optional
-        Largest displacement (or angle). Default: its distance from the sheet and the largest extent of the sheet.
-    time : float
-        Duration of the step.
-
     Examples
     --------
     >>> import umform as uf
@@ -64,12 +54,15 @@ class Close:
     """
 
     control: ToolForce
+    """What ``press``, ``press_turn`` or ``spring`` of the model returned."""
     force: float
-    way: float | None = None
-    time: float = 1.0
+    """Closing force (or moment) on the tool, in the direction of the control."""
+    way: Positive | None = None
+    """Largest way (or angle); default: its distance from the sheet and the largest extent of the sheet."""
+    time: Duration = 1.0
+    """Duration of the step: for rate-dependent metals, and for motions of tools in time."""
 
     def __post_init__(self) -> None:
-        check_time("Close", self.time)
         if not isinstance(self.control, ToolForce):
             raise InvalidValue(
                 "a step Close takes the control of a pressed tool",
@@ -86,8 +79,7 @@ class Close:
                 cause="no force holds a tool where it is",
                 remedy="the force of the holder along its direction, with its sign",
             )
-        if self.way is not None and not 0.0 < self.way < math.inf:
-            raise InvalidValue("the largest way must be positive", where=f"Close, {self.control.name}", value=self.way)
+        check_fields(self)
 
     def moved(self) -> list[ToolForce]:
         """The control of the step."""

@@ -14,6 +14,8 @@ from umform.model.opening import fading_tool, open_tool
 from umform.model.removal import fading, put_back, put_supports, remove, states_of_supports
 from umform.model.support import Support
 from umform.model.term import Tree
+from umform.spec import check_fields
+from umform.spec.types import Cuts, Duration, Growth, Increments
 from umform.steps.loop import Run
 from umform.steps.move import Move
 from umform.steps.moving import Marching
@@ -31,18 +33,6 @@ class Free:
     not stabilise: a wall that is ironed between two tools buckles under them. Open these tools in two steps, so that
     the part lies on one of them while the forces of the other decrease.
 
-    Parameters
-    ----------
-    support : Support, Tool, Contact or sequence of them
-        Return value of ``fix``, ``symmetry``, ``hinge``, ``hold_director``, ``tool`` or ``contact`` of the model; with
-        a contact its tool opens.
-    steps, cuts, grow
-        As for :class:`umform.Move`.
-    on : Support, optional
-        Return value of ``hold_rigid`` of the model: it holds its nodes in their positions at the beginning of the step.
-    time : float
-        Duration of the step.
-
     Examples
     --------
     >>> import umform as uf
@@ -53,11 +43,18 @@ class Free:
     """
 
     support: Support | Tool | Contact | Sequence[Support | Tool | Contact]
-    steps: int = 10
-    cuts: int = 10
-    grow: float = 1.0
+    """What ``fix``, ``symmetry``, ``hinge``, ``hold_director``, ``tool`` or ``contact`` of the model returned, one or
+    several; with a contact its tool opens."""
+    steps: Increments = 10
+    """Number of equal increments."""
+    cuts: Cuts = 10
+    """How often an increment may be halved before the run fails."""
+    grow: Growth = 1.0
+    """Largest increment relative to the nominal one."""
     on: Support | None = None
-    time: float = 1.0
+    """What ``hold_rigid`` of the model returned: it holds its nodes in their positions at the beginning of the step."""
+    time: Duration = 1.0
+    """Duration of the step: for rate-dependent metals, and for motions of tools in time."""
 
     def __post_init__(self) -> None:
         for thing in self.things:
@@ -78,7 +75,7 @@ class Free:
                 cause="a support that acts already, or something else",
                 remedy="what hold_rigid() of the model returned",
             )
-        Move([], [], self.steps, self.cuts, self.grow, time=self.time)  # refuses invalid numbers
+        check_fields(self)
 
     @property
     def things(self) -> list[Support | Tool]:

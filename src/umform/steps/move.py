@@ -10,6 +10,8 @@ import numpy as np
 
 from umform.errors import InvalidValue, NotFinite
 from umform.model.control import Control
+from umform.spec import check_fields
+from umform.spec.types import Cuts, Duration, Growth, Increments
 from umform.steps.pace import Pace
 
 #: Value of a control as a function of another one: a function, or pairs of both.
@@ -19,25 +21,6 @@ Law = Callable[[float], float] | Sequence[tuple[float, float]]
 @dataclass(frozen=True)
 class Move:
     """Move one or more controls along straight lines in time, or along functions of time.
-
-    Parameters
-    ----------
-    control : Control or sequence of Control
-        The quantity to move: a prescribed displacement, a load factor, a pressure, a tool.
-    to : float, callable or sequence
-        End value, or a function of the fraction (0 ... 1) of the step, one for each control.
-    steps : int or Pace, optional
-        Number of equal increments, or limits on the changes in one, which determine its size. Default: those of
-        :class:`umform.Pace`.
-    cuts : int
-        How often an increment may be halved before the run fails.
-    grow : float
-        Largest increment relative to the nominal one: 1 never exceeds ``1/steps``. A pace has its own limit.
-    follow : mapping of Control to callable or sequence of (float, float), optional
-        More controls, as functions of the value of the first one: a holder force over the stroke. A sequence of pairs
-        (stroke, force) is a table with straight lines between them, constant outside.
-    time : float
-        Duration of the step: for rate-dependent metals, and for motions of tools in time.
 
     Examples
     --------
@@ -54,25 +37,24 @@ class Move:
     """
 
     control: Control | Sequence[Control]
+    """What moves, one or several: a prescribed displacement, a load factor, a pressure, a tool."""
     to: float | Callable[[float], float] | Sequence[float | Callable[[float], float]]
-    steps: int | Pace | None = None
-    cuts: int = 10
-    grow: float = 1.0
+    """End value, or a function of the fraction (0 ... 1) of the step, one for each control."""
+    steps: Increments | Pace | None = None
+    """Number of equal increments, or limits on the changes in one, which determine its size; default: those of
+    :class:`umform.Pace`."""
+    cuts: Cuts = 10
+    """How often an increment may be halved before the run fails."""
+    grow: Growth = 1.0
+    """Largest increment relative to the nominal one: 1 never exceeds ``1/steps``. A pace has its own limit."""
     follow: Mapping[Control, Law] = field(default_factory=dict)
-    time: float = 1.0
+    """More controls, as functions of the value of the first one: a holder force over the stroke. Pairs (stroke, force)
+    are a table with straight lines between them, constant outside."""
+    time: Duration = 1.0
+    """Duration of the step: for rate-dependent metals, and for motions of tools in time."""
 
     def __post_init__(self) -> None:
-        if (isinstance(self.steps, int) and self.steps < 1) or not isinstance(self.steps, int | Pace | None):
-            raise InvalidValue(
-                "a step needs a whole number of increments, one at least",
-                value=self.steps,
-                remedy="a number, or limits of what may happen in an increment: Pace()",
-            )
-        if not isinstance(self.cuts, int) or self.cuts < 0:
-            raise InvalidValue("cuts must be 0 or more", value=self.cuts)
-        if not self.grow >= 1:
-            raise InvalidValue("grow must be 1 or more", value=self.grow)
-        check_time("Move", self.time)
+        check_fields(self)
         for target in self.targets():
             if not callable(target) and not (np.isscalar(target) and np.isrealobj(target) and np.isfinite(target)):
                 raise InvalidValue("a control is moved to a finite number or along a function", value=target)
@@ -138,24 +120,6 @@ class Move:
                 where = f"fraction {fraction:g} of the step"
                 raise NotFinite(f"the function that moves {control.name} is not finite", where=where, value=value)
         return values
-
-
-def check_time(where: str, time: float) -> None:
-    """Reject an invalid duration of the step.
-
-    Raises
-    ------
-    InvalidValue
-        If the time is not positive and finite.
-    """
-    if not 0.0 < time < math.inf:
-        raise InvalidValue(
-            "the time of a step must be positive",
-            where=where,
-            value=time,
-            cause="a sign, or the time at the end in place of what the step takes",
-            remedy="time=1 is the default; a way of 10 at a speed of 50 takes 0.2",
-        )
 
 
 def _at(law: Law, value: float) -> float:

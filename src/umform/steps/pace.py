@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,8 @@ from umform.model import Model
 from umform.model.change import strained, turned
 from umform.results.balance import Worked
 from umform.solution.records import Converged
+from umform.spec import About, check_fields
+from umform.spec.types import Count, Positive, Share
 
 Floats = NDArray[np.float64]
 
@@ -28,24 +31,6 @@ _FEW_POINTS = 8
 class Pace:
     """Limits of the changes in one increment; half of them give finer increments, for a study of convergence.
 
-    Parameters
-    ----------
-    first : float
-        First increment, as a fraction of the step.
-    largest : float
-        Largest increment, as a fraction of the step.
-    turn : float
-        Rotation of a fibre through the thickness, in degrees.
-    strain : float
-        Increase of the accumulated plastic strain at a material point.
-    contact : float
-        Contact points that open or close, relative to those in contact.
-    iterations : int
-        Newton iterations at which the size is kept: with half of them it may double.
-    work : float
-        Difference of the external work from the energies in an increment, relative to the energy so far, or to that of
-        the step at this rate. An increment with more is repeated with half the size. eq. (5.103)
-
     Examples
     --------
     >>> import umform as uf
@@ -55,23 +40,30 @@ class Pace:
     >>> result = uf.solve(model, uf.Move(tip, to=-0.1, steps=uf.Pace(turn=1.0)))
     """
 
-    first: float = 0.01
-    largest: float = 0.1
-    turn: float = 2.0
-    strain: float = 0.02
-    contact: float = 1.0
-    iterations: int = 12
-    work: float = 1e-3
+    first: Share = 0.01
+    """First increment, as a fraction of the step."""
+    largest: Share = 0.1
+    """Largest increment, as a fraction of the step."""
+    turn: Annotated[Positive, About("degrees")] = 2.0
+    """Rotation of a fibre through the thickness."""
+    strain: Positive = 0.02
+    """Increase of the accumulated plastic strain at a material point."""
+    contact: Positive = 1.0
+    """Contact points that open or close, relative to those in contact."""
+    iterations: Count = 12
+    """Newton iterations at which the size is kept: with half of them it may double."""
+    work: Positive = 1e-3
+    """Difference of the external work from the energies in an increment, relative to the energy so far, or to that of
+    the step at this rate. An increment with more is repeated with half the size. eq. (5.103)"""
 
     def __post_init__(self) -> None:
-        for name, value in vars(self).items():
-            if not (np.isfinite(value) and value > 0):
-                raise InvalidValue("a limit of the pace must be positive", where=f"Pace, {name}", value=value)
-        if not self.first <= self.largest <= 1.0:
+        check_fields(self)
+        if self.first > self.largest:
             raise InvalidValue(
-                "increments of a pace are parts of the step",
-                where="Pace",
-                value=f"first = {self.first}, largest = {self.largest}",
+                "the first increment of a pace must not be larger than the largest one",
+                where="first",
+                value=f"first = {self.first:g}, largest = {self.largest:g}",
+                cause="one of both was changed alone",
                 remedy="first <= largest <= 1",
             )
 

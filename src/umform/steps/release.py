@@ -7,14 +7,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Self
 
-from umform.errors import InvalidValue
 from umform.model import Evaluation
 from umform.model.control import Control
 from umform.model.tool_controls import ToolForce
 from umform.solution.records import Converged, Failed
+from umform.spec import check_fields
+from umform.spec.types import Duration, Positive
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
-from umform.steps.move import check_time
 from umform.steps.saved import Saved, tightened
 
 #: Part of the zero-force tolerance that the residual of an increment may reach.
@@ -33,18 +33,6 @@ class Release:
     The increments of a release are solved until the error of the force is a part of the tolerance, even if the
     tolerance of the residual in :class:`umform.NewtonOptions` is looser.
 
-    Parameters
-    ----------
-    control : Control
-        A prescribed displacement or a tool motion, or the force on a tool.
-    increment : float, optional
-        Size of the first increment; default 1/1000 of the present value. It doubles while Newton converges easily, up
-        to a twentieth of the value.
-    tolerance : float
-        Force that counts as zero, relative to the force at the beginning.
-    time : float
-        Time for the full way back to zero.
-
     Examples
     --------
     >>> import umform as uf
@@ -57,16 +45,17 @@ class Release:
     """
 
     control: Control
-    increment: float | None = None
-    tolerance: float = 1e-6
-    time: float = 1.0
+    """A prescribed displacement or a tool motion, or the force on a tool."""
+    increment: Positive | None = None
+    """First increment; default: 1/1000 of the present value. It doubles while Newton converges easily, up to a
+    twentieth of the value."""
+    tolerance: Positive = 1e-6
+    """Force that counts as zero, relative to the force at the beginning."""
+    time: Duration = 1.0
+    """Time for the full way back to zero: for rate-dependent metals, and for motions of tools in time."""
 
     def __post_init__(self) -> None:
-        check_time("Release", self.time)
-        if self.increment is not None and not self.increment > 0:
-            raise InvalidValue("the increment of a release must be positive", value=self.increment)
-        if not self.tolerance > 0:
-            raise InvalidValue("the tolerance of a release must be positive", value=self.tolerance)
+        check_fields(self)
 
 
 @dataclass

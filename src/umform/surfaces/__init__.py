@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from umform.first_use import at_first_use
@@ -10,7 +11,7 @@ if TYPE_CHECKING:
     from umform.surfaces.cad import CadTool
     from umform.surfaces.check import SurfaceCheck, check_surface
     from umform.surfaces.directions import Direction, unit_vector
-    from umform.surfaces.drawing import read_tool
+    from umform.surfaces.drawing import Drawing, read_tool
     from umform.surfaces.files import write_tool
     from umform.surfaces.led_around import LedAround
     from umform.surfaces.press_brake import Punch, UDie, VDie, WipingDie
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from umform.surfaces.sizes import tool_sizes
     from umform.surfaces.solids import Box, Torus
     from umform.surfaces.swept import Extruded, Revolved
-    from umform.surfaces.tool import Offset, Placed, Surface, Tool
+    from umform.surfaces.tool import Offset, Placed, Surface, Tool, ToolSpec
     from umform.surfaces.triangles import Triangles
     from umform.surfaces.triangulated import Triangulated
     from umform.surfaces.user import GapFunction, UserSurface
@@ -32,6 +33,7 @@ __all__ = [
     "CadTool",
     "Cylinder",
     "Direction",
+    "Drawing",
     "Extruded",
     "GapFunction",
     "LedAround",
@@ -47,6 +49,7 @@ __all__ = [
     "SurfaceCheck",
     "Tool",
     "ToolSizes",
+    "ToolSpec",
     "Torus",
     "Triangles",
     "Triangulated",
@@ -67,6 +70,7 @@ _HOME = {
     "CadTool": "cad",
     "Cylinder": "simple",
     "Direction": "directions",
+    "Drawing": "drawing",
     "Extruded": "swept",
     "GapFunction": "user",
     "LedAround": "led_around",
@@ -82,6 +86,7 @@ _HOME = {
     "SurfaceCheck": "check",
     "Tool": "tool",
     "ToolSizes": "size_map",
+    "ToolSpec": "tool",
     "Torus": "solids",
     "Triangles": "triangles",
     "Triangulated": "triangulated",
@@ -96,4 +101,13 @@ _HOME = {
     "write_tool": "files",
 }
 
-__getattr__ = at_first_use(__name__, _HOME)
+
+def _others() -> Mapping[str, type]:
+    """Tools in the files of this package, those too that have no line above."""
+    from umform.spec.known import known
+    from umform.surfaces.tool import ToolSpec
+
+    return known(__name__, ToolSpec)
+
+
+__getattr__ = at_first_use(__name__, _HOME, _others)

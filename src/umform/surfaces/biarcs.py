@@ -8,7 +8,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from umform.surfaces.segments import Arc, Floats, Line, Point2, Segment
+from umform.surfaces.directions import Point2
+from umform.surfaces.segments import Arc, Floats, Line, Segment
 
 #: Parameter -> point and tangent, both of shape (2,).
 Curve = Callable[[float], tuple[Floats, Floats]]

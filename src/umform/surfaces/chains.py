@@ -8,8 +8,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from umform.errors import OpenSection
+from umform.surfaces.directions import Point2
 from umform.surfaces.joined import groups, merged
-from umform.surfaces.segments import Arc, Floats, Ids, Line, Point2, Segment
+from umform.surfaces.segments import Arc, Floats, Ids, Line, Segment
 
 #: How many places a message names.
 _PLACES = 4

@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from umform.errors import InvalidValue
-from umform.surfaces.directions import not_negative, point
-from umform.surfaces.segments import Arc, Floats, Line, Point2, Segment
+from umform.surfaces.directions import Point2, not_negative, point
+from umform.surfaces.segments import Arc, Floats, Line, Segment
 
 
 class _Rounding(NamedTuple):

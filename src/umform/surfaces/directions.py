@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from functools import partial
+from typing import Annotated
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from umform.errors import InvalidValue, NotFinite
+from umform.spec import Checked
 
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
-Direction = str | tuple[float, float, float]
-Point = tuple[float, float, float]
 
 
-def unit_vector(direction: Direction, where: str) -> Point:
+def unit_vector(direction: Direction, where: str = "direction") -> tuple[float, float, float]:
     """Unit vector from "x", "-y", ... or three components."""
     if isinstance(direction, str):
         sign, name = (-1.0, direction[1:]) if direction.startswith("-") else (1.0, direction)
@@ -25,7 +27,7 @@ def unit_vector(direction: Direction, where: str) -> Point:
                 remedy="a word such as -z, or three numbers",
             )
         direction = (sign * _AXES[name][0], sign * _AXES[name][1], sign * _AXES[name][2])
-    vector = np.asarray(direction, dtype=float)
+    vector = _numbers(direction)
     if vector.shape != (3,) or not np.isfinite(vector).all():
         raise NotFinite(
             "a direction needs three finite numbers",
@@ -46,7 +48,7 @@ def unit_vector(direction: Direction, where: str) -> Point:
     return x, y, z
 
 
-def right_angle(x: Direction, y: Direction, where: str) -> tuple[Point, Point]:
+def right_angle(x: Direction, y: Direction, where: str = "x, y") -> tuple[Point, Point]:
     """Two unit vectors at right angles.
 
     Raises
@@ -54,7 +56,7 @@ def right_angle(x: Direction, y: Direction, where: str) -> tuple[Point, Point]:
     InvalidValue
         If they are not at right angles.
     """
-    first, second = unit_vector(x, f"{where}.x"), unit_vector(y, f"{where}.y")
+    first, second = unit_vector(x, "x"), unit_vector(y, "y")
     cosine = float(np.dot(first, second))
     if abs(cosine) > 1e-9:
         raise InvalidValue(
@@ -77,9 +79,9 @@ def rotation_matrix(vector: ArrayLike) -> NDArray[np.float64]:
     return np.asarray(np.eye(3) + np.sin(angle) * K + 2.0 * np.sin(0.5 * angle) ** 2 * (K @ K))
 
 
-def point(values: ArrayLike, where: str, size: int = 3) -> list[float]:
+def point(values: ArrayLike, where: str = "point", size: int = 3) -> list[float]:
     """Coordinates of a point as a list of finite numbers."""
-    vector = np.asarray(values, dtype=float)
+    vector = _numbers(values)
     if vector.shape != (size,) or not np.isfinite(vector).all():
         raise NotFinite(
             f"a point needs {'two' if size == 2 else 'three'} finite numbers",
@@ -89,6 +91,11 @@ def point(values: ArrayLike, where: str, size: int = 3) -> list[float]:
             remedy="give its coordinates as finite numbers",
         )
     return [float(c) for c in vector]
+
+
+def lengths(values: ArrayLike, where: str = "size", size: int = 3) -> list[float]:
+    """Lengths that are finite and greater than zero."""
+    return [positive(length, where, where) for length in point(values, where, size)]
 
 
 def positive(value: float, where: str, what: str = "radius") -> float:
@@ -115,3 +122,23 @@ def not_negative(value: float, where: str, what: str = "radius") -> float:
             remedy="give a length, or zero",
         )
     return float(value)
+
+
+def _numbers(values: ArrayLike) -> NDArray[np.float64]:
+    """An array; empty if the values are not numbers."""
+    try:
+        return np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        return np.empty(0)
+
+
+#: "x", "y", "z", "-x", "-y", "-z", or three numbers.
+Direction = Annotated[str | tuple[float, float, float], Checked(unit_vector)]
+#: Three coordinates.
+Point = Annotated[tuple[float, float, float], Checked(point)]
+#: Two coordinates in a plane.
+Point2 = Annotated[tuple[float, float], Checked(partial(point, size=2))]
+#: Three lengths above zero.
+Size = Annotated[tuple[float, float, float], Checked(lengths)]
+#: Two lengths above zero.
+Size2 = Annotated[tuple[float, float], Checked(partial(lengths, size=2))]

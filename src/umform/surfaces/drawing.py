@@ -2,34 +2,71 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated, Any
 
+from annotated_types import Gt, Lt
+
+from umform.spec import About, check_fields, takes
+from umform.spec.types import Positive, Text
 from umform.surfaces.cad import CadTool
 from umform.surfaces.triangulated import Triangulated
 
 
-def read_tool(
-    path: str | Path,
-    *,
-    tolerance: float = 1e-3,
-    sharp: float | None = None,
-    open: bool = False,
-    scale: float = 1.0,
-) -> CadTool | Triangulated:
+@dataclass(frozen=True)
+class Drawing:
+    """The faces of a STEP or IGES file, or the triangles of an STL file."""
+
+    file: Text
+    """Path, from the folder of the deck; it ends in .step, .stp, .iges, .igs or .stl."""
+    tolerance: Positive = 1e-3
+    """Largest distance of the tool from free-form faces of a STEP or IGES file."""
+    sharp: Annotated[float, Gt(0.0), Lt(90.0), About("degrees", cause="radians, or the angle in the solid")] | None = (
+        None
+    )
+    """Angle from which an edge is sharp: by default 30 between triangles of STL, 2 between faces."""
+    open: bool = False
+    """The surface may have rims; beyond them there is no contact."""
+    scale: Positive = 1.0
+    """Factor to the unit of the model: from millimetres for STEP and IGES, from the unit of an STL file."""
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+    def read(self, folder: Path = Path()) -> CadTool | Triangulated:
+        """The tool.
+
+        Parameters
+        ----------
+        folder : Path
+            Folder from which its path begins.
+
+        Raises
+        ------
+        FileProblem
+            If the file cannot be read.
+        DrawingError
+            If it has no surface for a tool; the message names places.
+        """
+        path = folder / self.file
+        if path.suffix.lower() == ".stl":
+            sharp = 30.0 if self.sharp is None else self.sharp
+            return Triangulated.from_stl(path, sharp=sharp, open=self.open, scale=self.scale)
+        sharp = 2.0 if self.sharp is None else self.sharp
+        return CadTool.read(path, tolerance=self.tolerance, open=self.open, sharp=sharp, scale=self.scale)
+
+
+@takes(Drawing, "file")
+def read_tool(path: str | Path, **options: Any) -> CadTool | Triangulated:
     """A tool from a STEP, IGES or STL file.
 
     Parameters
     ----------
     path : str or Path
         .stl: triangles, see :meth:`Triangulated.from_stl`. .step, .stp, .iges or .igs: faces, see :meth:`CadTool.read`.
-    tolerance : float
-        Largest distance from free-form faces of a STEP or IGES file.
-    sharp : float, optional
-        Angle in degrees from which an edge is sharp: 30 between triangles of STL, 2 between faces.
-    open : bool
-        The surface may have rims.
-    scale : float
-        Factor to the unit of the model, from millimetres for STEP and IGES, from the unit of the file for STL.
+    **options
+        Other fields of :class:`umform.surfaces.Drawing`.
 
     Raises
     ------
@@ -44,6 +81,4 @@ def read_tool(
     >>> die = uf.read_tool("die.step")  # doctest: +SKIP
     >>> punch = uf.read_tool("punch.stl", scale=1000.0)  # doctest: +SKIP
     """
-    if Path(path).suffix.lower() == ".stl":
-        return Triangulated.from_stl(path, sharp=30.0 if sharp is None else sharp, open=open, scale=scale)
-    return CadTool.read(path, tolerance=tolerance, open=open, sharp=2.0 if sharp is None else sharp, scale=scale)
+    return Drawing(str(path), **options).read()

@@ -12,7 +12,8 @@ import numpy as np
 
 from umform.errors import FileProblem, InvalidValue, OpenSection
 from umform.surfaces.biarcs import Curve, as_arcs
-from umform.surfaces.segments import Arc, Floats, Line, Point2, Segment
+from umform.surfaces.directions import Point2
+from umform.surfaces.segments import Arc, Floats, Line, Segment
 
 #: Entities that may accompany the section and are ignored.
 _IGNORED = {"TEXT", "MTEXT", "DIMENSION", "LEADER", "MULTILEADER", "MLEADER", "POINT", "HATCH", "ATTDEF", "VIEWPORT"}

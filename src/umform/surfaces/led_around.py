@@ -9,32 +9,17 @@ import numpy as np
 
 from umform import _core
 from umform.errors import InvalidValue
+from umform.spec.types import Positive
 from umform.surfaces.crossings import refuse_crossings
-from umform.surfaces.directions import Direction, Point, point, positive, right_angle
+from umform.surfaces.directions import Direction, Point, Size2, point, right_angle
 from umform.surfaces.profile import Profile
 from umform.surfaces.segments import Arc, Line
-from umform.surfaces.swept import refuse_endless_arcs
-from umform.surfaces.tool import Tool
+from umform.surfaces.swept import Profiled, refuse_endless_arcs
 
 
 @dataclass(frozen=True)
-class LedAround(Tool):
+class LedAround(Profiled):
     """A profile swept around a rectangle with rounded corners. eqs. (4.26), (4.27)
-
-    Parameters
-    ----------
-    profile : Profile
-        The section: x is the distance outwards from the outline of the rectangle, y is normal to its plane. It is open,
-        begins and ends with a line that extends to infinity, and is flat where it lies deeper inside the rectangle than
-        the corner radius.
-    size : tuple of float
-        Sides of the rectangle.
-    corner : float
-        Radius of its corners.
-    origin : tuple of float
-        Centre of the rectangle, at the origin of the profile.
-    x, y : str or tuple of float
-        Directions of the sides, at right angles; the y of the profile goes along x cross y.
 
     Examples
     --------
@@ -46,31 +31,42 @@ class LedAround(Tool):
     """
 
     profile: Profile
-    size: tuple[float, float]
-    corner: float
+    """Section: x is the distance outwards from the outline of the rectangle, y is normal to its plane. It is open,
+    begins and ends with a line that extends to infinity, and is flat where it lies deeper inside the rectangle than the
+    corner radius."""
+    size: Size2
+    """Sides of the rectangle."""
+    corner: Positive
+    """Radius of its corners."""
     origin: Point = (0.0, 0.0, 0.0)
+    """Centre of the rectangle, at the origin of the profile."""
     x: Direction = "x"
+    """First side."""
     y: Direction = "y"
+    """Second side, at right angles; the second coordinate of the profile lies along x cross y."""
 
-    def kernel(self) -> _core.Surface:
-        """The surface as the kernels take it."""
-        x, y = right_angle(self.x, self.y, "LedAround")
-        half = np.array(
-            [0.5 * positive(side, "LedAround.size", "side") for side in point(self.size, "LedAround.size", 2)]
-        )
-        if positive(self.corner, "LedAround.corner") > half.min() * (1.0 + 1e-12):
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        right_angle(self.x, self.y)
+        half = 0.5 * min(self.size)
+        if self.corner > half * (1.0 + 1e-12):
             raise InvalidValue(
                 "the radius of the corners must be at most half of the shorter side",
-                where="LedAround.corner",
-                value=f"{self.corner}, half of the side {half.min()}",
+                where="corner",
+                value=f"{self.corner}, half of the side {half}",
                 cause="a diameter for a radius, or half of the sides in place of the sides",
                 remedy="a smaller radius, or a larger rectangle",
             )
+
+    def kernel(self) -> _core.Surface:
+        """The surface as the kernels take it."""
+        x, y = right_angle(self.x, self.y)
+        half = 0.5 * np.array(self.size, dtype=float)
         self._refuse_profile()
         rows = np.array([segment.row() for segment in self.profile.segments])
         core = np.maximum(half - self.corner, 0.0)
         axes = np.array([x, y, np.cross(x, y)])
-        return _core.led_around(rows, point(self.origin, "LedAround.origin"), axes, core.tolist(), float(self.corner))
+        return _core.led_around(rows, point(self.origin), axes, core.tolist(), float(self.corner))
 
     def _refuse_profile(self) -> None:
         """Open, its ends infinite lines, and flat further inside than the centres of the corners."""

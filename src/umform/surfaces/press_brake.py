@@ -4,26 +4,30 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 
 from umform import _core
 from umform.errors import InvalidValue
-from umform.surfaces.directions import Direction, Point, not_negative, positive
+from umform.spec.types import Degrees, NotNegative, Positive
+from umform.surfaces.directions import Direction, Point, Point2
 from umform.surfaces.profile import Profile
-from umform.surfaces.segments import Point2
 from umform.surfaces.swept import Extruded
-from umform.surfaces.tool import Tool
+from umform.surfaces.tool import ToolSpec
 from umform.surfaces.triangles import Floats, Triangles
 
 
 @dataclass(frozen=True)
-class Section(Tool):
+class Section(ToolSpec):
     """Prismatic tool; by default the section lies in the xz-plane and the tool extends along y."""
 
     origin: Point = field(default=(0.0, 0.0, 0.0), kw_only=True)
+    """Where the origin of the section lies."""
     x: Direction = field(default="x", kw_only=True)
+    """Direction across the tool."""
     y: Direction = field(default="z", kw_only=True)
+    """Direction upwards."""
 
     @property
     @abstractmethod
@@ -42,6 +46,10 @@ class Section(Tool):
         """Strips along the tool."""
         return self.extruded().facets(centre, reach, chord)
 
+    def along(self) -> Point:
+        """Direction in which it extends."""
+        return self.extruded().along()
+
 
 @dataclass(frozen=True)
 class VDie(Section):
@@ -56,24 +64,6 @@ class VDie(Section):
                    \         /
                     '-.___.-'              z = -depth (a flat bottom), or the point of the V
 
-    Parameters
-    ----------
-    opening : float
-        Distance of the two lines in which the extended flanks meet the top: the width of the V without rounded
-        shoulders.
-    angle : float
-        Angle between the flanks in degrees.
-    shoulder_radius : float
-        Radius between top and flanks.
-    bottom_radius : float
-        Radius at the bottom of the V, or between flanks and a flat bottom; 0 leaves a sharp line.
-    depth : float, optional
-        Depth of a flat bottom; by default the flanks meet.
-    origin : tuple of float
-        Middle of the V at the height of the top.
-    x, y : str or tuple of float
-        Directions across the die and upwards.
-
     Examples
     --------
     >>> import umform as uf
@@ -82,31 +72,37 @@ class VDie(Section):
     0.5
     """
 
-    opening: float
-    angle: float
-    shoulder_radius: float
-    bottom_radius: float = 0.0
-    depth: float | None = None
+    opening: Positive
+    """Opening: distance of the lines in which the extended flanks meet the top, the width of the V without rounded
+    shoulders."""
+    angle: Degrees
+    """Angle between the flanks."""
+    shoulder_radius: NotNegative
+    """Radius between top and flanks."""
+    bottom_radius: NotNegative = 0.0
+    """Radius at the bottom of the V, or between flanks and a flat bottom; 0 leaves a sharp line."""
+    depth: Positive | None = None
+    """Depth of a flat bottom; by default the flanks meet."""
 
     @cached_property
     def profile(self) -> Profile:
         """Section, from right to left."""
-        half = 0.5 * positive(self.opening, "VDie.opening", "opening")
-        slope = math.tan(0.5 * _angle(self.angle, "VDie.angle"))
+        half = 0.5 * self.opening
+        slope = math.tan(0.5 * math.radians(self.angle))
         if self.depth is None:
             bottom: list[Point2] = [(0.0, -half / slope)]
         else:
-            left = half - slope * positive(self.depth, "VDie.depth", "depth")
+            left = half - slope * self.depth
             if left <= 1e-9 * half:
                 raise InvalidValue(
                     "a flat bottom must lie above the point of the V",
-                    where="VDie.depth",
+                    where="depth",
                     value=self.depth,
                     cause=f"the flanks meet at a depth of {half / slope:.6g}",
                     remedy="a smaller depth, or none",
                 )
             bottom = [(left, -self.depth), (-left, -self.depth)]
-        return _die(half, bottom, self.shoulder_radius, self.bottom_radius, "VDie")
+        return _die(half, bottom, self.shoulder_radius, self.bottom_radius)
 
     @property
     def tangent_width(self) -> float:
@@ -114,25 +110,14 @@ class VDie(Section):
         turn = 0.5 * (math.pi - math.radians(self.angle))
         return self.opening + 2.0 * self.shoulder_radius * math.tan(0.5 * turn)
 
+    def convex_radii(self) -> Iterator[float]:
+        """Radius of the shoulders."""
+        yield self.shoulder_radius
+
 
 @dataclass(frozen=True)
 class UDie(Section):
     """Die with a rectangular channel; its top is the plane z = 0, its middle x = 0.
-
-    Parameters
-    ----------
-    opening : float
-        Distance of the walls.
-    depth : float
-        Depth of the bottom.
-    shoulder_radius : float
-        Radius between top and walls.
-    bottom_radius : float
-        Radius between walls and bottom; half of the opening makes the bottom round.
-    origin : tuple of float
-        Middle of the channel at the height of the top.
-    x, y : str or tuple of float
-        Directions across the die and upwards.
 
     Examples
     --------
@@ -142,31 +127,30 @@ class UDie(Section):
     0.5
     """
 
-    opening: float
-    depth: float
-    shoulder_radius: float
-    bottom_radius: float = 0.0
+    opening: Positive
+    """Opening: distance of the walls."""
+    depth: Positive
+    """Depth of the bottom."""
+    shoulder_radius: NotNegative
+    """Radius between top and walls."""
+    bottom_radius: NotNegative = 0.0
+    """Radius between walls and bottom; half of the opening makes the bottom round."""
 
     @cached_property
     def profile(self) -> Profile:
         """Section, from right to left."""
-        half = 0.5 * positive(self.opening, "UDie.opening", "opening")
-        depth = positive(self.depth, "UDie.depth", "depth")
-        return _die(half, [(half, -depth), (-half, -depth)], self.shoulder_radius, self.bottom_radius, "UDie")
+        half = 0.5 * self.opening
+        bottom: list[Point2] = [(half, -self.depth), (-half, -self.depth)]
+        return _die(half, bottom, self.shoulder_radius, self.bottom_radius)
+
+    def convex_radii(self) -> Iterator[float]:
+        """Radius of the shoulders."""
+        yield self.shoulder_radius
 
 
 @dataclass(frozen=True)
 class WipingDie(Section):
     """Block with one rounded edge: its top is the plane z = 0, its side the plane x = 0, the block at x < 0.
-
-    Parameters
-    ----------
-    radius : float
-        Radius of the edge.
-    origin : tuple of float
-        Where the extended top and side meet.
-    x, y : str or tuple of float
-        Directions out of the side and out of the top.
 
     Examples
     --------
@@ -176,14 +160,18 @@ class WipingDie(Section):
     0.5
     """
 
-    radius: float
+    radius: NotNegative
+    """Radius of the edge."""
 
     @cached_property
     def profile(self) -> Profile:
         """Section, up the side and along the top."""
-        radius = not_negative(self.radius, "WipingDie.radius")
-        far = 2.0 * radius or 1.0
-        return Profile.from_corners([(0.0, -far), (0.0, 0.0), (-far, 0.0)], (0.0, radius, 0.0), closed=False)
+        far = 2.0 * self.radius or 1.0
+        return Profile.from_corners([(0.0, -far), (0.0, 0.0), (-far, 0.0)], (0.0, self.radius, 0.0), closed=False)
+
+    def convex_radii(self) -> Iterator[float]:
+        """Radius of the edge."""
+        yield self.radius
 
 
 @dataclass(frozen=True)
@@ -198,19 +186,6 @@ class Punch(Section):
            \angle/
             '-.-'     tip radius; z = 0
 
-    Parameters
-    ----------
-    tip_radius : float
-        Radius of the tip; 0 makes an edge.
-    angle : float
-        Angle between the flanks in degrees.
-    width : float, optional
-        Width of the body above the flanks; by default the flanks extend to infinity.
-    origin : tuple of float
-        Lowest line of the tip.
-    x, y : str or tuple of float
-        Directions across the punch and upwards.
-
     Examples
     --------
     >>> import umform as uf
@@ -219,26 +194,28 @@ class Punch(Section):
     0.5
     """
 
-    tip_radius: float
-    angle: float
-    width: float | None = None
+    tip_radius: NotNegative
+    """Radius of the tip; 0 makes an edge."""
+    angle: Degrees
+    """Angle between the flanks."""
+    width: Positive | None = None
+    """Width of the body above the flanks; by default the flanks extend to infinity."""
 
     @cached_property
     def profile(self) -> Profile:
         """Section, down the left side and up the right one."""
-        half_angle = 0.5 * _angle(self.angle, "Punch.angle")
-        radius = not_negative(self.tip_radius, "Punch.tip_radius")
+        half_angle, radius = 0.5 * math.radians(self.angle), self.tip_radius
         tip = radius - radius / math.sin(half_angle)
         tangent = radius * math.cos(half_angle)  # half of the width between the ends of the round tip
         if self.width is None:
             far = 2.0 * tangent or 1.0
             right: list[Point2] = [(far, tip + far / math.tan(half_angle))]
         else:
-            half = 0.5 * positive(self.width, "Punch.width", "width")
+            half = 0.5 * self.width
             if half <= tangent:
                 raise InvalidValue(
                     "the body of a punch must be wider than its round tip",
-                    where="Punch.width",
+                    where="width",
                     value=self.width,
                     cause=f"the tip is round on a width of {2.0 * tangent:.6g}",
                     remedy="a wider body, or a smaller tip_radius",
@@ -249,26 +226,13 @@ class Punch(Section):
         radii = [0.0] * len(left) + [radius] + [0.0] * len(right)
         return Profile.from_corners([*left, (0.0, tip), *right], radii, closed=False)
 
+    def convex_radii(self) -> Iterator[float]:
+        """Radius of the tip."""
+        yield self.tip_radius
 
-def _die(half: float, bottom: list[Point2], shoulder: float, radius: float, where: str) -> Profile:
+
+def _die(half: float, bottom: list[Point2], shoulder: float, radius: float) -> Profile:
     """Top, shoulders and bottom of a die, from right to left."""
-    shoulder, radius = (
-        not_negative(shoulder, f"{where}.shoulder_radius"),
-        not_negative(radius, f"{where}.bottom_radius"),
-    )
     far = 2.0 * (half + shoulder)
     corners = [(far, 0.0), (half, 0.0), *bottom, (-half, 0.0), (-far, 0.0)]
     return Profile.from_corners(corners, [0.0, shoulder, *[radius] * len(bottom), shoulder, 0.0], closed=False)
-
-
-def _angle(degrees: float, where: str) -> float:
-    """Angle in radians, between 0 and 180 degrees."""
-    if not 0.0 < degrees < 180.0:
-        raise InvalidValue(
-            "the angle must lie between 0 and 180 degrees",
-            where=where,
-            value=degrees,
-            cause="radians, or the angle of bending in place of that between the flanks",
-            remedy="degrees between the flanks, 85 for instance",
-        )
-    return math.radians(degrees)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,13 +11,16 @@ import numpy as np
 from umform.errors import InvalidValue
 from umform.surfaces.corners import rounded
 from umform.surfaces.crossings import refuse_crossings
-from umform.surfaces.directions import point, positive
-from umform.surfaces.segments import Arc, Floats, Point2, Segment
+from umform.surfaces.directions import Point2, point, positive
+from umform.surfaces.segments import Arc, Floats, Segment
+
+#: Sine of the angle between two segments above which they form an edge.
+_EDGE = 1e-3
 
 
 @dataclass(frozen=True)
 class Profile:
-    r"""rLines and arcs, one after the other, with the solid on the left of the direction of travel.
+    r"""Lines and arcs, one after the other, with the solid on the left of the direction of travel.
 
     A closed profile is solid inside if it runs counter-clockwise (its :attr:`area` is positive); clockwise it is a
     hole in the solid. An open one divides the plane: its first and last line extend to infinity. ::
@@ -132,6 +135,16 @@ class Profile:
         shift = tuple(-c for c in point(origin, "from_dxf.origin", 2))
         made = cls([segment.shifted((shift[0], shift[1])) for segment in segments], closed)
         return made if made._has_solid(solid, str(path)) else made.reversed()
+
+    def convex_radii(self) -> Iterator[float]:
+        """Radii of convex arcs, and 0 if there is a sharp edge."""
+        for i, segment in enumerate(self.segments):
+            if isinstance(segment, Arc) and not segment.clockwise:
+                yield segment.radius
+            if i + 1 < len(self.segments) or self.closed:
+                one, other = segment.tangents()[1], self.segments[(i + 1) % len(self.segments)].tangents()[0]
+                if one[0] * other[1] - one[1] * other[0] > _EDGE:
+                    yield 0.0
 
     @classmethod
     def circle(cls, centre: Point2, radius: float, hole: bool = False) -> Profile:

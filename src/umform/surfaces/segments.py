@@ -9,25 +9,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
-from umform.surfaces.directions import point
+from umform.surfaces.directions import Point2, point
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.int64]
-Point2 = tuple[float, float]
 
 
 @dataclass(frozen=True)
 class Line:
-    """Straight segment.
-
-    Parameters
-    ----------
-    start, end : tuple of float
-        Its ends in the plane of the profile.
-    """
+    """Straight segment."""
 
     start: Point2
+    """First end."""
     end: Point2
+    """Second end."""
 
     def check(self, where: str) -> None:
         """Reject a line of no length."""
@@ -78,21 +73,17 @@ class Line:
 
 @dataclass(frozen=True)
 class Arc:
-    """Circular segment about a centre; where start and end are the same point it is the whole circle.
-
-    Parameters
-    ----------
-    start, end, centre : tuple of float
-        Ends and centre in the plane of the profile, the ends at one distance from the centre.
-    clockwise : bool
-        Turns to the right: a concave arc, its centre on the side of the void. Otherwise it turns to the left and is
-        convex, its centre on the side of the solid.
-    """
+    """Circular segment about a centre; where start and end are the same point it is the whole circle."""
 
     start: Point2
+    """First end."""
     end: Point2
+    """Second end."""
     centre: Point2
+    """Centre, at the same distance from both ends."""
     clockwise: bool = False
+    """Turns to the right: a concave arc, its centre on the side of the void. Otherwise it turns to the left and is
+    convex, its centre on the side of the solid."""
 
     def check(self, where: str) -> None:
         """Reject an arc whose ends have different distances from the centre."""

@@ -2,26 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from umform import _core
-from umform.surfaces.directions import Direction, Point, point, positive, unit_vector
+from umform.spec.types import Positive
+from umform.surfaces.directions import Direction, Point, point, unit_vector
 from umform.surfaces.profile import Profile
 from umform.surfaces.swept import Extruded, Revolved
-from umform.surfaces.tool import Tool
+from umform.surfaces.tool import ToolSpec
 from umform.surfaces.triangles import Floats, Triangles, across, rectangle
 
 
 @dataclass(frozen=True)
-class Plane(Tool):
+class Plane(ToolSpec):
     """Half-space behind a plane.
-
-    Parameters
-    ----------
-    point : tuple of float
-        A point of the plane.
-    normal : str or tuple of float
-        Normal out of the tool, towards the sheet.
 
     Examples
     --------
@@ -32,31 +27,22 @@ class Plane(Tool):
     """
 
     point: Point = (0.0, 0.0, 0.0)
+    """A point of the plane."""
     normal: Direction = "z"
+    """Normal out of the tool, towards the sheet."""
 
     def kernel(self) -> _core.Surface:
         """The surface as the kernels take it."""
-        return _core.plane(point(self.point, "Plane.point"), unit_vector(self.normal, "Plane.normal"))
+        return _core.plane(point(self.point), unit_vector(self.normal))
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Two triangles around the foot of ``centre``."""
-        return rectangle(centre, reach, point(self.point, "Plane.point"), unit_vector(self.normal, "Plane.normal"))
+        return rectangle(centre, reach, point(self.point), unit_vector(self.normal))
 
 
 @dataclass(frozen=True)
-class Cylinder(Tool):
+class Cylinder(ToolSpec):
     """Infinitely long round bar, or with ``inside`` the space around a bore.
-
-    Parameters
-    ----------
-    centre : tuple of float
-        A point of the axis.
-    axis : str or tuple of float
-        Direction of the axis.
-    radius : float
-        Radius.
-    inside : bool
-        The sheet lies inside the bore.
 
     Examples
     --------
@@ -67,38 +53,37 @@ class Cylinder(Tool):
     """
 
     centre: Point
+    """A point of the axis."""
     axis: Direction
-    radius: float
+    """Direction of the axis."""
+    radius: Positive
+    """Radius."""
     inside: bool = False
+    """The sheet lies inside the bore."""
 
     def kernel(self) -> _core.Surface:
         """The surface as the kernels take it."""
-        return _core.cylinder(
-            point(self.centre, "Cylinder.centre"),
-            unit_vector(self.axis, "Cylinder.axis"),
-            positive(self.radius, "Cylinder.radius"),
-            self.inside,
-        )
+        return _core.cylinder(point(self.centre), unit_vector(self.axis), self.radius, self.inside)
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Strips along the axis."""
-        x, y = across(unit_vector(self.axis, "Cylinder.axis"))
+        x, y = across(unit_vector(self.axis))
         circle = Profile.circle((0.0, 0.0), self.radius, hole=self.inside)
         return Extruded(circle, self.centre, x, y).facets(centre, reach, chord)
 
+    def along(self) -> Point:
+        """Its axis."""
+        return unit_vector(self.axis)
+
+    def convex_radii(self) -> Iterator[float]:
+        """Radius of the bar."""
+        if not self.inside:
+            yield self.radius
+
 
 @dataclass(frozen=True)
-class Sphere(Tool):
+class Sphere(ToolSpec):
     """Ball, or with ``inside`` the space around a bowl.
-
-    Parameters
-    ----------
-    centre : tuple of float
-        Centre.
-    radius : float
-        Radius.
-    inside : bool
-        The sheet lies inside the sphere.
 
     Examples
     --------
@@ -109,14 +94,22 @@ class Sphere(Tool):
     """
 
     centre: Point
-    radius: float
+    """Centre."""
+    radius: Positive
+    """Radius."""
     inside: bool = False
+    """The sheet lies inside the bowl."""
 
     def kernel(self) -> _core.Surface:
         """The surface as the kernels take it."""
-        return _core.sphere(point(self.centre, "Sphere.centre"), positive(self.radius, "Sphere.radius"), self.inside)
+        return _core.sphere(point(self.centre), self.radius, self.inside)
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Belts about the z direction."""
         half = Profile.half_circle(self.radius, hole=self.inside)
         return Revolved(half, self.centre, "z").facets(centre, reach, chord)
+
+    def convex_radii(self) -> Iterator[float]:
+        """Radius of the ball."""
+        if not self.inside:
+            yield self.radius

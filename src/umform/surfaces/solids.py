@@ -3,33 +3,24 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from umform import _core
 from umform.errors import InvalidValue
-from umform.surfaces.directions import Direction, Point, not_negative, point, positive, right_angle
+from umform.spec.types import NotNegative, Positive
+from umform.surfaces.directions import Direction, Point, Size, point, right_angle
 from umform.surfaces.profile import Profile
 from umform.surfaces.swept import Revolved
-from umform.surfaces.tool import Tool
+from umform.surfaces.tool import ToolSpec
 from umform.surfaces.triangles import Floats, Triangles, grid
 
 
 @dataclass(frozen=True)
-class Torus(Tool):
+class Torus(ToolSpec):
     """Ring of round section.
-
-    Parameters
-    ----------
-    centre : tuple of float
-        Centre of the ring.
-    axis : str or tuple of float
-        Direction across the ring.
-    major : float
-        Radius of the circle on which the section has its centre.
-    minor : float
-        Radius of the section, less than ``major``.
 
     Examples
     --------
@@ -40,20 +31,27 @@ class Torus(Tool):
     """
 
     centre: Point
+    """Centre of the ring."""
     axis: Direction
-    major: float
-    minor: float
+    """Direction across the ring."""
+    major: Positive
+    """Radius of the ring: of the circle on which the section has its centre."""
+    minor: Positive
+    """Radius of the section, less than ``major``."""
 
-    def revolved(self) -> Revolved:
-        """The circle that is revolved."""
-        if not positive(self.minor, "Torus.minor") < positive(self.major, "Torus.major"):
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not self.minor < self.major:
             raise InvalidValue(
                 "a ring must have a hole",
-                where="Torus",
+                where="minor",
                 value=f"minor {self.minor}, major {self.major}",
                 cause="minor and major radius exchanged",
                 remedy="minor < major; for a solid disc with a round edge turn a profile of your own",
             )
+
+    def revolved(self) -> Revolved:
+        """The circle that is revolved."""
         return Revolved(Profile.circle((self.major, 0.0), self.minor), self.centre, self.axis)
 
     def kernel(self) -> _core.Surface:
@@ -64,21 +62,14 @@ class Torus(Tool):
         """Belts around the axis."""
         return self.revolved().facets(centre, reach, chord)
 
+    def convex_radii(self) -> Iterator[float]:
+        """Radius of the section."""
+        yield self.minor
+
 
 @dataclass(frozen=True)
-class Box(Tool):
+class Box(ToolSpec):
     """Box with rounded edges and corners. eq. (4.27)
-
-    Parameters
-    ----------
-    centre : tuple of float
-        Centre.
-    size : tuple of float
-        Length along its three directions, over all.
-    radius : float
-        Radius of edges and corners, at most half of the smallest length; 0 leaves them sharp.
-    x, y : str or tuple of float
-        Its first two directions, at right angles.
 
     Examples
     --------
@@ -89,15 +80,33 @@ class Box(Tool):
     """
 
     centre: Point
-    size: Point
-    radius: float = 0.0
+    """Centre."""
+    size: Size
+    """Length along its three directions, over all."""
+    radius: NotNegative = 0.0
+    """Radius of edges and corners, at most half of the smallest length; 0 leaves them sharp."""
     x: Direction = "x"
+    """First direction."""
     y: Direction = "y"
+    """Second direction, at right angles."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        right_angle(self.x, self.y)
+        half = 0.5 * min(self.size)
+        if self.radius > half * (1.0 + 1e-12):
+            raise InvalidValue(
+                "the radius of a box must be at most half of its smallest length",
+                where="radius",
+                value=f"{self.radius}, half of the length {half}",
+                cause="the box is thinner than its roundings",
+                remedy="a smaller radius, or a larger box",
+            )
 
     def kernel(self) -> _core.Surface:
         """The surface as the kernels take it."""
         axes, core = self._frame()
-        return _core.rounded_box(point(self.centre, "Box.centre"), axes, [float(c) for c in core], float(self.radius))
+        return _core.rounded_box(point(self.centre), axes, [float(c) for c in core], float(self.radius))
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Octants of a sphere, moved apart; edges and faces fill the gaps."""
@@ -120,16 +129,12 @@ class Box(Tool):
         middle = np.broadcast_to([0.0, 0.0, 1.0], (1, len(around), 3)) * (core[2] + self.radius)
         return grid(np.array(self.centre) + np.concatenate([-middle, belts, middle]) @ axes)
 
+    def convex_radii(self) -> Iterator[float]:
+        """Radius of the edges."""
+        yield self.radius
+
     def _frame(self) -> tuple[Floats, Floats]:
         """Rows of its directions, and half-lengths of the box without the roundings."""
-        x, y = right_angle(self.x, self.y, "Box")
-        half = np.array([0.5 * positive(length, "Box.size", "size") for length in point(self.size, "Box.size")])
-        if not_negative(self.radius, "Box.radius") > half.min() * (1.0 + 1e-12):
-            raise InvalidValue(
-                "the radius of a box must be at most half of its smallest length",
-                where="Box.radius",
-                value=f"{self.radius}, half of the length {half.min()}",
-                cause="the box is thinner than its roundings",
-                remedy="a smaller radius, or a larger box",
-            )
+        x, y = right_angle(self.x, self.y)
+        half = 0.5 * np.array(self.size, dtype=float)
         return np.array([x, y, np.cross(x, y)]), np.maximum(half - self.radius, 0.0)

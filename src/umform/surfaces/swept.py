@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,28 +11,30 @@ import numpy as np
 from umform import _core
 from umform.errors import InvalidValue
 from umform.surfaces.crossings import refuse_crossings
-from umform.surfaces.directions import Direction, Point, point, right_angle, unit_vector
+from umform.surfaces.directions import Direction, Point, Point2, point, right_angle, unit_vector
 from umform.surfaces.profile import Profile
-from umform.surfaces.segments import Arc, Line, Point2, Segment
-from umform.surfaces.tool import Tool
+from umform.surfaces.segments import Arc, Line, Segment
+from umform.surfaces.tool import ToolSpec
 from umform.surfaces.triangles import Floats, Triangles, across, grid
 
 _JOINED, _ENDLESS, _ON_AXIS = _core.ProfileEnd.joined, _core.ProfileEnd.endless, _core.ProfileEnd.on_axis
 
 
 @dataclass(frozen=True)
-class Extruded(Tool):
-    """A profile extruded to infinity normal to its plane. eq. (4.25)
+class Profiled(ToolSpec):
+    """A tool with a section."""
 
-    Parameters
-    ----------
-    profile : Profile
-        The section. An open one must begin and end with a line.
-    origin : tuple of float
-        Where the origin of the profile lies.
-    x, y : str or tuple of float
-        The two directions of the profile, at right angles; by default the section lies in the xz-plane and the tool
-        extends along y.
+    profile: Profile
+    """Section."""
+
+    def convex_radii(self) -> Iterator[float]:
+        """Radii of convex arcs, and 0 if there is a sharp edge."""
+        return self.profile.convex_radii()
+
+
+@dataclass(frozen=True)
+class Extruded(Profiled):
+    """A profile extruded to infinity normal to its plane. eq. (4.25)
 
     Examples
     --------
@@ -43,9 +46,13 @@ class Extruded(Tool):
     """
 
     profile: Profile
+    """Section; an open one must begin and end with a line."""
     origin: Point = (0.0, 0.0, 0.0)
+    """Where the origin of the profile lies."""
     x: Direction = "x"
+    """First direction of the profile."""
     y: Direction = "z"
+    """Second direction of the profile, at right angles."""
 
     def kernel(self) -> _core.Surface:
         """The surface as the kernels take it."""
@@ -54,35 +61,31 @@ class Extruded(Tool):
         if not self.profile.closed:
             refuse_endless_arcs(segments[0], segments[-1], "Extruded")
             refuse_crossings(segments, False, (True, True), "Extruded")
-        x, y = right_angle(self.x, self.y, "Extruded")
+        x, y = right_angle(self.x, self.y)
         rows = np.array([segment.row() for segment in segments])
-        return _core.extruded(rows, end, end, point(self.origin, "Extruded.origin"), x, y)
+        return _core.extruded(rows, end, end, point(self.origin), x, y)
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Strips along the tool."""
-        x, y = (np.array(v) for v in right_angle(self.x, self.y, "Extruded"))
+        x, y = (np.array(v) for v in right_angle(self.x, self.y))
         along = np.cross(y, x)
-        d = centre - point(self.origin, "Extruded.origin")
+        d = centre - point(self.origin)
         far = 2.0 * (self.profile.size + float(np.linalg.norm(d)) + reach)
         curve = self.profile.points(chord, far)
         section = self.origin + curve[:, :1] * x + curve[:, 1:] * y
         ends = np.array([d @ along - reach, d @ along + reach])
         return grid(section[:, None, :] + ends[None, :, None] * along)
 
+    def along(self) -> Point:
+        """Direction of the extrusion."""
+        x, y = right_angle(self.x, self.y)
+        a, b, c = (float(part) for part in np.cross(x, y))
+        return a, b, c
+
 
 @dataclass(frozen=True)
-class Revolved(Tool):
+class Revolved(Profiled):
     """A profile revolved about an axis: its x is the distance to the axis, its y lies along the axis. eq. (4.26)
-
-    Parameters
-    ----------
-    profile : Profile
-        The meridian, at x >= 0. An open one may begin or end on the axis x = 0; elsewhere it begins and ends with a
-        line that extends to infinity. A closed one may have one line on the axis, which is no surface.
-    origin : tuple of float
-        Where the origin of the profile lies.
-    axis : str or tuple of float
-        Direction of the axis.
 
     Examples
     --------
@@ -94,20 +97,23 @@ class Revolved(Tool):
     """
 
     profile: Profile
+    """Meridian, at x >= 0. An open one may begin or end on the axis x = 0; elsewhere it begins and ends with a line
+    that extends to infinity. A closed one may have one line on the axis, which is no surface."""
     origin: Point = (0.0, 0.0, 0.0)
+    """Where the origin of the profile lies."""
     axis: Direction = "z"
+    """Direction of the axis."""
 
     def kernel(self) -> _core.Surface:
         """The surface as the kernels take it."""
         meridian, start, end = self._meridian()
         rows = np.array([segment.row() for segment in meridian.segments])
-        axis = unit_vector(self.axis, "Revolved.axis")
-        return _core.revolved(rows, start, end, point(self.origin, "Revolved.origin"), axis)
+        return _core.revolved(rows, start, end, point(self.origin), unit_vector(self.axis))
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Belts around the axis."""
-        axis = np.array(unit_vector(self.axis, "Revolved.axis"))
-        d = centre - point(self.origin, "Revolved.origin")
+        axis = np.array(unit_vector(self.axis))
+        d = centre - point(self.origin)
         meridian, start, end = self._meridian()
         beyond = 2.0 * (meridian.size + float(np.linalg.norm(d)) + reach)
         curve = meridian.points(0.5 * chord)
@@ -117,7 +123,7 @@ class Revolved(Tool):
         widest = min(float(curve[:, 0].max()), float(np.linalg.norm(d)) + reach)
         step = 2.0 * math.acos(max(1.0 - 0.5 * chord / widest, 0.5))
         angles = np.linspace(0.0, 2.0 * math.pi, math.ceil(2.0 * math.pi / step) + 1)
-        x, y = (np.array(v) for v in across(unit_vector(self.axis, "Revolved.axis")))
+        x, y = (np.array(v) for v in across(unit_vector(self.axis)))
         ring = np.cos(angles)[:, None] * x + np.sin(angles)[:, None] * y
         return grid(np.array(self.origin) + curve[:, None, :1] * ring + curve[:, None, 1:] * axis)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
@@ -11,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from umform import _core
 from umform.errors import InvalidValue
+from umform.spec import check_fields
 from umform.surfaces.directions import Direction, Point, point, rotation_matrix, unit_vector
 from umform.surfaces.triangles import Box3, Floats, Triangles
 
@@ -107,6 +109,14 @@ class Tool(ABC):
         """
         return Offset(self, thickness, other_side=True)
 
+    def along(self) -> Point | None:
+        """Direction along which it does not vary; None if there is none."""
+        return None
+
+    def convex_radii(self) -> Iterator[float]:
+        """Radii over which a sheet may bend, 0 at a sharp edge; nothing if they are unknown."""
+        yield from ()
+
     def triangles(self, box: Box3, chord: float = 0.0) -> Triangles:
         """The surface of the tool inside of a box, for pictures and files.
 
@@ -139,6 +149,17 @@ class Tool(ABC):
         from umform.surfaces.sampled import sampled  # imported late: few tools need it
 
         return sampled(self.kernel().gap, centre, reach, chord)
+
+
+@dataclass(frozen=True)
+class ToolSpec(Tool):
+    """A tool that its fields declare: with the same name in Python, as `shape` in decks, and in their schema.
+
+    A subclass is a frozen dataclass, its fields are annotated as in `umform.spec`.
+    """
+
+    def __post_init__(self) -> None:
+        check_fields(self)
 
 
 Matrix = tuple[Point, Point, Point]
@@ -186,6 +207,18 @@ class Placed(Tool):
         step = 1 if np.linalg.det(Q) > 0 else -1
         return Triangles(own.points @ Q.T + c, own.triangles[:, ::step])
 
+    def along(self) -> Point | None:
+        """That of the tool, transformed."""
+        own = self.tool.along() if isinstance(self.tool, Tool) else None
+        if own is None:
+            return None
+        a, b, c = (float(part) for part in np.array(self.matrix) @ own)
+        return a, b, c
+
+    def convex_radii(self) -> Iterator[float]:
+        """Those of the tool."""
+        return self.tool.convex_radii() if isinstance(self.tool, Tool) else super().convex_radii()
+
 
 @dataclass(frozen=True)
 class Offset(Tool):
@@ -228,6 +261,15 @@ class Offset(Tool):
         points = own.points + self.distance * kernel.gap(np.ascontiguousarray(own.points))[1]
         there = np.abs(kernel.gap(points)[0] - self.distance) <= 1e-6 * abs(self.distance) + 0.5 * chord
         return Triangles(points, own.triangles[there[own.triangles].all(axis=1)][:, :: -1 if self.other_side else 1])
+
+    def along(self) -> Point | None:
+        """That of the tool."""
+        return self.tool.along() if isinstance(self.tool, Tool) else None
+
+    def convex_radii(self) -> Iterator[float]:
+        """Those of the tool and the distance; unknown on the other side."""
+        if isinstance(self.tool, Tool) and not self.other_side:
+            yield from (max(radius + self.distance, 0.0) for radius in self.tool.convex_radii())
 
 
 def _moved(tool: Surface, translation: Point, rotation: Point) -> Placed:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -147,6 +148,11 @@ class Triangulated(Tool):
             return math.inf
         H = self.kernel().gap(self.patches.at(np.full((1, 3), 1.0 / 3.0))[:, 0])[2]
         return float(np.linalg.eigvalsh(H).max())
+
+    def convex_radii(self) -> Iterator[float]:
+        """One over the largest curvature."""
+        if self.largest_curvature > 0.0:
+            yield 1.0 / self.largest_curvature
 
     def _has_convex_edge(self) -> bool:
         """Whether the surface falls away beyond a sharp edge."""

@@ -24,6 +24,17 @@ void check_layout() {
         for (int k = 0; k < 4; ++k) CHECK_NEAR(history.state()[4 * q + k], k + 1, 0.0);
 }
 
+/// A table gives places and list; what is appended follows.
+void check_table() {
+    constexpr QuantityTable first{{{"multiplier"}}};
+    constexpr QuantityTable table = first.then({{"place", 3}, {"slip"}});
+    CHECK(first.size() == 1 && table.size() == 5 && QuantityTable<0>{}.size() == 0);
+    CHECK(table["multiplier"] == 0 && table["place"] == 1 && table["slip"] == 4);
+    const std::vector<Quantity> list = table.list();
+    CHECK(list.size() == 3 && list[0].name == "multiplier" && list[1].name == "place" && list[1].size == 3);
+    CHECK(list[2].name == "slip" && list[2].size == 1);
+}
+
 void check_life() {
     History history = begun();
     history.trial(1)[4] = 7.0;  // second point of the second item
@@ -57,6 +68,7 @@ void check_none() {
 
 int main() {
     check_layout();
+    check_table();
     check_life();
     check_none();
     return report("history");

@@ -6,9 +6,8 @@ using namespace umform;
 
 namespace {
 
-constexpr int numbers = 18;
+constexpr int numbers = Bead::table.size();
 constexpr double restraint = 30.0, uplift = 12.0, half_width = 2.0, slip = 0.01, off = 0.5;
-enum Part { Held = 1, Share = 5, Stored = 12, Slip = 13, Work = 14, LiftWork = 15, Above = 16 };
 
 /// A line along y on the plane z = 0 of a tool in any pose, and a place that goes about it.
 struct Rig {
@@ -47,9 +46,9 @@ void check_across() {
     for (const int i : {0, 1}) {
         Rig rig({-3.0, 0.0, 0.0});
         rig.draw(-3.0, 3.0, i == 0 ? 20 : 40);
-        CHECK(rig.state[Held] == 0.0 && rig.state[Stored] == 0.0);
-        CHECK_NEAR(rig.state[LiftWork], 0.0, 1e-14);
-        errors[i] = std::abs(rig.state[Work] - restraint);
+        CHECK(rig.state[Bead::Held] == 0.0 && rig.state[Bead::Stored] == 0.0);
+        CHECK_NEAR(rig.state[Bead::LiftWork], 0.0, 1e-14);
+        errors[i] = std::abs(rig.state[Bead::Work] - restraint);
     }
     CHECK(errors[0] < 2e-3 * restraint && errors[1] < 0.5 * errors[0]);
 }
@@ -61,24 +60,24 @@ void check_within() {
         rig.at({0.2, 0.0, 0.0});
         rig.draw(0.2, -0.2, increments);
         rig.draw(-0.2, 0.2, 1);
-        CHECK_NEAR(rig.state[Slip], 0.8, 1e-14);
-        CHECK_NEAR(rig.state[Share] * rig.state[Share], 1.0, 0.0);
-        CHECK_NEAR(rig.state[Stored], 0.5 * restraint * weight(0.2) * slip, 1e-14);
+        CHECK_NEAR(rig.state[Bead::Slip], 0.8, 1e-14);
+        CHECK_NEAR(rig.state[Bead::Share] * rig.state[Bead::Share], 1.0, 0.0);
+        CHECK_NEAR(rig.state[Bead::Stored], 0.5 * restraint * weight(0.2) * slip, 1e-14);
         // It begins to slip an elastic slip from the start, under the bound there, and goes on by the mean of both ends.
         const double s = restraint * weight(0.2), s1 = restraint * weight(increments == 1 ? 0.2 : 0.1);
         const double s0 = s + slip * increments / 0.4 * (s1 - s);
         const double rest = 0.1 * (s1 + restraint * weight(0.0)) + 0.05 * (s1 + s) - 0.5 * slip * (s - s1);
         const double there = increments == 1 ? s * (0.4 - slip) : 0.5 * (s0 + s1) * (0.1 - slip) + rest;
-        CHECK_NEAR(rig.state[Work], there + s * (0.4 - 2.0 * slip), 1e-13);
-        CHECK_NEAR(rig.state[Above], 0.5 * s0 * (0.4 / increments - slip) + s * (0.4 - 2.0 * slip), 1e-13);
+        CHECK_NEAR(rig.state[Bead::Work], there + s * (0.4 - 2.0 * slip), 1e-13);
+        CHECK_NEAR(rig.state[Bead::Above], 0.5 * s0 * (0.4 / increments - slip) + s * (0.4 - 2.0 * slip), 1e-13);
     }
     // One that comes from above is held back from the gap on at which the bead begins: here on half of its way.
     Rig closing({0.2, 0.0, off + 0.1});
     closing.at({0.195, 0.0, off - 0.1});
-    CHECK_NEAR(std::abs(closing.state[Share]), 0.25, 1e-14);
+    CHECK_NEAR(std::abs(closing.state[Bead::Share]), 0.25, 1e-14);
     Rig free({0.2, 0.0, 0.0});  // along the line nothing holds
     free.at({0.2, 0.0, 0.0}), free.at({0.2, 3.0, 0.0});
-    CHECK(free.state[Work] == 0.0 && free.state[Slip] == 0.0);
+    CHECK(free.state[Bead::Work] == 0.0 && free.state[Bead::Slip] == 0.0);
 }
 
 /// The elastic slip is the part of the way that comes back: it grows with the way up to the allowed one.
@@ -103,14 +102,14 @@ void check_moving_tool() {
     away.Q = Mat3{{std::cos(0.7), 0.0, std::sin(0.7), 0.0, 1.0, 0.0, -std::sin(0.7), 0.0, std::cos(0.7)}};
     away.c = {3.0, -2.0, 1.0};
     for (Rig* rig : {&carried, &drawn}) rig->at({0.2, 0.0, 0.0}), rig->at({-0.1, 0.0, 0.0});
-    const double before = carried.state[Work];
+    const double before = carried.state[Bead::Work];
     carried.at({-0.1, 0.0, 0.0}, away);
-    CHECK_NEAR(carried.state[Work], before, 1e-13);
-    CHECK_NEAR(carried.state[LiftWork], 0.0, 1e-13);
+    CHECK_NEAR(carried.state[Bead::Work], before, 1e-13);
+    CHECK_NEAR(carried.state[Bead::LiftWork], 0.0, 1e-13);
     carried.at({-0.2, 0.0, 0.1}, away), drawn.at({-0.2, 0.0, 0.1});
-    CHECK_NEAR(carried.state[Work], drawn.state[Work], 1e-13);
-    CHECK_NEAR(carried.state[LiftWork], drawn.state[LiftWork], 1e-13);
-    CHECK(drawn.state[Work] > before && drawn.state[LiftWork] < 0.0);
+    CHECK_NEAR(carried.state[Bead::Work], drawn.state[Bead::Work], 1e-13);
+    CHECK_NEAR(carried.state[Bead::LiftWork], drawn.state[Bead::LiftWork], 1e-13);
+    CHECK(drawn.state[Bead::Work] > before && drawn.state[Bead::LiftWork] < 0.0);
 }
 
 /// Closing puts the work of the lift in, opening gives it back; loads in the place of the tool leave all works.
@@ -118,13 +117,13 @@ void check_lift() {
     Rig rig({0.0, 0.0, 0.6});
     for (int i = 1; i <= 60; ++i) rig.at({0.0, 0.0, 0.6 - 0.01 * i});
     // To the mean of the fade from half to a quarter of the thickness, which is that of a straight line.
-    CHECK_NEAR(rig.state[LiftWork], uplift * weight(0.0) * 0.375, 1e-4);
-    CHECK(rig.state[Work] == 0.0 && rig.bead.rubbing(rig.state).stored == rig.state[LiftWork]);
+    CHECK_NEAR(rig.state[Bead::LiftWork], uplift * weight(0.0) * 0.375, 1e-4);
+    CHECK(rig.state[Bead::Work] == 0.0 && rig.bead.rubbing(rig.state).stored == rig.state[Bead::LiftWork]);
     double gone[numbers]{};
     rig.bead.leave({0.0, 0.0, 0.6}, rig.state, gone);
-    CHECK_NEAR(gone[LiftWork], rig.state[LiftWork] - 0.5 * uplift * weight(0.0) * 0.6, 1e-14);
+    CHECK_NEAR(gone[Bead::LiftWork], rig.state[Bead::LiftWork] - 0.5 * uplift * weight(0.0) * 0.6, 1e-14);
     rig.bead.forget_work(rig.state, gone);
-    CHECK(gone[LiftWork] == rig.state[LiftWork] && gone[Work] == rig.state[Work]);
+    CHECK(gone[Bead::LiftWork] == rig.state[Bead::LiftWork] && gone[Bead::Work] == rig.state[Bead::Work]);
 }
 
 }  // namespace

@@ -21,14 +21,15 @@ struct Skewed {
     double penalty, mu;
 
     static constexpr bool symmetric = false, follows_places = false;
-    static std::vector<Quantity> quantities() { return {{"multiplier", 1}, {"place", 3}}; }
+    static constexpr QuantityTable table = ContactHistory::table.then({{"place", 3}});
+    enum { Multiplier = table["multiplier"], Where = table["place"] };
     double stiffness(const double*) const { return penalty; }
-    double reach(const double* trial) const { return trial[0] / penalty; }
+    double reach(const double* trial) const { return trial[Multiplier] / penalty; }
 
     bool respond(const Place& place, double weight, const double*, double* trial, Reaction& reaction) const {
         const Vec3 z = place.pose.to_tool(place.x);
-        std::copy(z.begin(), z.end(), trial + 1);
-        const double g = place.gap - trial[0] / penalty, stiffness = weight * penalty;
+        std::copy(z.begin(), z.end(), trial + Where);
+        const double g = place.gap - trial[Multiplier] / penalty, stiffness = weight * penalty;
         if (g > 0.0) return false;
         reaction.pressure = -stiffness * g;
         reaction.tangential = {-mu * stiffness * g, 0.0, 0.0};
@@ -187,10 +188,11 @@ void check_history() {
     const std::vector<Vec3> places = block->positions();
     for (int q = 0; q < 4; ++q) {
         const Vec3& x = places[q];
-        CHECK_NEAR(kept[4 * q], multipliers[q], 0.0);
-        CHECK_NEAR(kept[4 * q + 1], x[1], 1e-15);
-        CHECK_NEAR(kept[4 * q + 2], 5.0 - x[0], 1e-15);
-        CHECK_NEAR(kept[4 * q + 3], x[2], 1e-15);
+        const double* point = kept.data() + static_cast<std::ptrdiff_t>(q) * Skewed::table.size();
+        CHECK_NEAR(point[Skewed::Multiplier], multipliers[q], 0.0);
+        CHECK_NEAR(point[Skewed::Where], x[1], 1e-15);
+        CHECK_NEAR(point[Skewed::Where + 1], 5.0 - x[0], 1e-15);
+        CHECK_NEAR(point[Skewed::Where + 2], x[2], 1e-15);
     }
     const std::vector<double> others(4, 9.0);
     block->set_multipliers(others.data());

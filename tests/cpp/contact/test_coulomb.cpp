@@ -6,7 +6,7 @@ using namespace umform;
 
 namespace {
 
-constexpr int numbers = 22;
+constexpr int numbers = Coulomb::table.size();
 
 Coulomb law(double mu = 0.3) {
     auto friction = std::make_shared<CoulombFriction>();
@@ -60,7 +60,7 @@ void check_states() {
     const Coulomb rubbing = law();
     double state[numbers]{}, held[numbers]{}, after[numbers]{};
     rubbing.leave({0.0, 0.0, 2.3}, state, state);
-    CHECK_NEAR(state[4], 2.3, 0.0);
+    CHECK_NEAR(state[Coulomb::Where + 2], 2.3, 0.0);
 
     // First touch: of a way of 0.4 down and 0.04 aside, 0.0484 along the tool there, a quarter is in the tool.
     const Vec3 touched{0.04, 0.0, 1.9};
@@ -68,12 +68,13 @@ void check_states() {
     CHECK(first.held && !first.slipping);
     const double stiffness = 0.3 * first.pressure / 0.05;  // of the bound over the elastic slip that is allowed
     CHECK(stiffness > 50.0 * 0.4);
-    CHECK(held[19] == stiffness);
+    CHECK(held[Coulomb::Stiffness] == stiffness);
     CHECK_NEAR(first.tangential[0], -stiffness * 0.25 * 0.0484, 1e-3);
     check_tangent(rubbing, touched, state, false);
     // The work is that of half of the traction on the whole way along the tool, not of what follows the touch; a part is stored.
     const Vec3 all{0.04, 0.0, -0.4};
-    CHECK_NEAR(held[18], -0.5 * dot(first.tangential, all) - square(first.tangential) / (2.0 * held[19]), 1e-15);
+    CHECK_NEAR(held[Coulomb::Work],
+               -0.5 * dot(first.tangential, all) - square(first.tangential) / (2.0 * held[Coulomb::Stiffness]), 1e-15);
 
     // It sticks, then slips: the traction is at its bound, against the way.
     check_tangent(rubbing, {0.06, 0.01, 1.9}, held, false);
@@ -82,18 +83,20 @@ void check_states() {
     CHECK_NEAR(std::sqrt(dot(slip.tangential, slip.tangential)), 0.3 * slip.pressure, 1e-13);
     CHECK_NEAR(dot(slip.tangential, Ball({0.30, 0.10, 1.88}).n), 0.0, 1e-14);
     CHECK(slip.tangential[0] < 0.0 && slip.tangential[1] < 0.0);
-    CHECK(after[18]
-          > held[18]);  // friction has cost work: that of the mean traction along the way, less what is stored
-    const double stored =
-        (dot(slip.tangential, slip.tangential) / after[19] - dot(first.tangential, first.tangential) / held[19]) / 2.0;
+    CHECK(
+        after[Coulomb::Work]
+        > held[Coulomb::Work]);  // friction has cost work: that of the mean traction along the way, less what is stored
+    const double stored = (dot(slip.tangential, slip.tangential) / after[Coulomb::Stiffness]
+                           - dot(first.tangential, first.tangential) / held[Coulomb::Stiffness])
+                          / 2.0;
     const Vec3 x = {0.30, 0.10, 1.88}, way{0.26, 0.10, -0.02};
     const Vec3 n = Ball(x).n,
                t_n = Carried(Pose{}, Facing({0.0, x, n, Ball(x).H, Pose{}}), first.tangential, Ball(touched).n, true)
                          .value;
     // It begins to slip where the traction reaches the bound, which falls on the way: that much more than the mean.
     const double s = std::sqrt(square(slip.tangential)), s_n = 0.3 * first.pressure;
-    const double mean_stiffness = 0.5 * (held[19] + after[19]);
-    CHECK_NEAR(after[21], s, 1e-14);
+    const double mean_stiffness = 0.5 * (held[Coulomb::Stiffness] + after[Coulomb::Stiffness]);
+    CHECK_NEAR(after[Coulomb::Limit], s, 1e-14);
     Vec3 D, trial;
     for (int k = 0; k < 3; ++k) D[k] = way[k] - n[k] * dot(n, way), trial[k] = t_n[k] - mean_stiffness * D[k];
     const double irreversible = (std::sqrt(square(trial)) - s) / mean_stiffness;
@@ -107,31 +110,34 @@ void check_states() {
     const double onset = s_n + low * (s - s_n);
     CHECK(onset > 1.01 * s && onset < 0.995 * s_n);
     const double above = 0.5 * (onset - dot(t_n, slip.tangential) / s) * irreversible;
-    CHECK(above > 0.1 * after[18]);
+    CHECK(above > 0.1 * after[Coulomb::Work]);
     const double mean = -0.5 * (dot(first.tangential, way) + dot(slip.tangential, way));
-    CHECK_NEAR(after[18], held[18] + mean + above - stored, 1e-12);
-    CHECK_NEAR(after[20], above, 1e-12);
-    CHECK_NEAR(after[17], held[17] + std::sqrt(square(D)), 1e-14);
+    CHECK_NEAR(after[Coulomb::Work], held[Coulomb::Work] + mean + above - stored, 1e-12);
+    CHECK_NEAR(after[Coulomb::Above], above, 1e-12);
+    CHECK_NEAR(after[Coulomb::Slip], held[Coulomb::Slip] + std::sqrt(square(D)), 1e-14);
 
     // At rest nothing moves, and the tangent sticks.
     double again[numbers]{};
     const Reaction rest = at(rubbing, {0.30, 0.10, 1.88}, after, again);
     CHECK(!rest.slipping);
     for (int k = 0; k < 3; ++k) CHECK_NEAR(rest.tangential[k], slip.tangential[k], 1e-14);
-    CHECK_NEAR(again[18], after[18], 1e-15);
+    CHECK_NEAR(again[Coulomb::Work], after[Coulomb::Work], 1e-15);
 
     // It lets go: what is left is the place, the distance slid and the work.
     double gone[numbers]{};
     CHECK(!at(rubbing, {0.30, 0.10, 2.1}, after, gone).held);
-    CHECK(gone[1] == 0.0 && gone[8] == 0.0 && gone[17] == after[17] && gone[20] == after[20] && gone[21] == 0.0);
-    CHECK(gone[19] == 50.0 * 0.4);  // as of a place that was never held
+    CHECK(gone[Coulomb::Held] == 0.0 && gone[Coulomb::Traction] == 0.0 && gone[Coulomb::Slip] == after[Coulomb::Slip]
+          && gone[Coulomb::Above] == after[Coulomb::Above] && gone[Coulomb::Limit] == 0.0);
+    CHECK(gone[Coulomb::Stiffness] == 50.0 * 0.4);  // as of a place that was never held
     // Half of the traction that it had still works on the way, and what was stored is lost to it.
-    CHECK_NEAR(gone[18], after[18] - 0.5 * slip.tangential[2] * 0.22 + square(slip.tangential) / (2.0 * after[19]),
+    CHECK_NEAR(gone[Coulomb::Work],
+               after[Coulomb::Work] - 0.5 * slip.tangential[2] * 0.22
+                   + square(slip.tangential) / (2.0 * after[Coulomb::Stiffness]),
                1e-14);
     // Loads that replace the tool do that work, and take what was stored.
     rubbing.leave({0.3, 0.1, 2.1}, after, gone);
     rubbing.forget_work(after, gone);
-    CHECK(gone[18] == after[18] && rubbing.rubbing(gone).stored == 0.0);
+    CHECK(gone[Coulomb::Work] == after[Coulomb::Work] && rubbing.rubbing(gone).stored == 0.0);
 }
 
 /// A tool that is flat, under a pressure of 5 or another one, in any pose.
@@ -143,7 +149,7 @@ struct Flat {
         const Vec3 n = pose.turn(Vec3{0.0, 0.0, 1.0}), place = pose.to_space({x, y, -pressure / 50.0});
         const Mat3 H{};
         double trial[numbers]{};
-        std::copy_n(state + 14, 3, trial + 14);
+        std::copy_n(state + Coulomb::Change, 3, trial + Coulomb::Change);
         Reaction reaction{};
         reaction.held = rubbing.respond({-pressure / 50.0, place, n, H, pose}, 1.0, state, trial, reaction);
         CHECK(reaction.held);
@@ -151,8 +157,8 @@ struct Flat {
         std::copy_n(trial, numbers, state);
         return reaction;
     }
-    double slip() const { return state[17]; }
-    double work() const { return state[18]; }
+    double slip() const { return state[Coulomb::Slip]; }
+    double work() const { return state[Coulomb::Work]; }
 };
 
 /// Under a constant pressure the work is the bound times the way less the elastic slip, in few increments or in many.
@@ -174,14 +180,15 @@ void check_slides() {
     const double before = growing.work(), stored = bound * elastic / 2.0;
     growing.at(2.0, 0.0, 10.0);
     CHECK_NEAR(growing.work(), before + 1.5 * bound - (2.0 * stored - stored), 1e-14);
-    CHECK_NEAR(growing.state[20], 0.5 * bound * (1.0 - elastic), 1e-14);  // all of it from the beginning of the slide
+    CHECK_NEAR(growing.state[Coulomb::Above], 0.5 * bound * (1.0 - elastic),
+               1e-14);  // all of it from the beginning of the slide
     // One that falls below the traction while it sticks: it slips at the mean of both.
     Flat falling;
     falling.at(0.0, 0.0, 10.0), falling.at(0.04, 0.0, 10.0);
     CHECK_NEAR(falling.work(), 0.0, 1e-15);
     falling.at(0.04, 0.0, 5.0);
-    CHECK(falling.state[20] == 0.0);
-    CHECK(falling.state[19] == 60.0);  // the stiffness stays that of the largest bound
+    CHECK(falling.state[Coulomb::Above] == 0.0);
+    CHECK(falling.state[Coulomb::Stiffness] == 60.0);  // the stiffness stays that of the largest bound
     // One that falls in proportion to the way, before it slips and while it does: exact, in few increments or in many.
     for (const int increments : {1, 2, 7, 30}) {
         Flat both;
@@ -280,7 +287,7 @@ void check_multipliers() {
     ask(z, state, &t);
     std::copy_n(state, numbers, read);
     rubbing.put_wanted(trial, read);
-    CHECK(read[14] == trial[14] && read[14] != 0.0);
+    CHECK(read[Coulomb::Change] == trial[Coulomb::Change] && read[Coulomb::Change] != 0.0);
     const Vec3 taken = ask(back, state);  // the multipliers bear it where the place first stuck
     CHECK_NEAR(square(taken), square(t), 1e-4 * square(t));
     CHECK_NEAR(rubbing.rubbing(trial).stored, 0.0, 1e-15);

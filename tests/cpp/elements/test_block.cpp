@@ -13,8 +13,7 @@ constexpr int cells = 6;  // a full batch and a part of one
 
 /// Throws where it is stretched by more than a tenth; answers like SVK elsewhere.
 struct Picky {
-    static constexpr int state_size = 0;
-    static std::vector<Quantity> state_names() { return {}; }
+    static constexpr QuantityTable<0> table{};
     void initial(double*) const {}
     LaneMask respond(const Vec<Lanes, 6>& E, const Lanes* state, Vec<Lanes, 6>& S, Mat<Lanes, 6, 6>& CC,
                      Lanes* trial) const {
@@ -26,8 +25,7 @@ struct Picky {
 
 /// Fails unless e_1 lies along y, the element is 2 x 2 and the step is a quarter.
 struct Curious {
-    static constexpr int state_size = 0;
-    static std::vector<Quantity> state_names() { return {}; }
+    static constexpr QuantityTable<0> table{};
     void initial(double*) const {}
     LaneMask respond(const Vec<Lanes, 6>& E, const Lanes* state, Vec<Lanes, 6>& S, Mat<Lanes, 6, 6>& CC, Lanes* trial,
                      const Point<Lanes>& point) const {

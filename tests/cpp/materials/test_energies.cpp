@@ -74,12 +74,15 @@ void check_logarithmic_energy() {
     const Vec3 direction{1.0, -0.45, 0.2};
     for (const double size : {1e-13, 1e-8, 1e-4, 2e-3, 0.01, 0.0125, 0.0135, 0.014, 0.02, 0.3}) {
         for (const double metric : {1.0, 1.7}) {  // a plastic stretch of the first axis, at constant volume
-            const std::array<double, 7> state{metric, 1.0 / metric, 1.0, 0.0, 0.0, 0.0, 0.1};
+            std::array<double, J2::size> state;
+            law.initial(state.data());
+            state[J2::Metric] = metric, state[J2::Metric + 1] = 1.0 / metric, state[J2::Eqps] = 0.1;
             Voigt E{};
             Vec3 eps;
             for (int i = 0; i < 3; ++i) {
                 eps[i] = size * direction[i];
-                E[i] = 0.5 * (std::expm1(2.0 * eps[i]) / state[i] + (1.0 - state[i]) / state[i]);
+                const double m = state[J2::Metric + i];
+                E[i] = 0.5 * (std::expm1(2.0 * eps[i]) / m + (1.0 - m) / m);
             }
             const double trace = eps[0] + eps[1] + eps[2];
             const double expected = 0.5 * kappa * trace * trace + mu * (dot(eps, eps) - trace * trace / 3.0);

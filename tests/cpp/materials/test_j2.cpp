@@ -17,11 +17,11 @@ const J2 elastic_law{175e3, 80.77e3, LinearVoce{1e9, 0, 1e9, 0}};
 struct Answer {
     Voigt S;
     Voigt66 CC;
-    std::array<double, 7> trial;
+    std::array<double, J2::size> trial;
 };
 
 /// A plastic metric of determinant one, and a strain whose elastic part is `size`.
-void random_state(double size, double plastic, Voigt& E, std::array<double, 7>& state) {
+void random_state(double size, double plastic, Voigt& E, std::array<double, J2::size>& state) {
     Mat3 F{{1, 0, 0, 0, 1, 0, 0, 0, 1}};
     for (double& entry : F.a) entry += plastic * normal();
     const double scale = std::cbrt(1.0 / det(F));
@@ -35,7 +35,7 @@ void random_state(double size, double plastic, Voigt& E, std::array<double, 7>& 
     const Mat3 G = inverse(F);
     for (int p = 0; p < 6; ++p) {
         const auto [i, j] = voigt_pair[p];
-        state[p] = P(i, j);
+        state[J2::Metric + p] = P(i, j);
         double metric = i == j ? -1.0 : 0.0, strain = 0.0;
         for (int k = 0; k < 3; ++k) {
             metric += G(k, i) * G(k, j);
@@ -43,7 +43,7 @@ void random_state(double size, double plastic, Voigt& E, std::array<double, 7>& 
         }
         E[p] = (p < 3 ? 1.0 : 2.0) * (0.5 * metric + strain);
     }
-    state[6] = 0.01;
+    state[J2::Eqps] = 0.01;
 }
 
 double largest(const auto& values) {
@@ -57,11 +57,11 @@ void check_fast_path() {
         for (const double size : {1e-12, 1e-8, 1e-5, 1e-3, 2e-3, 4e-3})
             for (int sample = 0; sample < 50; ++sample) {
                 Voigt E;
-                std::array<double, 7> state;
+                std::array<double, J2::size> state;
                 random_state(size, plastic, E, state);
                 Answer fast, roots;
                 CHECK(elastic_law.respond(E, state.data(), fast.S, fast.CC, fast.trial.data()));
-                const auto y = yield_stress(elastic_law.hardening, state[6]);
+                const auto y = yield_stress(elastic_law.hardening, state[J2::Eqps]);
                 CHECK(elastic_law.respond_by_roots(E, state.data(), y, roots.S, roots.CC, roots.trial.data()));
                 // Elastic strains that are differences of metrics have the absolute accuracy of their round-off.
                 const double metrics = 1.0 + 100.0 * plastic;
@@ -70,7 +70,7 @@ void check_fast_path() {
                 for (int p = 0; p < 6; ++p) CHECK_NEAR(fast.S[p], roots.S[p], of_stress);
                 for (int i = 0; i < 36; ++i)
                     CHECK_NEAR(fast.CC.a[i], roots.CC.a[i], 1e-14 * metrics * largest(roots.CC.a));
-                for (int k = 0; k < 7; ++k) CHECK_NEAR(fast.trial[k], state[k], 0.0);
+                for (int k = 0; k < J2::size; ++k) CHECK_NEAR(fast.trial[k], state[k], 0.0);
             }
 }
 
@@ -78,7 +78,7 @@ void check_fast_path() {
 void check_fast_tangent() {
     for (int sample = 0; sample < 20; ++sample) {
         Voigt E;
-        std::array<double, 7> state;
+        std::array<double, J2::size> state;
         random_state(2e-3, 0.2, E, state);
         Answer at;
         CHECK(elastic_law.respond(E, state.data(), at.S, at.CC, at.trial.data()));
@@ -99,21 +99,21 @@ void check_fast_tangent() {
 /// An elastic, a plastic, a large and an inverted strain side by side: each lane answers as if it were alone.
 void check_lanes() {
     std::array<Voigt, lane_count> E;
-    std::array<std::array<double, 7>, lane_count> states;
+    std::array<std::array<double, J2::size>, lane_count> states;
     for (int lane = 0; lane < lane_count; ++lane)
         random_state(std::array{1e-4, 5e-3, 0.1, 0.0}[lane % 4], 0.1, E[lane], states[lane]);
     E[3] = {-0.7, 0, 0, 0, 0, 0};
     const auto ask = [&](const std::array<int, lane_count>& who, Vec<Lanes, 6>& S, Mat<Lanes, 6, 6>& CC,
-                         std::array<Lanes, 7>& trial) {
+                         std::array<Lanes, J2::size>& trial) {
         Vec<Lanes, 6> strain;
-        std::array<Lanes, 7> state;
+        std::array<Lanes, J2::size> state;
         for (int p = 0; p < 6; ++p) strain[p] = by_lane([&](int lane) { return E[who[lane]][p]; });
-        for (int k = 0; k < 7; ++k) state[k] = by_lane([&](int lane) { return states[who[lane]][k]; });
+        for (int k = 0; k < J2::size; ++k) state[k] = by_lane([&](int lane) { return states[who[lane]][k]; });
         return law.respond(strain, state.data(), S, CC, trial.data());
     };
     Vec<Lanes, 6> S, S_alone;
     Mat<Lanes, 6, 6> CC, CC_alone;
-    std::array<Lanes, 7> trial, trial_alone;
+    std::array<Lanes, J2::size> trial, trial_alone;
     std::array<int, lane_count> who;
     for (int lane = 0; lane < lane_count; ++lane) who[lane] = lane;
     const LaneMask good = ask(who, S, CC, trial);
@@ -121,10 +121,10 @@ void check_lanes() {
     for (int lane = 0; lane < 3; ++lane) {
         who.fill(lane);
         CHECK(ask(who, S_alone, CC_alone, trial_alone)[0]);
-        CHECK(lane == 0 ? trial[6][lane] == 0.01 : trial[6][lane] > 0.01);
+        CHECK(lane == 0 ? trial[J2::Eqps][lane] == 0.01 : trial[J2::Eqps][lane] > 0.01);
         for (int p = 0; p < 6; ++p) CHECK_NEAR(S[p][lane], S_alone[p][0], 0.0);
         for (int i = 0; i < 36; ++i) CHECK_NEAR(CC.a[i][lane], CC_alone.a[i][0], 0.0);
-        for (int k = 0; k < 7; ++k) CHECK_NEAR(trial[k][lane], trial_alone[k][0], 0.0);
+        for (int k = 0; k < J2::size; ++k) CHECK_NEAR(trial[k][lane], trial_alone[k][0], 0.0);
     }
 }
 
@@ -137,7 +137,7 @@ void check_unsolved() {
         steep.stress.push_back(100.0 + 10.0 * k);
     }
     const J2 brittle{175e3, 80.77e3, steep};
-    std::array<double, 7> virgin;
+    std::array<double, J2::size> virgin;
     brittle.initial(virgin.data());
     const Voigt elastic{1e-5, 0, 0, 0, 0, 0}, plastic{6.6e-3, -3.3e-3, -3.3e-3, 0, 0, 0};
     Answer at;
@@ -145,9 +145,9 @@ void check_unsolved() {
     CHECK(!brittle.respond(plastic, virgin.data(), at.S, at.CC, at.trial.data()));
     Vec<Lanes, 6> strain, S;
     Mat<Lanes, 6, 6> CC;
-    std::array<Lanes, 7> state, trial;
+    std::array<Lanes, J2::size> state, trial;
     for (int p = 0; p < 6; ++p) strain[p] = by_lane([&](int lane) { return lane == 2 ? plastic[p] : elastic[p]; });
-    for (int k = 0; k < 7; ++k) state[k] = virgin[k];
+    for (int k = 0; k < J2::size; ++k) state[k] = virgin[k];
     const LaneMask answered = brittle.respond(strain, state.data(), S, CC, trial.data());
     for (int lane = 0; lane < lane_count; ++lane) CHECK(answered[lane] == (lane != 2));
     const J2 nameless{175e3, 80.77e3, LinearVoce{160.0, std::nan(""), 160.0, 0.0}};

@@ -77,7 +77,7 @@ struct Point {
     Voigt66 C;
 
     Point(const MetalParts& parts, const Yield& yield)
-        : metal(parts, yield), before(metal.state_size), after(metal.state_size) {
+        : metal(parts, yield), before(metal.table.size()), after(metal.table.size()) {
         metal.initial(after.data());
     }
     void advance(const Voigt& change, double step = time_step) {
@@ -91,7 +91,8 @@ struct Point {
         return metal.yield.basis.components(t, 1.0);
     }
     Deviator<double> stress() const { return metal.yield.basis.components(T, 1.0); }
-    double dp() const { return after[6] - before[6]; }
+    double eqps() const { return after[MetalHistory::Eqps]; }
+    double dp() const { return eqps() - before[MetalHistory::Eqps]; }
 
     /// CC against central differences from the state before.
     void check_tangent() const {
@@ -126,23 +127,27 @@ void check_chaboche(const Yield& yield, const RateFactor& rate) {
         Point<Yield> at(parts, yield);
         for (int increment = 0; increment < 3; ++increment) {
             at.advance(random_strain(std::array{1e-2, 3e-2, 4e-3}[increment]));
-            const double p = at.after[6], dp = at.dp(), share = 1.0 + (0.43 - 1.0) * std::exp(-6.0 * p);
+            const double p = at.eqps(), dp = at.dp(), share = 1.0 + (0.43 - 1.0) * std::exp(-6.0 * p);
             CHECK(dp > 0.0);
             Deviator<double> xi = at.stress(), n;
             for (int part = 0; part < 2; ++part)
-                for (int i = 0; i < 5; ++i) xi[i] -= at.deviator(at.after, 8 + 6 * part)[i];
+                for (int i = 0; i < 5; ++i) xi[i] -= at.deviator(at.after, at.metal.table.back_stress[part])[i];
             double phi;
             yield.gradient(xi, phi, n);
             const double y = (300.0 - 170.0 * std::exp(-12.0 * p)) * rate_factor(rate, dp);
             CHECK_NEAR(phi / y, 1.0, 1e-12);
             for (int part = 0; part < 2; ++part) {
                 const auto [modulus, recall] = two.parts[part];
-                const auto now = at.deviator(at.after, 8 + 6 * part), then = at.deviator(at.before, 8 + 6 * part);
+                const int place = at.metal.table.back_stress[part];
+                const auto now = at.deviator(at.after, place), then = at.deviator(at.before, place);
                 for (int i = 0; i < 5; ++i)
                     CHECK_NEAR(now[i] - then[i], dp * (modulus * share * xi[i] / phi - recall * now[i]), 1e-9);
             }
             Voigt elastic, flow;
-            for (int k = 0; k < 6; ++k) elastic[k] = at.h[k] - at.after[k], flow[k] = at.after[k] - at.before[k];
+            for (int k = 0; k < 6; ++k) {
+                const int place = MetalHistory::PlasticStrain + k;
+                elastic[k] = at.h[k] - at.after[place], flow[k] = at.after[place] - at.before[place];
+            }
             const double modulus = 1.0 - 0.25 * (1.0 - std::exp(-40.0 * p));
             const auto e = yield.basis.components(elastic, 0.5), de = yield.basis.components(flow, 0.5);
             for (int i = 0; i < 5; ++i) {
@@ -184,12 +189,34 @@ void check_work(const RateFactor& rate) {
     CHECK(std::abs(error_of_work(rate, {0.6, 200}, 400)) < 2e-4);
 }
 
+/// Which parts a metal has, one behind the other, and no point needs more than what is set aside for the longest one.
+void check_history() {
+    const auto names = [](const MetalParts& parts) {
+        std::string all;
+        for (const auto& [name, size] : MetalHistory(parts).list()) all += name + ' ' + std::to_string(size) + ' ';
+        return all;
+    };
+    const std::string always = "plastic_strain 6 eqps 1 ", work = "kinematic_work 1 ";
+    CHECK(names({kappa, mu, voce}) == always);
+    CHECK(names({kappa, mu, voce, {}, falling}) == always + work);
+    CHECK(names({kappa, mu, voce, {}, {}, {}, johnson_cook}) == always + work + "overstress 1 ");
+    CHECK(names({kappa, mu, voce, two}) == always + work + "back_stress_1 6 back_stress_2 6 ");
+    const Chaboche four{{{1, 1}, {2, 2}, {3, 3}, {4, 4}}};
+    const MetalParts longest{kappa, mu, voce, four, falling, spcc, johnson_cook};
+    const MetalHistory table(longest);
+    int size = 0;
+    for (const Quantity& quantity : table.list()) size += quantity.size;
+    CHECK(size == table.size() && size == MetalHistory::largest());
+    CHECK(table.back_stress[3] == table.back_stress[0] + 18 && table.inner_back_stress == table.back_stress[3] + 6);
+    CHECK(table.stagnation_centre == table.bounding_growth + 1 && table.overstress == table.stagnation_radius + 1);
+}
+
 /// Johnson and Cook below the reference rate: no factor.
 void check_slow() {
     const MetalParts slow{kappa, mu, voce, {}, {}, {}, {RateFactor::Kind::JohnsonCook, 1e3, 0.5}};
     Point<QuadraticYield> at(slow, hill());
     at.advance({2e-2, -1e-2, -1e-2, 0, 0, 0});
-    CHECK_NEAR(at.metal.yield.value(at.stress()) / yield_stress(voce, at.after[6]).value, 1.0, 1e-12);
+    CHECK_NEAR(at.metal.yield.value(at.stress()) / yield_stress(voce, at.eqps()).value, 1.0, 1e-12);
 }
 
 /// Two surfaces in tension, back and on: both back stresses by backward Euler; the bounding surface grows only where its centre lies on
@@ -198,8 +225,10 @@ template <class Yield>
 void check_two_surfaces(const Yield& yield) {
     constexpr double C = 500, B = 168, growth = 190, b = 9, m = 12, share = 0.5, Y = 124;
     Point<Yield> at({kappa, mu, perfect, {{{m * b, m}}}, {}, spcc}, yield);
-    constexpr int beta = 8, inner = 14, bounding = 20, centre = 21, radius = 27;
-    CHECK(at.metal.state_size == 28);
+    const MetalHistory& table = at.metal.table;
+    const int beta = table.back_stress[0], inner = table.inner_back_stress, bounding = table.bounding_growth;
+    const int centre = table.stagnation_centre, radius = table.stagnation_radius;
+    CHECK(radius + 1 == table.size() && table.overstress < 0);
     int grown = 0, stagnant = 0;
     const auto distance = [&](const Deviator<double>& d) { return std::sqrt(1.5 * dot(d, d)); };
     for (int increment = 0; increment < 90; ++increment) {
@@ -244,6 +273,7 @@ void check_two_surfaces(const Yield& yield) {
 
 int main() {
     check_yield_functions();
+    check_history();
     for (const RateFactor& rate : {RateFactor{}, johnson_cook, cowper_symonds}) {
         check_chaboche(hill(), rate);
         check_chaboche(aa2090(), rate);

@@ -11,7 +11,7 @@
 #include "umform/multifrontal/schedule.hpp"
 #include "umform/multifrontal/storage.hpp"
 
-using namespace umform;
+using namespace umform::multifrontal;
 
 namespace {
 
@@ -104,7 +104,7 @@ struct Grid {
 void check_last_front() {
     const Grid grid(40);
     const Rows rows{grid.indptr.data(), grid.indices.data(), static_cast<int>(grid.indptr.size()) - 1};
-    const Quotient quotient = make_quotient(rows.indptr, rows.indices, rows.n);
+    const umform::ordering::Quotient quotient = umform::ordering::make_quotient(rows.indptr, rows.indices, rows.n);
     const Plan plan(rows, true, quotient, eliminate(quotient));
     const Schedule schedule(plan);
     const Front& last = plan.fronts.back();

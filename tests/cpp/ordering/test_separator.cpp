@@ -7,7 +7,7 @@
 #include "check.hpp"
 #include "umform/ordering/separator.hpp"
 
-using namespace umform;
+using namespace umform::ordering;
 
 namespace {
 

@@ -4,10 +4,13 @@ import json
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
 
 import pytest
+
+from umform.results.quantity import Band, Quantity
 
 PAGE = Path(str(files("umform.bench").joinpath("page")))
 
@@ -41,6 +44,19 @@ def test_page_names_no_other_server():
     for path in PAGE.iterdir():
         text = path.read_text(encoding="utf-8")
         assert not re.findall(r"https?://(?!www\.w3\.org/)", text), path.name
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="no Node to run JavaScript")
+def test_quantities_are_shown_as_in_the_terminal():
+    one = Quantity("height", "mm", 2, value=12.3456)
+    bare = replace(one, decimals=None, value=0.00275849)
+    shown = [one, replace(one, band=Band(0.123, "mesh", middle=11.0)), bare, replace(bare, band=Band(0.00012, "mesh"))]
+    script = "const [module, given] = process.argv.slice(1); import(module).then(({ numberText, errorText }) => "
+    script += "console.log(JSON.stringify(JSON.parse(given).map((one) => [numberText(one), errorText(one)]))));"
+    arguments = [(PAGE / "quantities.js").as_uri(), json.dumps([quantity.record() for quantity in shown])]
+    command = ["node", "--experimental-default-type=module", "--no-warnings", "-e", script, *arguments]
+    page = json.loads(subprocess.run(command, check=True, timeout=60, capture_output=True, text=True).stdout)
+    assert page == [[q.text, "" if q.band is None else q.error_text] for q in shown]
 
 
 def read_in_the_page(texts, language):

@@ -7,14 +7,14 @@ from typer.testing import CliRunner
 
 from umform.cli import app
 from umform.cli.typed import as_typed
-from umform.deck.templates import template
+from umform.problem.templates import template
 
 TYPED = [
     ("bend --stroke 8.5", 1, ["or --bottoming"]),
     ("bend --stroke 3 --material AA6016-T4", 1, ["--rolling 90 for", "--rolling 0 for"]),
     ("bend --stroke 3 --punch-radius 20", 1, ["a smaller --punch-radius"]),
     ("bend --stroke 3 --element FOO", 1, ["where:  --element", "cause:"]),
-    ("bend --stroke 3 --material S690", 1, ["where:  --material", "umform metal list", "--swift", "cause:"]),
+    ("bend --stroke 3 --material S690", 1, ["where:  --material", "umform metal list", "--curve", "cause:"]),
     ("metal show S690", 1, ["where:  umform metal show", "umform metal list"]),
     ("bend --stroke 3 --material DC04 --yield-stress 200", 1, ["cause:", "leave one of them out"]),
     ("bend --stroke 3 --swift 520,0.004", 1, ["2 numbers are given", "520,0.004,0.22"]),

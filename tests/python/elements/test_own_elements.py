@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 from umform import J2, SVK, Linear, Model, Move, UserLaw, solve
-from umform.elements import Element, Term, Tying, at_order, element
+from umform.elements import Element, Mode, Tying, at_order, element
 from umform.errors import InvalidValue
 from umform.mesh import strip
 from umform.model.element_check import check_element
 
 STEEL = J2(E=206e3, nu=0.3, hardening=Linear(200.0, 2000.0))
-SHEAR = ((Term("12", 1),), (Term("12", 0, 1),))
+SHEAR = (Mode("12", 1), Mode("12", 0, 1))
 ANS = element("ANS3DEAS")
-BILINEAR = tuple((Term("33", a, b, 1),) for b in (0, 1) for a in (0, 1))
+BILINEAR = tuple(Mode("33", a, b, 1) for b in (0, 1) for a in (0, 1))
 
 
 def model_of(made, material=STEEL, **options):
@@ -31,7 +31,7 @@ def layered(made):
         (layered(ANS), 44),
         (replace(ANS, name="more", modes=ANS.modes + SHEAR), 46),
         (Element("own", "hex8", ANS.tying, SHEAR + BILINEAR), 46),
-        (Element("own", "hex8", ANS.tying, (*BILINEAR, (Term("33", c=3),)), thickness_order=3), 44),
+        (Element("own", "hex8", ANS.tying, (*BILINEAR, Mode("33", c=3)), thickness_order=3), 44),
         (replace(ANS, complete=False), 4),
         (Element("none", "hex8", ANS.tying, SHEAR), 2),
     ],
@@ -43,7 +43,7 @@ def test_own_elements_have_the_complete_order_with_a_plastic_law(made, modes):
     assert model.block.modes == modes
     assert model.body.element.thickness_order == (11 if complete else made.thickness_order)
     assert model.body.element.tying == made.tying
-    others = {mode for mode in made.modes if mode[0].component != "33"}
+    others = {mode for mode in made.modes if mode.polynomials[0].component != "33"}
     assert others <= set(model.body.element.modes)
     graded = model_of(made, thickness_points=18, thickness_rule="graded")
     assert set(made.modes) <= set(graded.body.element.modes)
@@ -85,9 +85,9 @@ def test_a_renamed_element_springs_back_as_that_of_the_catalogue():
 @pytest.mark.parametrize(
     ("modes", "words"),
     [
-        (((Term("11", 4), Term("11", factor=-0.2)),), "mean of an enhanced mode"),  # of the cube, not of the points
-        (((Term("11", 2), Term("11", factor=-1 / 3)),), "vanishes"),
-        (((Term("33", c=4),),), None),
+        ((Mode("11", 4) + Mode("11", factor=-0.2),), "mean of an enhanced mode"),  # of the cube, not of the points
+        ((Mode("11", 2) + Mode("11", factor=-1 / 3),), "vanishes"),
+        ((Mode("33", c=4),), None),
     ],
 )
 def test_modes_are_checked_under_the_rule_in_use(modes, words):
@@ -104,8 +104,8 @@ def test_modes_are_checked_under_the_rule_in_use(modes, words):
 
 
 def test_a_mode_without_mean_at_the_points_is_taken():
-    centred = (Term("11", 2, 1), Term("11", 0, 1, factor=-1.0))
-    nine = (Term("11", 4), Term("11", factor=-0.2))  # 3 x 3 points are exact
+    centred = Mode("11", 2, 1) + Mode("11", 0, 1, factor=-1.0)
+    nine = Mode("11", 4) + Mode("11", factor=-0.2)  # 3 x 3 points are exact
     assert Element("own", "hex8", modes=(centred,), surface_points=3).thickness_order == 0
     assert Element("own", "hex18", modes=(nine,)).surface_points == 3
 
@@ -113,7 +113,8 @@ def test_a_mode_without_mean_at_the_points_is_taken():
 @pytest.mark.parametrize(
     ("parts", "words"),
     [
-        ({"modes": (Term("11", 1),)}, "a mode is a tuple of terms"),
+        ({"modes": Mode("11", 1)}, "with the comma"),
+        ({"modes": ((Mode("11", 1),),)}, "tuple of Mode"),
         ({"tying": (Tying("13", r=0.0, s=(-1.0, 1.0)),)}, "abscissae of a tying row are tuples"),
     ],
 )

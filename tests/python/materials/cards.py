@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from umform import materials as mt
+from umform.quantities import named
 
 STEEL = {"E": 210e3, "nu": 0.3}
 ALUMINIUM = {"E": 70e3, "nu": 0.33}
@@ -73,6 +74,11 @@ CARDS |= {
     )
     for f, m in (("mises", None), ("hill48", None), ("hill48", FALLING), ("aa2090", None))
 }
+
+
+def eqps(law, history):
+    """Accumulated plastic strain (n, 1) of histories (n, size) of a law."""
+    return named(history, law.quantities)["eqps"]
 
 
 def voigt(A, shear=1.0):

@@ -10,6 +10,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from umform import materials as mt
+from umform.quantities import named
 
 _SPEC = importlib.util.spec_from_file_location("cards", Path(__file__).with_name("cards.py"))
 cards = importlib.util.module_from_spec(_SPEC)
@@ -67,9 +68,10 @@ def test_in_simple_shear_the_two_depart():
 def test_tangent_where_principal_stretches_meet(E):
     """Shears of T in the principal axes ask for all second divided cards.differences."""
     law = mt.Metal(**cards.STEEL, hardening=cards.CURVES["voce"], yield_function=cards.FUNCTIONS["hill48"]).law()
-    start = np.random.default_rng(1).normal(size=(1, 7)) * 0.02
-    start[:, 6] = 0.1
-    start[:, 2] = -start[:, 0] - start[:, 1]
+    start = np.random.default_rng(1).normal(size=(1, law.state_size)) * 0.02
+    plastic, eqps = named(start, law.quantities).values()
+    plastic[:, 2] = -plastic[:, 0] - plastic[:, 1]
+    eqps[:] = 0.1
     E = np.atleast_2d(np.asarray(E, dtype=float))
     _, CC, _ = law.respond(E, start)
     assert np.abs(cards.differences(law, E, start, 2e-5) - CC).max() < 1e-8 * np.abs(CC).max()

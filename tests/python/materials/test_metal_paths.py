@@ -41,7 +41,7 @@ def tension_shear(metal, stresses, steps):
     stress[:, 0], stress[:, 3] = rows.T
     found = mt.point_path(metal, np.full_like(stress, np.nan), stress)
     ends = slice(steps - 1, None, steps)
-    return np.stack([found.strain[ends, 0], 0.5 * found.strain[ends, 3], found.state[ends, 6]], axis=1)
+    return np.stack([found.strain[ends, 0], 0.5 * found.strain[ends, 3], found.history["eqps"][ends, 0]], axis=1)
 
 
 def test_tension_and_shear_with_isotropic_hardening():

@@ -55,7 +55,7 @@ def test_newton_is_quadratic_and_the_balance_closes(card):
     assert len(result.rows) == 11  # no increment was cut
     assert uf.fields.point_fields(model).eqps.max() > 0.05
     assert np.abs(result.balance().drift).max() < 0.02
-    assert set(cards.CARDS[card].law().state) == set(uf.fields.point_fields(model).history)
+    assert set(cards.CARDS[card].law().quantities) == set(uf.fields.point_fields(model).history)
 
 
 def test_rotation_of_the_sheet_changes_nothing():
@@ -77,7 +77,7 @@ def test_rotation_of_the_sheet_changes_nothing():
 @pytest.mark.parametrize(
     ("make", "text"),
     [
-        (lambda: mt.Hill48(r0=-0.5, r45=1, r90=1), "r0 must be positive"),
+        (lambda: mt.Hill48(r0=-0.5, r45=1, r90=1), "r-value along the rolling direction must be positive"),
         (lambda: mt.Hill48.from_stresses(1, 1, 1.9, 2.4), "not convex"),
         (lambda: mt.Hill48.from_stresses(1, 2.5, 1, 1), "not convex"),
         (lambda: mt.Hosford(1.5), "from 2 to 20"),

@@ -5,6 +5,7 @@ import pytest
 
 import umform as uf
 from umform.errors import InvalidValue, NoConvergence
+from umform.quantities import named
 
 E, NU, YIELD, HARDENING = 206e3, 0.3, 200.0, 2000.0
 MU, KAPPA = E / (2 * (1 + NU)), E / (3 * (1 - 2 * NU))
@@ -13,8 +14,12 @@ DEVIATOR = np.diag([1.0, 1.0, 1.0, 0.5, 0.5, 0.5]) - np.outer(ONE, ONE) / 3.0
 ENGINEERING = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])
 
 
+STATE = {"plastic_strain": 6, "eqps": 1}
+
+
 def radial_return(strain, history):
-    plastic, eqps = history[:, :6], history[:, 6]
+    plastic, eqps = named(history, STATE).values()
+    eqps = eqps[:, 0]
     trial = 2.0 * MU * (strain - plastic) @ DEVIATOR
     mises = np.sqrt(1.5 * np.einsum("qi,i,qi->q", trial, ENGINEERING, trial))
     step = np.maximum(mises - YIELD - HARDENING * eqps, 0.0) / (3.0 * MU + HARDENING)
@@ -30,7 +35,7 @@ def radial_return(strain, history):
     return stress, tangent, np.column_stack([new, eqps + step])
 
 
-SMALL = uf.UserLaw(radial_return, state={"plastic_strain": 6, "eqps": 1}, name="own J2")
+SMALL = uf.UserLaw(radial_return, state=STATE, name="own J2")
 METAL = uf.Metal(E, NU, hardening=uf.Linear(YIELD, HARDENING))
 
 

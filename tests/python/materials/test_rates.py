@@ -95,7 +95,7 @@ def test_tangent_against_differences(parts, rate):
     for number, time in enumerate((1e-3, 1.0, 1e3)):
         E = E + cards.increments(6, 0.03, seed=number)
         _, CC, after = law.respond(E, state, step=time)
-        assert (after[:, 6] > state[:, 6]).all()
+        assert (cards.eqps(law, after) > cards.eqps(law, state)).all()
         assert np.abs(cards.differences(law, E, state, 1e-6, time=time) - CC).max() < 3e-8 * np.abs(CC).max()
         state = after
 
@@ -144,7 +144,7 @@ def test_an_element_that_is_pulled_over_the_time_of_a_step(speed):
     [
         (lambda: mt.CowperSymonds(-40.0, 5.0), "must be positive"),
         (lambda: mt.CowperSymonds(40.0, 0.2), "from 1 to 20"),
-        (lambda: mt.CowperSymonds(40.0, math.nan), "not a finite number"),
+        (lambda: mt.CowperSymonds(40.0, math.nan), "from 1 to 20"),
         (lambda: mt.JohnsonCook(0.0, 0.01), "must be positive"),
         (lambda: mt.JohnsonCook(1.0, 0.0), "from 0.001"),
         (lambda: mt.Metal(**cards.STEEL, hardening=mt.Perfect(200.0), rate=40.0), "rate must be a rate factor"),

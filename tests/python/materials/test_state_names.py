@@ -19,6 +19,11 @@ def grown(E, state):
     return E, np.tile(np.eye(6), (len(E), 1, 1)), np.concatenate([E, size[:, None]], axis=1)
 
 
+def columns_of(model, first, end):
+    """The history by its places: what the names must find."""
+    return model.block.state[..., first:end]
+
+
 def stretched(law):
     model = Model(strip(2.0, 1.0, 0.2, (2, 1)), "DISP3D", material=law)
     model.fix("x0")
@@ -41,16 +46,16 @@ def stretched(law):
 )
 def test_each_law_names_its_history_in_order(law, names):
     native = law.law()
-    assert list(native.state.items()) == list(names.items())
+    assert list(native.quantities.items()) == list(names.items())
     assert native.state_size == sum(names.values()) == len(native.initial())
 
 
 def test_named_history_of_a_users_law():
     model = stretched(UserLaw(grown, state={"strain": 6, "eqps": 1}))
     at = point_fields(model)
-    np.testing.assert_array_equal(at.history["strain"], model.block.state[..., :6])
+    np.testing.assert_array_equal(at.history["strain"], columns_of(model, 0, 6))
     np.testing.assert_allclose(at.history["strain"], at.E, atol=1e-15)
-    np.testing.assert_array_equal(at.eqps, model.block.state[..., 6])
+    np.testing.assert_array_equal(at.eqps, columns_of(model, 6, 7)[..., 0])
     assert at.eqps.min() > 0.01
 
 
@@ -60,7 +65,7 @@ def test_the_plastic_strain_goes_by_its_name_not_by_its_place():
         return S, CC, np.roll(new, 1, axis=1)
 
     model = stretched(UserLaw(first, state={"eqps": 1, "strain": 6}))
-    np.testing.assert_array_equal(point_fields(model).eqps, model.block.state[..., 0])
+    np.testing.assert_array_equal(point_fields(model).eqps, columns_of(model, 0, 1)[..., 0])
     assert point_fields(stretched(UserLaw(first, state={"size": 1, "strain": 6}))).eqps is None
 
 
@@ -70,7 +75,7 @@ def test_j2_has_its_metric_and_its_plastic_strain():
     assert list(parts) == ["Cp_inv", "eqps"]
     assert parts["Cp_inv"].shape == (2, model.block.points, 6)
     assert parts["eqps"].min() > 0.01
-    assert model.block.state_names == {"Cp_inv": 6, "eqps": 1}
+    assert model.block.quantities == {"Cp_inv": 6, "eqps": 1}
 
 
 def test_initial_values_go_with_the_names():

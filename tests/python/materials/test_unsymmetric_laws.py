@@ -21,9 +21,10 @@ ELEMENTS = ["DISP3D", "ANS3DEAS", "EAS3DEAS", "MI9K3DEAS", "BEND8"]
 def damage(E, state):
     """Damage by the size of the strain, not by its energy: the tangent holds the product of C E and E."""
     size = np.sqrt((E * E).sum(axis=1))
-    largest = np.maximum(size, state[:, 0])
+    before = state.ravel()  # its only number
+    largest = np.maximum(size, before)
     left = 0.4 + 0.6 * np.exp(-largest / SCALE)
-    slope = np.where(size > state[:, 0], -0.6 / SCALE * np.exp(-largest / SCALE), 0.0)
+    slope = np.where(size > before, -0.6 / SCALE * np.exp(-largest / SCALE), 0.0)
     S = E @ C
     direction = E / np.maximum(size, 1e-300)[:, None]
     CC = left[:, None, None] * C + slope[:, None, None] * S[:, :, None] * direction[:, None, :]

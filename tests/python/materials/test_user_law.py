@@ -29,9 +29,10 @@ def damage(E, state):
     """The largest energy so far takes up to half of the stiffness; it does not heal."""
     S = E @ C
     energy = 0.5 * (E * S).sum(axis=1)
-    largest = np.maximum(energy, state[:, 0])
+    before = state.ravel()  # its only number
+    largest = np.maximum(energy, before)
     left = 0.5 + 0.5 * np.exp(-largest / ENERGY)
-    slope = np.where(energy > state[:, 0], -0.5 / ENERGY * np.exp(-largest / ENERGY), 0.0)
+    slope = np.where(energy > before, -0.5 / ENERGY * np.exp(-largest / ENERGY), 0.0)
     CC = left[:, None, None] * C + slope[:, None, None] * S[:, :, None] * S[:, None, :]
     return left[:, None] * S, CC, largest[:, None]
 

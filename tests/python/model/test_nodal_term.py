@@ -10,6 +10,7 @@ from umform.errors import FileProblem, InvalidValue, RigidBodyMotion
 from umform.mesh import strip
 from umform.model import Connectivity, Model, NodalTerm, Term
 from umform.model.term import Energies, Found
+from umform.quantities import named
 from umform.run import resume, solve
 from umform.steps import Move
 
@@ -20,11 +21,11 @@ class Foam(NodalTerm):
     """Springs along z that are crushed for good beyond a force, which grows with the crush."""
 
     def __init__(self, nodes, stiffness, name="foam"):
-        super().__init__(name, nodes, history=1)
+        super().__init__(name, nodes, history={"crush": 1})
         self.stiffness = stiffness
 
     def respond(self, u, history, at):
-        k, slope, crush = self.stiffness, 1.0, history[:, 0]
+        k, slope, crush = self.stiffness, 1.0, named(history, self.quantities)["crush"][:, 0]
         beyond = np.maximum(-k * (u[:, 2] - crush) - 0.4 + slope * crush, 0.0)
         crush = crush - beyond / (k + slope)
         forces, tangents = np.zeros((len(u), 3)), np.zeros((len(u), 3, 3))
@@ -33,7 +34,7 @@ class Foam(NodalTerm):
         return forces, tangents, crush[:, None]
 
     def energy(self, u, history):
-        crush = history[:, 0]
+        crush = named(history, self.quantities)["crush"][:, 0]
         return 0.5 * self.stiffness * (u[:, 2] - crush) ** 2, 0.5 * crush**2 - 0.4 * crush
 
 

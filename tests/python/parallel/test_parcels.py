@@ -9,8 +9,6 @@ import numpy as np
 import pytest
 
 import umform as uf
-from umform.deck import load
-from umform.deck.templates import template_file
 from umform.errors import InvalidValue
 from umform.mesh import strip
 from umform.model import Body, NodalTerm
@@ -20,6 +18,8 @@ from umform.model.pressure import Pressure
 from umform.model.ties import MidLine
 from umform.parallel.cutting import Cutting
 from umform.parallel.outline import Outline
+from umform.problem import load
+from umform.problem.templates import template_file
 
 SIZE = 3
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from umform.deck import Deck
 from umform.errors import InvalidValue, NotFinite
+from umform.problem import Problem
 from umform.processes.air_bending import (
     AirBending,
     Measures,
@@ -20,12 +20,12 @@ from umform.processes.air_bending import (
     branches,
     find_stroke,
 )
-from umform.processes.air_bending.brake import INCREMENTS, build, loading
+from umform.processes.air_bending.brake import INCREMENTS, loading
 from umform.processes.air_bending.branches import Brake
-from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.formulas import shop_forces, tensile_strength
-from umform.processes.air_bending.measures import QUANTITIES
+from umform.processes.air_bending.problem import build, problem_of
 from umform.processes.air_bending.sheet import lines_along
+from umform.results.quantity import declared
 from umform.run.open_run import OpenRun
 
 COARSE = AirBending(stroke=3.0, elements_per_thickness=2.0, layers=1, increment=0.0125)
@@ -145,7 +145,7 @@ def test_the_bend_that_is_found_is_that_of_its_stroke_and_of_its_deck():
     """To the last bit, with what the trials before it have left; no part of the loading is gone twice."""
     found = find_stroke(COARSE, 150.0, progress=False).bend
     straight = air_bending(found.case, progress=False)
-    deck = Deck.read(deck_of(found.case)).build().solve(progress=False)
+    deck = Problem.read(problem_of(found.case).toml()).build().solve(progress=False)
     assert found.measures == straight.measures
     np.testing.assert_array_equal(found.path, straight.path)
     for name in deck.columns():
@@ -311,6 +311,6 @@ def test_tensile_strength_is_where_a_bar_necks():
 
 def test_all_measures_are_defined_in_the_docs():
     page = (Path(__file__).parents[3] / "docs" / "air-bending.md").read_text(encoding="utf-8")
-    assert set(QUANTITIES) == {field.name for field in fields(Measures)}
-    for name, quantity in QUANTITIES.items():
+    assert set(declared(Measures)) == {field.name for field in fields(Measures)}
+    for name, quantity in declared(Measures).items():
         assert f"| {quantity.label} | `{name}` |" in page

@@ -19,12 +19,12 @@ from umform.errors import InvalidValue
 from umform.materials import J2, Perfect
 from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.air_bending import budget as budget_module
-from umform.processes.air_bending.brake import build
-from umform.processes.air_bending.budget import Budget, error_budget, refinements
-from umform.processes.air_bending.deck import deck_of
+from umform.processes.air_bending.budget import error_budget, refinements
+from umform.processes.air_bending.changes import Budget
 from umform.processes.air_bending.files import parameters, write_files
-from umform.processes.air_bending.measures import QUANTITIES
-from umform.processes.air_bending.words import summary, summary_header
+from umform.processes.air_bending.measures import Measures
+from umform.processes.air_bending.problem import build, problem_of
+from umform.results.quantity import declared
 from umform.spec import parameters as parameters_of
 
 MOST_LAYERS, MOST_POINTS = (parameters_of(AirBending)[name].most for name in ("layers", "contact_points"))
@@ -119,18 +119,22 @@ def test_a_refined_run_that_fails_says_so(bend, monkeypatch):
 
 
 def test_tables_have_a_column_for_each_refinement(bend, errors):
-    header, rows = summary_header(errors), summary(bend.measures, 50.0, errors)
+    wide = replace(bend, budget=errors, case=replace(bend.case, width=50.0, width_elements=2))
+    header, *rows = wide.tables["Measures"]
+    assert header == ["quantity", "value", "error", *errors.changes, "unit"]
     assert {len(row) for row in rows} == {len(header)}
-    assert [row[0] for row in rows if row[0] != "force on the width"] == [q.label for q in QUANTITIES.values()]
+    labels = [one.label for one in declared(Measures).values()]
+    assert [row[0] for row in rows if row[0] != "force on the width"] == labels
     total = next(row for row in rows if row[0] == "force on the width")
-    assert "largest force (choose the press by it)" in [row[0] for row in summary(bend.measures)]
+    assert "largest force (choose the press by it)" in [row[0] for row in bend.tables["Measures"]]
+    assert f"± {errors.total('angle'):.2f}" in next(row for row in rows if row[0] == "angle")
     assert float(total[1]) == pytest.approx(bend.measures.largest_force * 0.05, abs=0.006)
 
 
 def test_all_files_are_written(tmp_path, bend, errors):
-    files = write_files(tmp_path / "out", bend, [bend.measures], errors)
+    files = write_files(tmp_path / "out", replace(bend, table=(bend.measures,), budget=errors))
     assert sorted(file.name for file in files) == sorted(
-        ["curve.csv", "table.csv", "bend.json", "bend.vtkhdf", "bend.toml", "report.html"]
+        ["curve.csv", "table.csv", "quantities.csv", "bend.json", "bend.vtkhdf", "bend.toml", "report.html"]
         + [f"{name}.{ending}" for name in ("curve", "shape", "drawing") for ending in ("png", "svg")]
     )
     record = json.loads((tmp_path / "out" / "bend.json").read_text())
@@ -145,10 +149,10 @@ def test_all_files_are_written(tmp_path, bend, errors):
     assert float(rows[-1]["stroke"]) == bend.stroke[-1]
     page = (tmp_path / "out" / "report.html").read_text()
     assert "% thrown away" in page and "<td>work of punch</td>" in page
-    assert all(quantity.label in page for quantity in QUANTITIES.values())
+    assert all(one.label in page for one in declared(Measures).values())
     assert all(f'id="{part}"' in page for part in ("shape-canvas", "curves", "scene", "history-csv"))
     deck = (tmp_path / "out" / "bend.toml").read_text()
-    assert deck == deck_of(bend.case)
+    assert deck == problem_of(bend.case).toml()
     assert escape(deck) in page
 
 
@@ -158,20 +162,19 @@ def columns_of(path):
         return dict(zip(header, np.loadtxt(file, delimiter=",").T, strict=True))
 
 
-@dataclass(frozen=True)
-class OwnCurve:
-    """A hardening curve that decks have no words for."""
-
-    stress: float
-
-    def curve(self):
-        return Perfect(self.stress).curve()
-
-
 def test_a_curve_of_the_user_leaves_out_the_deck(tmp_path, bend):
+    @dataclass(frozen=True)
+    class OwnCurve:
+        """A curve that no module has: decks have no words for it."""
+
+        stress: float
+
+        def curve(self):
+            return Perfect(self.stress).curve()
+
     case = replace(bend.case, material=J2(E=210e3, nu=0.3, hardening=OwnCurve(200.0)))
     with pytest.raises(InvalidValue, match="no words"):
-        deck_of(case)
+        problem_of(case).toml()
     files = write_files(tmp_path, replace(bend, case=case))
     assert "bend.toml" not in {file.name for file in files}
     assert "for umform run" not in (tmp_path / "report.html").read_text()
@@ -203,8 +206,8 @@ def test_the_printed_deck_gives_the_curve_of_the_bend_and_its_way_back(scale, ch
 
 
 def test_a_failed_refinement_does_not_spoil_the_files(tmp_path, bend):
-    changes = {"mesh/2": dict.fromkeys(QUANTITIES, float("nan"))}
-    write_files(tmp_path, bend, budget=Budget(bend.measures, changes, {"mesh/2": "it did not converge"}))
+    changes = {"mesh/2": dict.fromkeys(declared(Measures), float("nan"))}
+    write_files(tmp_path, replace(bend, budget=Budget(changes, {"mesh/2": "it did not converge"})))
     record = json.loads((tmp_path / "bend.json").read_text())
     assert record["budget"] == {"changes": {}, "failures": {"mesh/2": "it did not converge"}}
     assert "it did not converge" in (tmp_path / "report.html").read_text()

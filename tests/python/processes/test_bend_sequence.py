@@ -17,8 +17,8 @@ from umform.processes.bend_sequence.files import FILES, record, write_files
 from umform.processes.bend_sequence.foreseen import foreseen_collisions, foreseen_text
 from umform.processes.bend_sequence.form import read_sequence, sequence_form
 from umform.processes.bend_sequence.sides import Strip
+from umform.processes.bend_sequence.spec import MOST_BENDS
 from umform.processes.bend_sequence.strip import strip_lines
-from umform.processes.bend_sequence.words import bend_rows, flanges
 
 SHEET = AirBending(elements_per_thickness=1.0, layers=1, increment=0.0125)
 STROKE = 5.0
@@ -84,10 +84,12 @@ def test_the_record_is_json(profile_z, tmp_path):
     assert max(one["force_imbalance"] for one in (first, second)) < 1e-6
     assert set(text["contacts"]["bend 2"]) == {"die", "punch"}
     write_files(tmp_path, profile_z)
-    assert {file.name for file in tmp_path.iterdir()} == set(FILES)
+    others = {f"bend{number}.toml" for number in range(3, MOST_BENDS + 1)}
+    assert {file.name for file in tmp_path.iterdir()} == set(FILES) - others
     page = (tmp_path / "report.html").read_text()
-    assert flanges(profile_z) in page
-    assert all(f"<td>{cell}</td>" in page for row in bend_rows(profile_z) for cell in row[1:-1] if row[0] != "bend")
+    rows = [row for header, *rows in profile_z.tables.values() for row in rows]
+    assert all(f"<td>{cell}</td>" in page for row in rows for cell in row[1:-1])
+    assert [f"{length:.3f}" for length in profile_z.flanges] == [one.text for one in profile_z.of_part[:-1]]
     assert "coarse mesh" in page
     assert "bend 2, contact die: penetration up to" in page
     assert f"<td>work of punch</td><td>{first['works']['punch']:.6g}</td>" in page

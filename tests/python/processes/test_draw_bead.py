@@ -18,7 +18,6 @@ from umform.processes.draw_bead import case as case_module
 from umform.processes.draw_bead.case import limits_of
 from umform.processes.draw_bead.equivalent import in_deck, in_python
 from umform.processes.draw_bead.files import FILES, write_files
-from umform.processes.draw_bead.words import summary
 from umform.processes.limit import Limit
 
 MILD = uf.J2(E=210e3, nu=0.3, hardening=uf.Swift(520.0, 0.004, 0.22))
@@ -66,7 +65,7 @@ def test_the_equivalent_bead_has_its_forces(drawn):
     line = tomllib.loads(in_deck(drawn))["beads"]["NAME"]
     forces = {key: line[key] for key in ("restraint", "uplift", "width")}
     assert forces["restraint"] == pytest.approx(drawn.restraint, rel=1e-3)
-    model = uf.Model(drawn.case.sheet(), material=MILD)
+    model = uf.Model(drawn.result.model.mesh, material=MILD)
     model.fix(lambda x, y, z: y > -1.0, "y")
     pull = model.prescribe("x1", "x", "pull")
     bed = model.contact("lower", uf.Plane(), name="bed")
@@ -124,8 +123,8 @@ def test_two_meshes_give_the_forces_of_the_equivalent_bead(drawn, tmp_path):
     limit = drawn.restraint - 2.0 / (1.0 / 0.49 - 1.0)
     assert both.limits.restraint.value == pytest.approx(limit, rel=1e-9)
     assert tomllib.loads(in_deck(both))["beads"]["NAME"]["restraint"] == pytest.approx(limit, rel=1e-3)
-    assert summary(both)[0] == ["restraining force", f"{limit:.1f}", "N/mm"]
-    assert ["restraining force, finest mesh", f"{drawn.restraint:.1f}", "N/mm"] in summary(both)
+    row = ["restraining force", f"{limit:.1f}", "unknown", f"{drawn.restraint:.1f}", "N/mm"]
+    assert both.tables["Measures"][:2] == [["quantity", "value", "error", "finest mesh", "unit"], row]
 
 
 def test_three_meshes_give_the_error_of_the_limit_too():
@@ -152,7 +151,8 @@ def test_three_meshes_are_run_and_the_finest_is_kept(drawn, monkeypatch):
     assert [elements for elements, _ in meshes] == pytest.approx([2.5, 5.0 / 2.0**0.5, 5.0])
     assert [frames for _, frames in meshes] == [0, 0, 7]
     assert found.forces == pytest.approx((60.0, 80.0), rel=1e-12)
-    assert summary(found)[1] == ["its estimated error", "0.8", "N/mm"]  # a fifth of 100 / 25
+    assert found.tables["Measures"][1][2] == "± 0.8"  # a fifth of 100 / 25
+    assert found["restraint"].band.error == pytest.approx(0.8) and found["thinning"].band is None
 
 
 def test_a_mesh_that_penetrates_too_far_gives_the_finer_one_a_stiffer_penalty(drawn):

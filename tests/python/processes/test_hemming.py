@@ -15,7 +15,6 @@ from umform.processes.hemming.files import FILES, record, write_files
 from umform.processes.hemming.measures import clearances
 from umform.processes.hemming.run import _refuse_touch
 from umform.processes.hemming.spec import ACUTE
-from umform.processes.hemming.words import rows
 
 COARSE = Hemming(base=13.0, increments=24, sheet=replace(ACUTE, elements_per_thickness=1.0, layers=1, increment=0.025))
 
@@ -66,14 +65,15 @@ def test_flange_and_base_keep_their_length(hem):
 def test_the_record_is_json(hem, tmp_path):
     text = json.loads(json.dumps(record(hem), allow_nan=False))
     assert text["measures"]["height"] == hem.measures.height
-    assert len(rows(hem.measures)) == len(text["measures"])
+    rows = hem.tables["Measures"][1:]
+    assert len(rows) == len(text["measures"])
     assert list(text["balance"]) == list(text["contacts"]) == ["first bend", "flattening"]
     assert text["balance"]["flattening"]["works"]["plate"] > 0.0
     assert "insert" in text["contacts"]["flattening"]
     write_files(tmp_path, hem)
     assert {file.name for file in tmp_path.iterdir()} == set(FILES)
     page = (tmp_path / "report.html").read_text()
-    assert all(f"<td>{value}</td>" in page for _, value, _ in rows(hem.measures))
+    assert all(f"<td>{value}</td>" in page for _, value, _ in rows)
     assert page.count("<h2>Balance of forces and energies</h2>") == 1 and "<th>flattening</th>" in page
     assert "V 8, 30 degrees, shoulder 1, punch radius 0.5, 30 degrees; V/t 8" in page
 

@@ -65,9 +65,9 @@ def test_a_report_marks_a_drift_beyond_its_limit(steps, tmp_path):
     found = balanced(result)
     assert found.small == (steps == 60)
     page = write_report(result, tmp_path / "a.html").read_text()
-    mark = "" if found.small else ' class="bad"'
-    assert f"<td{mark}>{100 * found.drift:.2g}</td>" in page
-    assert ("more than the limit of 1 %" in found.text) == (not found.small)
+    mark, missed = ("", "") if found.small else (' class="bad"', " MISSED 2.79 times over")
+    assert f"<td{mark}>{100 * found.drift:.2g}{missed}</td>" in page
+    assert ("1 % allowed: MISSED" in found.text) == (not found.small)
 
 
 def test_the_run_that_follows_is_not_blamed():

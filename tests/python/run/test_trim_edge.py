@@ -11,6 +11,7 @@ from umform.errors import InvalidValue
 from umform.mesh.fitted.sheet import Sheet
 from umform.mesh.quality import jacobians
 from umform.model.transfer import Weights
+from umform.quantities import history_of
 
 STEEL = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(yield_stress=160.0, modulus=500.0))
 CURVE, BACK = uf.Linear(yield_stress=160.0, modulus=500.0), uf.Chaboche(((4000.0, 40.0),))
@@ -76,9 +77,8 @@ def stresses(model):
 
 def back_stress(model):
     """The back stress in global axes at all points."""
-    names, frame = list(model.block.state_names), model.block.point_fields(model.u)[2].reshape(-1, 3, 3)
-    at = sum(model.block.state_names[name] for name in names[: names.index("back_stress_1")])
-    parts = model.block.state[..., at : at + 6].reshape(-1, 6)
+    frame = model.block.point_fields(model.u)[2].reshape(-1, 3, 3)
+    parts = history_of(model.block)["back_stress_1"].reshape(-1, 6)
     local = parts[:, [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]
     return np.einsum("pki,pkl,plj->pij", frame, local, frame)
 
@@ -95,9 +95,8 @@ def test_a_uniform_state_is_moved_without_error(metal, options):
     expected, found = stresses(whole), stresses(part.model)
     assert np.abs(expected - expected[0]).max() < 1e-5 * np.abs(expected).max()
     assert np.abs(found - expected[0]).max() < 1e-5 * np.abs(expected).max()
-    names = list(whole.block.state_names)
-    eqps = sum(size for name, size in whole.block.state_names.items() if names.index(name) < names.index("eqps"))
-    np.testing.assert_allclose(part.model.block.state[..., eqps], whole.block.state[0, 0, eqps], rtol=1e-6)
+    eqps = history_of(whole.block)["eqps"][0, 0]
+    np.testing.assert_allclose(*np.broadcast_arrays(history_of(part.model.block)["eqps"], eqps), rtol=1e-6)
     if metal is ISOTROPIC:
         backs = [back_stress(whole), back_stress(part.model)]
         assert np.abs(backs[1] - backs[0][0]).max() < 1e-4 * np.abs(backs[0]).max() > 1e-3
@@ -139,8 +138,8 @@ def test_springback_is_that_of_a_mesh_with_an_edge_on_the_line(bent):
 def test_plastic_strain_stays_between_its_extremes_and_releases_nothing_new(bent):
     whole = bent[20].model
     part = uf.Trim(across(2.6), formed=False).of(whole)  # through metal that has yielded
-    eqps = part.model.block.state[~part.same][..., 6]
-    around = whole.block.state[1:5, :, 6]
+    eqps = history_of(part.model.block)["eqps"][~part.same]
+    around = history_of(whole.block)["eqps"][1:5]
     assert around.max() >= eqps.max() > 0.01 and eqps.min() >= 0.0
     work = part.model.block.energy(part.model.u)[1]
     springback(part)
@@ -165,8 +164,8 @@ def test_a_strip_in_plane_strain_has_one_point_across():
     result = uf.solve(model, [uf.Move(press, 1.2, steps=3), uf.Move(press, 0.5, steps=1)], frames=0)
     part = uf.Trim(across(13.3), formed=False).of(result)
     assert part.edge_distance < 1e-12 and part.remark == "" and part.model.bodies[0].element.surface_rule == (2, 1)
-    eqps = model.block.state[11:15, :, 6]
-    assert eqps.min() <= part.model.block.state[~part.same][..., 6].max() <= eqps.max()
+    eqps = history_of(model.block)["eqps"][11:15]
+    assert eqps.min() <= history_of(part.model.block)["eqps"][~part.same].max() <= eqps.max()
 
 
 def test_what_cannot_be_fitted_follows_elements_and_says_why():

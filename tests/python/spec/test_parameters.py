@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import dataclass
+from inspect import Parameter, signature
 from typing import Annotated, ClassVar, Literal
 
 import pytest
@@ -13,9 +14,11 @@ from annotated_types import Ge, Le
 from pydantic import TypeAdapter, ValidationError
 from typer.testing import CliRunner
 
+import umform as uf
 from umform.bench.wanted import SIZES, Wanted
 from umform.cli.given import Given, given_by
 from umform.errors import InvalidValue, NotFinite
+from umform.model.contact import ContactOptions
 from umform.processes.air_bending.goal import Goal
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence.spec import Bend, BendSequence, Bodies
@@ -171,3 +174,13 @@ def test_the_outer_description_covers_the_inner_one():
 def test_nothing_in_place_of_an_object_is_refused(name):
     with pytest.raises(InvalidValue, match="must be an object"):
         BendSequence(length=80.0, bends=(Bend(position=40.0, angle=90.0),), **{name: None})
+
+
+def test_a_signature_names_the_fields_of_its_options():
+    """Of methods whose options are a Spec: names, order and defaults."""
+    contact = signature(uf.Model.contact).parameters
+    assert list(contact) == ["self", "faces", "tool", "name", *parameters(ContactOptions)]
+    assert contact["augmented"].default is False
+    bead = signature(uf.Model.bead).parameters
+    assert bead["restraint"].default is Parameter.empty and list(bead).count("curve") == 1
+    assert signature(uf.Model).parameters["thickness_points"].default is None

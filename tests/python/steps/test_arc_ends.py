@@ -192,5 +192,5 @@ def test_the_time_of_an_arc_is_felt_by_a_metal_with_a_rate():
 @pytest.mark.parametrize("time", [0.0, -1.0, np.inf])
 def test_an_arc_that_takes_no_time_is_refused(time):
     _, pull = _pulled()
-    with pytest.raises(InvalidValue, match="time of a step"):
+    with pytest.raises(InvalidValue, match="must be positive"):
         Arc(pull, 0.2, time=time)

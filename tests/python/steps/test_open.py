@@ -12,6 +12,7 @@ from umform import materials as mt
 from umform.errors import InvalidValue, NoConvergence
 from umform.mesh import strip
 from umform.model import Model
+from umform.quantities import history_of
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions
 
@@ -102,13 +103,13 @@ def test_what_friction_remembered_does_not_come_back():
     gauge = part.model.hold_rigid(name="gauge")
     tools, pairs = part.model.tools, part.model.contacts
     result = solve(part.model, [Close(part.hold, force=-10.0), Move(part.stroke, -2.0)])
-    assert any(pair.block.state[:, 1].any() for pair in pairs)
+    assert any(history_of(pair.block)["held"].any() for pair in pairs)
     result = solve(part.model, [Free(tools, steps=4, on=gauge), Move(part.stroke, 30.0, steps=1)])
     work = result["on_die_friction_work"]
     np.testing.assert_allclose(work, work[0], rtol=1e-12)
     for pair in pairs:
-        np.testing.assert_array_equal(pair.block.state[:, 1], 0.0)  # held
-        np.testing.assert_array_equal(pair.block.state[:, 8:14], 0.0)  # traction and multiplier along the tool
+        for name in ("held", "tangential traction", "tangential multiplier"):
+            np.testing.assert_array_equal(history_of(pair.block)[name], 0.0)
         assert not pair.found.active.any()
     with pytest.raises(InvalidValue, match="not open"):
         part.model.put_back(ubend().model.tools[0])

@@ -8,6 +8,7 @@ import pytest
 import umform as uf
 from umform.errors import InvalidValue
 from umform.model.change import strained, turned
+from umform.quantities import history_of
 from umform.results.balance import Worked
 from umform.steps.pace import Happened
 
@@ -38,8 +39,9 @@ def test_the_narrowest_limit_rules(what, factor):
     "limits", [{"turn": 0.0}, {"strain": -1.0}, {"iterations": 0}, {"first": 0.2}, {"largest": 2.0}, {"turn": np.nan}]
 )
 def test_limits_that_make_no_sense_are_refused(limits):
-    with pytest.raises(InvalidValue, match="pace"):
+    with pytest.raises(InvalidValue) as refused:
         uf.Pace(**limits)
+    assert refused.value.where in limits
 
 
 @pytest.mark.parametrize(
@@ -86,7 +88,7 @@ def test_turning_and_straining_are_measured():
     model, end = cantilever(uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(100.0, 1000.0)))
     uf.solve(model, uf.Move(end, to=2.0, steps=4), frames=0, progress=False)
     before, body = model.u.copy(), model.bodies[0]
-    eqps = body.block.state[..., 6].copy()
+    eqps = history_of(body.block)["eqps"]
     result = uf.solve(model, uf.Move(end, to=2.5, steps=1), frames=0, progress=False)
     assert len(result) == 2
     tips = model.mesh.nodes("x1_lower"), model.mesh.nodes("x1_upper")
@@ -96,7 +98,7 @@ def test_turning_and_straining_are_measured():
     tip = np.degrees(np.arccos(unit[0] @ unit[1]))
     assert tip > 1.0
     assert turned(body, before, model.u) == pytest.approx(tip, rel=0.05)
-    assert strained(body) == pytest.approx((body.block.state[..., 6] - eqps).max())
+    assert strained(body) == pytest.approx((history_of(body.block)["eqps"] - eqps).max())
     assert strained(body) > 1e-4
 
 

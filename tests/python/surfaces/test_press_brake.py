@@ -122,12 +122,12 @@ def test_a_ready_tool_is_its_profile(rng):
         (lambda: VDie(0.0, 90, 1), "opening must be positive"),
         (lambda: VDie(10, 180, 1), "between 0 and 180"),
         (lambda: VDie(10, math.nan, 1), "between 0 and 180"),
-        (lambda: VDie(10, 90, -1), "must not be negative"),
+        (lambda: VDie(10, 90, -1), "at least 0"),
         (lambda: VDie(10, 90, 1, depth=5.0), "above the point of the V"),
         (lambda: VDie(10, 90, 10, 8), "fillet does not fit"),
         (lambda: UDie(10, 5, 3, 3), "fillet does not fit"),
         (lambda: UDie(10, 9, 1, 5.1), "fillet does not fit"),
-        (lambda: WipingDie(math.inf), "must not be negative"),
+        (lambda: WipingDie(math.inf), "at least 0"),
         (lambda: Punch(1, 0), "between 0 and 180"),
         (lambda: Punch(2.0, 90, width=2.5), "wider than its round tip"),
     ],
@@ -135,3 +135,14 @@ def test_a_ready_tool_is_its_profile(rng):
 def test_tools_that_are_none_are_refused(make, message):
     with pytest.raises(InvalidValue, match=message):
         make().kernel()
+
+
+def test_radii_and_direction_of_tools_that_are_moved_or_offset():
+    die = VDie(10, 90, 2.0)
+    assert list(die.convex_radii()) == list(die.moved((1, 2, 3)).convex_radii()) == [2.0]
+    assert [list(die.offset(d).convex_radii()) for d in (0.5, -3.0)] == [[2.5], [0.0]]
+    assert list(die.counterpart(1.0).convex_radii()) == []
+    np.testing.assert_allclose(die.along(), (0.0, -1.0, 0.0), atol=1e-15)
+    np.testing.assert_allclose(die.moved(rotation=(0.0, 0.0, math.pi / 2)).along(), (1.0, 0.0, 0.0), atol=1e-15)
+    assert sorted(WipingDie(1.5).extruded().convex_radii()) == [1.5]
+    assert list(WipingDie(0.0).extruded().convex_radii()) == [0.0]

@@ -213,7 +213,7 @@ def test_distances_of_a_rounded_box():
         (lambda: Box((0, 0, 0), (1, 0, 3)), InvalidValue, "must be positive"),
         (lambda: Box((0, 0, 0), (1, 2, math.nan)), NotFinite, "finite"),
         (lambda: Box((0, 0, 0), (1, 2, 3), x="x", y="x"), InvalidValue, "right angles"),
-        (lambda: Box((0, 0, 0), (1, 2, 3), -0.1), InvalidValue, "must not be negative"),
+        (lambda: Box((0, 0, 0), (1, 2, 3), -0.1), InvalidValue, "at least 0"),
         (lambda: Plane().moved((0, math.inf, 0)), NotFinite, "finite"),
         (lambda: Plane().moved(rotation=(0, 1)), NotFinite, "finite"),
         (lambda: Plane().mirrored((0, 0, 0)), InvalidValue, "zero vector"),

@@ -4,17 +4,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
-namespace umform {
+#include "umform/assembly/quantities.hpp"
 
-/// A part of the history of a point, by its name.
-struct Quantity {
-    std::string name;
-    int size;  // numbers
-};
+namespace umform {
 
 /// Numbers [item][point][size] of the converged state, and those of the trial state that an evaluation writes. An item is an
 /// element or a facet. `evaluate` reads the converged state only; the trial state takes its place in `commit`.

@@ -25,12 +25,31 @@ struct Bead {
 
     static constexpr bool symmetric = false;
     static constexpr bool follows_places = true;
-    static std::vector<Quantity> quantities() {
-        return {{"multiplier", 1},  // none: always zero
-                {"held", 1},       {"place", 3}, {"share", 1}, {"traction", 3},         {"lift", 3},
-                {"stored", 1},     {"slip", 1},  {"work", 1},  {"work of the lift", 1}, {"work above the mean", 1},
-                {"bound", 1}};
-    }
+    /// The multiplier is always zero.
+    static constexpr QuantityTable table = ContactHistory::table.then({{"held"},
+                                                                       {"place", 3},
+                                                                       {"share"},
+                                                                       {"traction", 3},
+                                                                       {"lift", 3},
+                                                                       {"stored"},
+                                                                       {"slip"},
+                                                                       {"work"},
+                                                                       {"work of the lift"},
+                                                                       {"work above the mean"},
+                                                                       {"bound"}});
+    enum {
+        Held = table["held"],
+        Where = table["place"],
+        Share = table["share"],
+        Traction = table["traction"],
+        Lift = table["lift"],
+        Stored = table["stored"],
+        Slip = table["slip"],
+        Work = table["work"],
+        LiftWork = table["work of the lift"],
+        Above = table["work above the mean"],
+        Limit = table["bound"]
+    };
 
     double stiffness(const double*) const { return penalty; }
     double reach(const double*) const { return off; }
@@ -113,21 +132,6 @@ struct Bead {
     }
 
   private:
-    /// Where in the history each of the quantities begins.
-    enum Part {
-        Held = 1,
-        Where = 2,
-        Share = 5,
-        Traction = 6,
-        Lift = 9,
-        Stored = 12,
-        Slip = 13,
-        Work = 14,
-        LiftWork = 15,
-        Above = 16,
-        Limit = 17
-    };
-
     static Vec3 at(const double* history) { return {history[0], history[1], history[2]}; }
     static void put(double* history, const Vec3& value) { std::copy(value.begin(), value.end(), history); }
 

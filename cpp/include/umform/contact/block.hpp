@@ -66,11 +66,11 @@ class ContactBlock {
     std::vector<double> multipliers() const {
         std::vector<double> values;
         values.reserve(points());
-        for (int q = 0; q < points(); ++q) values.push_back(history_.trial(0)[q * history_.size()]);
+        for (int q = 0; q < points(); ++q) values.push_back(history_.point(q)[ContactHistory::Multiplier]);
         return values;
     }
     void set_multipliers(const double* values) {
-        for (int q = 0; q < points(); ++q) history_.trial(0)[q * history_.size()] = values[q];
+        for (int q = 0; q < points(); ++q) history_.point(q)[ContactHistory::Multiplier] = values[q];
     }
     /// Lets multipliers carry tractions [point] along the tool at the points that are held. eq. (4.50)
     virtual void augment(const Vec3* tractions) = 0;
@@ -83,7 +83,7 @@ class ContactBlock {
         std::vector<double> read = history_.state();
         for (int q = 0; q < points(); ++q) {
             double* row = read.data() + static_cast<std::size_t>(q) * history_.size();
-            row[0] = history_.point(q)[0];
+            row[ContactHistory::Multiplier] = history_.point(q)[ContactHistory::Multiplier];
             if (law_->follows_places()) law_->put_wanted(history_.point(q), row);
         }
         return read;

@@ -73,9 +73,7 @@ class OverCells : public FacetCells<Nodes> {
     using Values = std::array<double, Nodes>;
     static constexpr int size = 3 * Nodes;
     static constexpr bool symmetric = false, remembers = true;
-    static std::vector<Quantity> quantities() {
-        return {{"gap of the cell", 1}, {"pressure", 1}, {"contact energy", 1}, {"contact work", 1}};
-    }
+    static constexpr QuantityTable table{{{"gap of the cell"}, {"pressure"}, {"contact energy"}, {"contact work"}}};
 
     struct Workspace {
         explicit Workspace(std::size_t cells) : reactions(cells), overlaps(cells), pressures(cells) {}
@@ -91,7 +89,7 @@ class OverCells : public FacetCells<Nodes> {
         const Places places = locator.places(e);
         const double penalty = law.penalty();
         for (int q = 0; q < this->count(); ++q) {
-            work.overlaps[q] = overlap(places, q, rows.trial[q * rows.size] / penalty);
+            work.overlaps[q] = overlap(places, q, rows.trial[q * rows.size + ContactHistory::Multiplier] / penalty);
             work.reactions[q].held = work.overlaps[q].share > 0.0;
             work.pressures[q] = -penalty * work.overlaps[q].gap;
         }
@@ -131,7 +129,7 @@ class OverCells : public FacetCells<Nodes> {
     /// The gap that is left: that of a point with the same pressure and the same multiplier. eq. (4.90)
     double gap(const ContactLaw& law, const Locator<Nodes>&, int, int q, const Workspace& work,
                const double* row) const {
-        return work.overlaps[q].gap + row[0] / law.penalty();
+        return work.overlaps[q].gap + row[ContactHistory::Multiplier] / law.penalty();
     }
     /// The mean over the cell, zero where it is outside of the tool.
     double penetration(const Locator<Nodes>& locator, int e, int q) const {
@@ -147,7 +145,12 @@ class OverCells : public FacetCells<Nodes> {
     double contact_work(const double* row) const { return row[Work]; }
 
   private:
-    enum Part { Gap = 0, Pressure = 1, Energy = 2, Work = 3 };
+    enum {
+        Gap = table["gap of the cell"],
+        Pressure = table["pressure"],
+        Energy = table["contact energy"],
+        Work = table["contact work"]
+    };
 
     /// Of the gaps at the corners less a shift.
     Overlap overlap(const Places& places, int q, double shift) const {

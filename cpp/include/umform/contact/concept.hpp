@@ -9,6 +9,12 @@
 
 namespace umform {
 
+/// What the history of every contact law begins with.
+struct ContactHistory {
+    static constexpr QuantityTable table{{{"multiplier"}}};
+    enum { Multiplier = table["multiplier"] };
+};
+
 /// A place of a face (a Gauss point or a node) against the tool, in space. A law that knows a slip keeps it in the frame of the
 /// tool, where the place is at pose.to_tool(x).
 struct Place {
@@ -44,7 +50,7 @@ struct Rubbing {
     double stiffness = 0.0;  // traction per elastic slip
 };
 
-/// A law answers at one place. Its history begins with the multiplier of the normal direction. `state` is the converged history,
+/// A law answers at one place. Its `table` names what it remembers, which begins with the multiplier of the normal direction. `state` is the converged history,
 /// which is never changed; `trial` comes with the multiplier that is wanted now and takes the rest of the new history. `reach` is
 /// the largest gap at which the place can be held. `respond` says whether it is held, and writes the reaction then, without `held`
 /// and times the weight. A law that is `symmetric` has a symmetric K; what is below its diagonal is not read. One that
@@ -57,7 +63,7 @@ concept PlaceLaw =
     requires(const L& law, L& mutable_law, const Place& place, const double* state, double* trial, Reaction& reaction) {
         { L::symmetric } -> std::convertible_to<bool>;
         { L::follows_places } -> std::convertible_to<bool>;
-        { L::quantities() } -> std::same_as<std::vector<Quantity>>;
+        requires L::table["multiplier"] == ContactHistory::Multiplier;
         { mutable_law.penalty } -> std::same_as<double&>;
         { law.stiffness(state) } -> std::same_as<double>;
         { law.reach(trial) } -> std::same_as<double>;
@@ -117,7 +123,7 @@ class ContactLawOf final : public ContactLaw {
     explicit ContactLawOf(Law law) : law_(std::move(law)) {}
     bool symmetric() const override { return Law::symmetric; }
     bool follows_places() const override { return Law::follows_places; }
-    std::vector<Quantity> quantities() const override { return Law::quantities(); }
+    std::vector<Quantity> quantities() const override { return Law::table.list(); }
     double penalty() const override { return law_.penalty; }
     void set_penalty(double value) override { law_.penalty = value; }
     double stiffness(const double* history) const override { return law_.stiffness(history); }

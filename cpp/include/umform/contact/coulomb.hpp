@@ -18,20 +18,31 @@ struct Coulomb {
 
     static constexpr bool symmetric = false;
     static constexpr bool follows_places = true;
-    static std::vector<Quantity> quantities() {
-        return {{"multiplier", 1},
-                {"held", 1},
-                {"place", 3},
-                {"normal", 3},
-                {"tangential traction", 3},
-                {"tangential multiplier", 3},
-                {"change of tangential multiplier", 3},
-                {"slip", 1},
-                {"friction work", 1},
-                {"tangential stiffness", 1},
-                {"friction work above the mean", 1},
-                {"bound", 1}};
-    }
+    static constexpr QuantityTable table = ContactHistory::table.then({{"held"},
+                                                                       {"place", 3},
+                                                                       {"normal", 3},
+                                                                       {"tangential traction", 3},
+                                                                       {"tangential multiplier", 3},
+                                                                       {"change of tangential multiplier", 3},
+                                                                       {"slip"},
+                                                                       {"friction work"},
+                                                                       {"tangential stiffness"},
+                                                                       {"friction work above the mean"},
+                                                                       {"bound"}});
+    enum {
+        Multiplier = table["multiplier"],
+        Held = table["held"],
+        Where = table["place"],
+        Normal = table["normal"],
+        Traction = table["tangential traction"],
+        Tangential = table["tangential multiplier"],
+        Change = table["change of tangential multiplier"],
+        Slip = table["slip"],
+        Work = table["friction work"],
+        Stiffness = table["tangential stiffness"],
+        Above = table["friction work above the mean"],
+        Limit = table["bound"]
+    };
 
     double stiffness(const double* history) const { return std::max(penalty, history[Stiffness]); }
     double reach(const double* trial) const { return trial[Multiplier] / penalty; }
@@ -153,22 +164,6 @@ struct Coulomb {
   private:
     /// A traction that a converged state left at its bound, and that has been carried since, differs from it by so much. eq. (4.180)
     static constexpr double round_off = 1e-12;
-
-    /// Where in the history each of the quantities begins.
-    enum Part {
-        Multiplier = 0,
-        Held = 1,
-        Where = 2,
-        Normal = 5,
-        Traction = 8,
-        Tangential = 11,
-        Change = 14,
-        Slip = 17,
-        Work = 18,
-        Stiffness = 19,
-        Above = 20,
-        Limit = 21
-    };
 
     double tangential_stiffness(const double* history) const {
         return history[Held] != 0.0 ? history[Stiffness] : ratio * penalty;

@@ -21,7 +21,7 @@ class ContactBlockOf final : public ContactBlock {
         area_ = rule_.area;
         std::vector<Quantity> quantities = law_->quantities();
         for (const Quantity& quantity : quantities) of_law_ += quantity.size;
-        for (const Quantity& quantity : FaceRule::quantities()) quantities.push_back(quantity);
+        for (const Quantity& quantity : FaceRule::table.list()) quantities.push_back(quantity);
         history_ = History(part.size(), rule_.count(), std::move(quantities));
     }
 

@@ -10,22 +10,22 @@ struct Penalty {
     double penalty;
 
     static constexpr bool symmetric = true, follows_places = false;
-    static std::vector<Quantity> quantities() { return {{"multiplier", 1}}; }
+    static constexpr QuantityTable table = ContactHistory::table;
 
     double stiffness(const double*) const { return penalty; }
-    double reach(const double* trial) const { return trial[0] / penalty; }
+    double reach(const double* trial) const { return trial[ContactHistory::Multiplier] / penalty; }
 
     /// A place is held where its gap less multiplier over penalty, g~, is not positive (a tool that just touches can hold):
     /// traction -penalty g~ n, K = penalty (n n^T + g~ H). eqs. (4.6), (4.10), (4.33)
     bool respond(const Place& place, double weight, const double*, const double* trial, Reaction& reaction) const {
-        if (!(place.gap - trial[0] / penalty <= 0.0)) return false;
+        if (!(gap(place, trial) <= 0.0)) return false;
         hold(place, weight, trial, reaction);
         return true;
     }
 
     /// The same at any gap.
     void hold(const Place& place, double weight, const double* trial, Reaction& reaction) const {
-        const double g = place.gap - trial[0] / penalty, stiffness = penalty * weight;
+        const double g = gap(place, trial), stiffness = penalty * weight;
         reaction.slipping = false;
         reaction.pressure = -(stiffness * g);
         reaction.tangential = {0.0, 0.0, 0.0};
@@ -44,6 +44,9 @@ struct Penalty {
             for (int l = 0; l < 3; ++l) reaction.K[k][l] = -reaction.pressure * place.H(k, l);
         }
     }
+
+  private:
+    double gap(const Place& place, const double* trial) const { return place.gap - reach(trial); }
 };
 
 }  // namespace umform

@@ -124,10 +124,10 @@ struct ShellTables {
         std::array<int, 6> position;
         position.fill(-1);
         for (const Mode& mode : technology.modes)
-            for (const Term& term : mode)
-                if (position[term.component] < 0) {
-                    position[term.component] = static_cast<int>(enhanced.size());
-                    enhanced.push_back(term.component);
+            for (const Polynomial& polynomial : mode)
+                if (position[polynomial.component] < 0) {
+                    position[polynomial.component] = static_cast<int>(enhanced.size());
+                    enhanced.push_back(polynomial.component);
                 }
         std::vector<std::vector<double>> means;
         means.reserve(surface);
@@ -146,7 +146,7 @@ struct ShellTables {
     static std::vector<double> legendre_means(const Technology& technology, const Rule& thickness) {
         int most = 0;
         for (const Mode& mode : technology.modes)
-            for (const Term& term : mode) most = std::max(most, term.c);
+            for (const Polynomial& polynomial : mode) most = std::max(most, polynomial.c);
         std::vector<double> means(most + 1, 0.0);
         for (int c = 1; c <= most; ++c) {
             for (int k = 0; k < thickness.size(); ++k)
@@ -162,9 +162,9 @@ struct ShellTables {
                      const std::array<int, 6>& position, std::vector<ModeEntry>& of_point) {
         for (const int component : enhanced) {
             double value = 0.0, size = 0.0;
-            for (const Term& term : mode)
-                if (term.component == component) {
-                    const double part = term(at[0], at[1], at[2], means[term.c]);
+            for (const Polynomial& polynomial : mode)
+                if (polynomial.component == component) {
+                    const double part = polynomial(at[0], at[1], at[2], means[polynomial.c]);
                     value += part, size += std::abs(part);
                 }
             if (std::abs(value) > 1e-14 * size) of_point.push_back({position[component], number, value});

@@ -16,8 +16,8 @@ struct Tying {
     bool at_layer;
 };
 
-/// A term  factor * r^a s^b P_c(t)  of an enhanced mode in one covariant component (P_c: Legendre polynomial).
-struct Term {
+/// A polynomial  factor * r^a s^b P_c(t)  in one covariant component (P_c: Legendre polynomial).
+struct Polynomial {
     int component;
     double factor;
     int a, b, c;
@@ -28,8 +28,8 @@ struct Term {
     }
 };
 
-/// One enhanced mode: a column of M(r, s, t). eq. (2.10)
-using Mode = std::vector<Term>;
+/// One enhanced mode, a sum of polynomials: a column of M(r, s, t). eq. (2.10)
+using Mode = std::vector<Polynomial>;
 
 /// An element of the catalogue; components without a tying row are compatible.
 struct Technology {

@@ -24,13 +24,14 @@ struct Energy {
 
 /// A law answers at one point of a few elements, one a lane. `E` is the Green-Lagrange strain in a local orthonormal frame,
 /// `state` the converged history (never changed), `trial` the new one. False where it has no answer: the strain is outside of
-/// its domain, or its equations could not be solved. `state_names` names the parts of the history in their order.
+/// its domain, or its equations could not be solved. Its `table` has the parts of the history: a QuantityTable, or
+/// one that depends on the parts of the law.
 template <class L>
 concept MaterialLaw =
     requires(const L& law, const Vec<Lanes, 6>& E, const Lanes* state, Vec<Lanes, 6>& S, Mat<Lanes, 6, 6>& CC,
              Lanes* trial, const Voigt& strain, double* history, const Point<Lanes>& point) {
-        { L::state_size } -> std::convertible_to<int>;
-        { law.state_names() } -> std::same_as<std::vector<Quantity>>;
+        { law.table.size() } -> std::same_as<int>;
+        { law.table.list() } -> std::same_as<std::vector<Quantity>>;
         requires requires {
             { law.respond(E, state, S, CC, trial) } -> std::same_as<LaneMask>;
         } || requires {
@@ -76,7 +77,7 @@ constexpr int state_limit() {
     if constexpr (requires { L::state_limit; })
         return L::state_limit;
     else
-        return L::state_size;
+        return L::table.size();
 }
 
 /// Where the histories of the elements in the lanes begin, [lane][n][state_size].
@@ -89,7 +90,7 @@ class Material {
   public:
     virtual ~Material() = default;
     /// The parts of the history of a point, in their order.
-    virtual std::vector<Quantity> state_names() const = 0;
+    virtual std::vector<Quantity> quantities() const = 0;
     virtual int state_size() const = 0;
     virtual void initial(double* state) const = 0;
     /// Whether dS/dE is symmetric at any strain.
@@ -114,8 +115,8 @@ template <MaterialLaw Law>
 class MaterialOf final : public Material {
   public:
     explicit MaterialOf(Law law) : law_(std::move(law)) {}
-    std::vector<Quantity> state_names() const override { return law_.state_names(); }
-    int state_size() const override { return law_.state_size; }
+    std::vector<Quantity> quantities() const override { return law_.table.list(); }
+    int state_size() const override { return law_.table.size(); }
     void initial(double* state) const override { law_.initial(state); }
     bool symmetric() const override { return has_symmetric_tangent(law_); }
     bool sees_points() const override { return SeesPoint<Law>; }
@@ -123,7 +124,7 @@ class MaterialOf final : public Material {
     LaneMask respond(int n, LaneMask wanted, const Vec<Lanes, 6>* E, const LaneStates& state, Vec<Lanes, 6>* S,
                      Mat<Lanes, 6, 6>* CC, const LaneTrials& trial, const LanePoints& points) const override {
         std::array<Lanes, state_limit<Law>()> before, after;
-        const int size = law_.state_size;
+        const int size = law_.table.size();
         [[maybe_unused]] const LaneMask asked = wanted;
         for (int q = 0; q < n; ++q) {
             for (int k = 0; k < size; ++k) before[k] = by_lane([&](int lane) { return state[lane][q * size + k]; });
@@ -156,8 +157,8 @@ class MaterialOf final : public Material {
             LaneTrials after;
             for (int p = 0; p < 6; ++p) strain[p] = by_lane([&](int lane) { return E[point(lane)][p]; });
             for (int lane = 0; lane < lane_count; ++lane) {
-                before[lane] = state + point(lane) * law_.state_size;
-                after[lane] = trial + point(lane) * law_.state_size;
+                before[lane] = state + point(lane) * law_.table.size();
+                after[lane] = trial + point(lane) * law_.table.size();
             }
             LaneMask asked = false;
             for (int lane = 0; lane < std::min(lane_count, n - first); ++lane) asked.set(lane, true);
@@ -172,16 +173,16 @@ class MaterialOf final : public Material {
     }
 
     void energy(int n, const Voigt* E, const double* state, Energy* energies, std::int32_t) const override {
-        const auto history = [&](int q) { return state + q * law_.state_size; };
+        const auto history = [&](int q) { return state + q * law_.table.size(); };
         if constexpr (!StoresInLanes<Law>) {
             for (int q = 0; q < n; ++q) energies[q] = law_.energy(E[q], history(q));
         } else {
             for (int first = 0; first < n; first += lane_count) {  // points instead of elements in the lanes
                 const auto point = [&](int lane) { return std::min(first + lane, n - 1); };
                 Vec<Lanes, 6> strain;
-                std::array<Lanes, Law::state_size> here;
+                std::array<Lanes, state_limit<Law>()> here;
                 for (int p = 0; p < 6; ++p) strain[p] = by_lane([&](int lane) { return E[point(lane)][p]; });
-                for (int k = 0; k < Law::state_size; ++k)
+                for (int k = 0; k < law_.table.size(); ++k)
                     here[k] = by_lane([&](int lane) { return history(point(lane))[k]; });
                 const Lanes stored = law_.stored(strain, here.data());
                 for (int q = first; q < std::min(first + lane_count, n); ++q)

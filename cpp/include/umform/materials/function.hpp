@@ -41,7 +41,7 @@ class MaterialFromFunction final : public Material {
     MaterialFromFunction(Function function, Traits traits, EnergyFunction energy)
         : function_(std::move(function)), traits_(std::move(traits)), energy_(std::move(energy)) {}
 
-    std::vector<Quantity> state_names() const override { return traits_.state; }
+    std::vector<Quantity> quantities() const override { return traits_.state; }
     int state_size() const override { return static_cast<int>(traits_.initial.size()); }
     void initial(double* state) const override { std::copy(traits_.initial.begin(), traits_.initial.end(), state); }
     bool symmetric() const override { return traits_.symmetric; }

@@ -13,9 +13,13 @@ struct J2 {
     double kappa, mu;
     Hardening hardening;
 
-    static constexpr int state_size = 7;
-    static std::vector<Quantity> state_names() { return {{"Cp_inv", 6}, {"eqps", 1}}; }
-    void initial(double* state) const { std::copy_n(std::array<double, 7>{1, 1, 1, 0, 0, 0, 0}.begin(), 7, state); }
+    static constexpr QuantityTable table{{{"Cp_inv", 6}, {"eqps"}}};
+    enum { Metric = table["Cp_inv"], Eqps = table["eqps"] };
+    static constexpr int size = table.size();
+    void initial(double* state) const {
+        std::fill_n(state, size, 0.0);
+        std::fill_n(state + Metric, 3, 1.0);
+    }
 
     /// Where the trial state is elastic and small there is no eigenproblem to solve: the fast path. Each lane takes the path it
     /// would take alone.
@@ -23,22 +27,22 @@ struct J2 {
     Mask<Real> respond(const Vec<Real, 6>& strain, const Real* state, Vec<Real, 6>& S, Mat<Real, 6, 6>& CC,
                        Real* trial) const {
         const LogarithmicSeries<Real> series(strain, plastic_metric(state));
-        const YieldStress<Real> y = yield_stress(hardening, state[6]);
+        const YieldStress<Real> y = yield_stress(hardening, state[Eqps]);
         const Real limit = y.value * (1.0 + plastic_margin);
         const Mask<Real> fast =
             series.small
             & (6.0 * mu * mu * (series.square - series.trace * series.trace * (1.0 / 3.0)) <= limit * limit);
         if (!any(fast)) return respond_by_roots(strain, state, y, S, CC, trial);
         series.respond(kappa - 2.0 / 3.0 * mu, mu, S, CC);
-        std::copy_n(state, 7, trial);
+        std::copy_n(state, size, trial);
         if (all(fast)) return fast;
         Vec<Real, 6> S_roots;
         Mat<Real, 6, 6> CC_roots;
-        std::array<Real, 7> trial_roots;
+        std::array<Real, size> trial_roots;
         const Mask<Real> answered = respond_by_roots(strain, state, y, S_roots, CC_roots, trial_roots.data());
         for (int p = 0; p < 6; ++p) S[p] = select(fast, S[p], S_roots[p]);
         for (int i = 0; i < 36; ++i) CC.a[i] = select(fast, CC.a[i], CC_roots.a[i]);
-        for (int k = 0; k < 7; ++k) trial[k] = select(fast, trial[k], trial_roots[k]);
+        for (int k = 0; k < size; ++k) trial[k] = select(fast, trial[k], trial_roots[k]);
         return fast | answered;
     }
 
@@ -48,7 +52,7 @@ struct J2 {
                                 Vec<Real, 6>& S, Mat<Real, 6, 6>& CC, Real* trial) const {
         ElasticStrain<Real> elastic;
         const Mask<Real> positive = elastic.set(strain, state);
-        const Return<Real> back = return_map(elastic, state[6], y);
+        const Return<Real> back = return_map(elastic, state[Eqps], y);
         Vec<Real, 3> tau;
         for (int i = 0; i < 3; ++i)
             tau[i] = kappa * elastic.volumetric + 2.0 * mu * (1.0 - back.b) * elastic.deviator[i];
@@ -64,7 +68,7 @@ struct J2 {
                 S[p] += principal * NN[i][p];
             }
         }
-        std::copy_n(state, 7, trial);
+        std::copy_n(state, size, trial);
         if (any(back.plastic)) flow(elastic, back, NN, trial);
         tangent(elastic, back, tau, NN, CC);
         return positive & back.found;
@@ -89,7 +93,7 @@ struct J2 {
     }
 
     /// Work done against the yield stress. eq. (3.39)
-    double spent(const double* state) const { return plastic_work(hardening, state[6]); }
+    double spent(const double* state) const { return plastic_work(hardening, state[Eqps]); }
 
   private:
     /// A converged plastic point lies on the yield surface up to round-off. Without this margin chance would make it plastic
@@ -100,7 +104,7 @@ struct J2 {
     template <class Real>
     static Vec<Real, 6> plastic_metric(const Real* state) {
         Vec<Real, 6> Cp_inv;
-        std::copy_n(state, 6, Cp_inv.begin());
+        std::copy_n(state + Metric, 6, Cp_inv.begin());
         return Cp_inv;
     }
 
@@ -178,8 +182,8 @@ struct J2 {
             const Real metric = exp(-2.0 * back.b * elastic.deviator[i]);
             for (int p = 0; p < 6; ++p) Cp_inv[p] += metric * NN[i][p];
         }
-        for (int p = 0; p < 6; ++p) trial[p] = select(back.plastic, Cp_inv[p], trial[p]);
-        trial[6] += back.dgam;
+        for (int p = 0; p < 6; ++p) trial[Metric + p] = select(back.plastic, Cp_inv[p], trial[Metric + p]);
+        trial[Eqps] += back.dgam;
     }
 
     /// Solves q_trial - 3 mu dgam - y(eqps + dgam) = 0 where `open` by Newton's method kept inside a bracket; y at the end.

@@ -4,38 +4,24 @@
 
 #include "umform/materials/concept.hpp"
 #include "umform/materials/general_return.hpp"
+#include "umform/materials/metal_history.hpp"
 #include "umform/materials/quadratic_return.hpp"
 
 namespace umform {
 
-/// State: plastic strain (engineering shears), eqps, and with back stresses, a falling modulus or a rate the work done on them,
-/// each back stress, and the overstress.
+/// Plastic strains have engineering shears.
 template <class Yield>
 struct Metal {
     MetalParts parts;
     Yield yield;
-    int state_size;
+    MetalHistory table;
 
     static constexpr bool has_stages = true;
-    static constexpr int surface_size = 14;  // alpha*, R, q, r
-    static constexpr int state_limit = 8 + 6 * Chaboche::largest + surface_size + 1;
+    static constexpr int state_limit = MetalHistory::largest();
 
-    Metal(MetalParts metal, Yield function)
-        : parts(std::move(metal)), yield(std::move(function)),
-          state_size(parts.associated_only() ? 7 : overstress_at() + (parts.rate.active() ? 1 : 0)) {}
+    Metal(MetalParts metal, Yield function) : parts(std::move(metal)), yield(std::move(function)), table(parts) {}
 
-    std::vector<Quantity> state_names() const {
-        std::vector<Quantity> names{{"plastic_strain", 6}, {"eqps", 1}};
-        if (!parts.associated_only()) names.push_back({"kinematic_work", 1});
-        for (int k = 1; k <= parts.back_stress.count(); ++k) names.push_back({"back_stress_" + std::to_string(k), 6});
-        if (two_surfaces())
-            names.insert(
-                names.end(),
-                {{"inner_back_stress", 6}, {"bounding_growth", 1}, {"stagnation_centre", 6}, {"stagnation_radius", 1}});
-        if (parts.rate.active()) names.push_back({"overstress", 1});
-        return names;
-    }
-    void initial(double* state) const { std::fill_n(state, state_size, 0.0); }
+    void initial(double* state) const { std::fill_n(state, table.size(), 0.0); }
     bool symmetric() const { return parts.modulus.fall == 0.0 && !parts.back_stress.recalls(); }
 
     /// T and C = dT/dh at the strain h after an increment of time. eqs. (3.73)-(3.82)
@@ -43,14 +29,14 @@ struct Metal {
     Mask<Real> respond(const Vec<Real, 6>& h, const Real* state, Vec<Real, 6>& T, Mat<Real, 6, 6>& C, Real* trial,
                        double step) const {
         Vec<Real, 6> elastic;
-        for (int p = 0; p < 6; ++p) elastic[p] = h[p] - state[p];
+        for (int p = 0; p < 6; ++p) elastic[p] = h[p] - state[MetalHistory::PlasticStrain + p];
         const Real volume = elastic[0] + elastic[1] + elastic[2];
         const PlasticStart<Real> start = begin(elastic, state, step);
         const PlasticIncrement<Real> none(parts, start, 0.0);
         const Mask<Real> plastic = flows(start, none, step);
 
-        std::copy_n(state, state_size, trial);
-        if (parts.rate.active()) trial[overstress_at()] = 0.0;
+        std::copy_n(state, table.size(), trial);
+        if (parts.rate.active()) trial[table.overstress] = 0.0;
         PlasticFlow<Real> flow;
         Mask<Real> found = true;
         Vec<Real, 6> coupling{};
@@ -84,19 +70,20 @@ struct Metal {
     /// eqs. (3.38), (3.39) and (3.83)
     Energy energy(const Voigt& h, const double* state) const {
         Voigt elastic;
-        for (int p = 0; p < 6; ++p) elastic[p] = h[p] - state[p];
+        for (int p = 0; p < 6; ++p) elastic[p] = h[p] - state[MetalHistory::PlasticStrain + p];
         const Deviator<double> e = yield.basis.components(elastic, 0.5);
         const double volume = elastic[0] + elastic[1] + elastic[2];
         const double stored = 0.5 * parts.kappa * volume * volume + parts.mu * dot(e, e);
-        return {parts.modulus(state[6]).value * stored,
-                plastic_work(parts.hardening, state[6]) + (parts.associated_only() ? 0.0 : state[7])};
+        return {parts.modulus(state[MetalHistory::Eqps]).value * stored,
+                plastic_work(parts.hardening, state[MetalHistory::Eqps])
+                    + (parts.associated_only() ? 0.0 : state[table.kinematic_work])};
     }
 
     /// Residuals, over the stresses, at the states that the return map of a point goes through; none where it does not flow.
     std::vector<double> residuals(const Voigt& h, const double* state, double step) const {
         Vec<Lanes, 6> elastic;
-        for (int p = 0; p < 6; ++p) elastic[p] = h[p] - state[p];
-        const std::vector<Lanes> states(state, state + state_size);
+        for (int p = 0; p < 6; ++p) elastic[p] = h[p] - state[MetalHistory::PlasticStrain + p];
+        const std::vector<Lanes> states(state, state + table.size());
         const PlasticStart<Lanes> start = begin(elastic, states.data(), step);
         LaneMask one = false;
         one.set(0, true);
@@ -111,10 +98,6 @@ struct Metal {
     static constexpr double plastic_margin = 1e-10;
 
     bool two_surfaces() const { return parts.two_surfaces.active(); }
-    /// Where the history of two surfaces begins.
-    int surfaces_at() const { return 8 + 6 * parts.back_stress.count(); }
-    /// Where the overstress of a rate is, the last of the history.
-    int overstress_at() const { return surfaces_at() + (two_surfaces() ? surface_size : 0); }
 
     /// Whether the trial state lies outside of the yield surface; a metal with a rate needs time to flow.
     template <class Real>
@@ -134,18 +117,19 @@ struct Metal {
 
     template <class Real>
     PlasticStart<Real> begin(const Vec<Real, 6>& elastic, const Real* state, double step) const {
-        PlasticStart<Real> start{yield.basis.components(elastic, 0.5), state[6], {}};
+        PlasticStart<Real> start{yield.basis.components(elastic, 0.5), state[MetalHistory::Eqps], {}};
         start.step = step;
         const auto deviator = [&](int at) {
             Vec<Real, 6> stress;
             std::copy_n(state + at, 6, stress.begin());
             return yield.basis.components(stress, 1.0);
         };
-        for (int part = 0; part < parts.back_stress.count(); ++part) start.back_stress[part] = deviator(8 + 6 * part);
+        for (int part = 0; part < parts.back_stress.count(); ++part)
+            start.back_stress[part] = deviator(table.back_stress[part]);
         if (two_surfaces()) {
-            const int at = surfaces_at();
-            start.inner = deviator(at);
-            start.stagnation = {state[at + 6], deviator(at + 7), state[at + 13]};
+            start.inner = deviator(table.inner_back_stress);
+            start.stagnation = {state[table.bounding_growth], deviator(table.stagnation_centre),
+                                state[table.stagnation_radius]};
         }
         return start;
     }
@@ -170,8 +154,8 @@ struct Metal {
     void commit(const PlasticStart<Real>& start, const YieldStress<Real>& ratio_before, Real volume,
                 const PlasticFlow<Real>& flow, const Real* state, Real* trial) const {
         const Vec<Real, 6> strain = yield.basis.tensor(flow.n, 0.5);
-        for (int p = 0; p < 6; ++p) trial[p] += flow.dp * strain[p];
-        trial[6] += flow.dp;
+        for (int p = 0; p < 6; ++p) trial[MetalHistory::PlasticStrain + p] += flow.dp * strain[p];
+        trial[MetalHistory::Eqps] += flow.dp;
         if (parts.associated_only()) return;
         const PlasticIncrement<Real> at(parts, start, flow.dp);
         const Real lost = 0.5 * (ratio_before.value - at.ratio.value);
@@ -193,7 +177,7 @@ struct Metal {
                 alpha[i] = w * start.back_stress[part][i] + pull * flow.xi[i];
                 work += 0.5 * (alpha[i] + start.back_stress[part][i]) * flow.n[i];
             }
-            keep(alpha, 8 + 6 * part);
+            keep(alpha, table.back_stress[part]);
         }
         if (two_surfaces()) {  // alpha is that of the bounding surface
             const InnerBackStress<Real> inner(parts.two_surfaces, start.stagnation.grown, start.inner, flow.xi,
@@ -201,18 +185,18 @@ struct Metal {
             for (int i = 0; i < 5; ++i) work += 0.5 * (inner.alpha[i] + start.inner[i]) * flow.n[i];
             Stagnation<Real> stagnation = start.stagnation;
             stagnation.follow(parts.two_surfaces, start.back_stress[0], alpha, flow.dp);
-            const int place = surfaces_at();
-            keep(inner.alpha, place);
-            keep(stagnation.centre, place + 7);
-            trial[place + 6] = select(flow.plastic, stagnation.grown, trial[place + 6]);
-            trial[place + 13] = select(flow.plastic, stagnation.radius, trial[place + 13]);
+            keep(inner.alpha, table.inner_back_stress);
+            keep(stagnation.centre, table.stagnation_centre);
+            Real &grown = trial[table.bounding_growth], &radius = trial[table.stagnation_radius];
+            grown = select(flow.plastic, stagnation.grown, grown);
+            radius = select(flow.plastic, stagnation.radius, radius);
         }
         if (parts.rate.active()) {  // eq. (3.125)
-            Real& over = trial[overstress_at()];
+            Real& over = trial[table.overstress];
             over = select(flow.plastic, at.y.value - yield_stress(parts.hardening, start.eqps + flow.dp).value, 0.0);
-            work += 0.5 * (state[overstress_at()] + over);
+            work += 0.5 * (state[table.overstress] + over);
         }
-        trial[7] += lost * square + work * flow.dp;
+        trial[table.kinematic_work] += lost * square + work * flow.dp;
     }
 };
 

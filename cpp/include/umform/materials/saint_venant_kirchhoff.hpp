@@ -8,8 +8,7 @@ namespace umform {
 struct SaintVenantKirchhoff {
     double lambda, mu;
 
-    static constexpr int state_size = 0;
-    static std::vector<Quantity> state_names() { return {}; }
+    static constexpr QuantityTable<0> table{};
     void initial(double*) const {}
 
     template <class Real>

@@ -23,10 +23,9 @@ using UmatFunction = void(double* stress, double* statev, double* ddsdde, double
 
 /// Its history: what a UMAT gets at the beginning of an increment and would not know else, then its state variables.
 struct UmatState {
-    static constexpr int stress = 0, strain = 6, time = 12, energies = 13, variables = 16;
-    static std::vector<Quantity> names() {
-        return {{"umat_stress", 6}, {"umat_strain", 6}, {"umat_time", 1}, {"umat_energies", 3}};
-    }
+    static constexpr QuantityTable table{{{"umat_stress", 6}, {"umat_strain", 6}, {"umat_time"}, {"umat_energies", 3}}};
+    static constexpr int stress = table["umat_stress"], strain = table["umat_strain"], time = table["umat_time"],
+                         energies = table["umat_energies"], variables = table.size();
 };
 
 /// One point. False if it requests a smaller increment (PNEWDT below 1). eqs. (3.126)-(3.128)

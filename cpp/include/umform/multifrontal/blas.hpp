@@ -6,10 +6,10 @@
 #include <mutex>
 #include <vector>
 
-#include "storage.hpp"
 #include "umform/assembly/threads.hpp"
+#include "umform/multifrontal/storage.hpp"
 
-namespace umform {
+namespace umform::multifrontal {
 
 /// The few functions of BLAS that fronts need, with 32-bit integers, and how to keep its own threads out.
 struct Blas {
@@ -153,4 +153,4 @@ class Buffers {
     }
 };
 
-}  // namespace umform
+}  // namespace umform::multifrontal

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "panel_solve.hpp"
+#include "umform/multifrontal/panel_solve.hpp"
 
-namespace umform {
+namespace umform::multifrontal {
 
 /// A pivot of two columns, [a b; b c], with b not small beside a and c: nothing overflows where the entries do not.
 struct TwoByTwo {
@@ -113,4 +113,4 @@ struct BunchKaufman {
     }
 };
 
-}  // namespace umform
+}  // namespace umform::multifrontal

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "panel_solve.hpp"
-#include "panels.hpp"
+#include "umform/multifrontal/panel_solve.hpp"
+#include "umform/multifrontal/panels.hpp"
 
-namespace umform {
+namespace umform::multifrontal {
 
 /// `Factors` eliminates a block (`try_block`), updates columns by others (`update`) and exchanges two columns (`exchange`);
 /// `panels` says which columns may be a block.
@@ -41,4 +41,4 @@ class ByHalves {
     }
 };
 
-}  // namespace umform
+}  // namespace umform::multifrontal

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstddef>
 
-#include "blas.hpp"
-#include "panel_solve.hpp"
-#include "panels.hpp"
+#include "umform/multifrontal/blas.hpp"
+#include "umform/multifrontal/panel_solve.hpp"
+#include "umform/multifrontal/panels.hpp"
 
-namespace umform {
+namespace umform::multifrontal {
 
 namespace detail {
 
@@ -79,4 +79,4 @@ inline int cholesky(const DenseColumns& a, int rows, int begin, int count) {
     return cholesky(a, rows, next, count - left);
 }
 
-}  // namespace umform
+}  // namespace umform::multifrontal

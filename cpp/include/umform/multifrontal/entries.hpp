@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "structure.hpp"
+#include "umform/multifrontal/structure.hpp"
 
-namespace umform {
+namespace umform::multifrontal {
 
 /// Entries that follow each other in the matrix and in a front, of one row or of the three of a node, which have the same
 /// columns. A run has 10 bytes, so that sheets take little more than one byte an entry.
@@ -124,4 +124,4 @@ class EntryRuns {
     }
 };
 
-}  // namespace umform
+}  // namespace umform::multifrontal

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "structure.hpp"
+#include "umform/multifrontal/structure.hpp"
 
-namespace umform {
+namespace umform::multifrontal {
 
 /// What a matrix is multiplied with before its elimination, R A C: exact, since these are powers of two.
 struct Scaling {
@@ -335,4 +335,4 @@ inline Scaling equilibrated(const Rows& rows, bool symmetric, const double* valu
     return scaling;
 }
 
-}  // namespace umform
+}  // namespace umform::multifrontal

@@ -9,16 +9,16 @@
 #include <utility>
 #include <vector>
 
-#include "cholesky.hpp"
-#include "equilibration.hpp"
-#include "indefinite.hpp"
-#include "panels.hpp"
-#include "plan.hpp"
-#include "schedule.hpp"
-#include "storage.hpp"
-#include "unsymmetric.hpp"
+#include "umform/multifrontal/cholesky.hpp"
+#include "umform/multifrontal/equilibration.hpp"
+#include "umform/multifrontal/indefinite.hpp"
+#include "umform/multifrontal/panels.hpp"
+#include "umform/multifrontal/plan.hpp"
+#include "umform/multifrontal/schedule.hpp"
+#include "umform/multifrontal/storage.hpp"
+#include "umform/multifrontal/unsymmetric.hpp"
 
-namespace umform {
+namespace umform::multifrontal {
 
 enum class Kind : std::uint8_t { Positive, Symmetric, Unsymmetric };
 
@@ -420,4 +420,4 @@ class Factors {
     }
 };
 
-}  // namespace umform
+}  // namespace umform::multifrontal

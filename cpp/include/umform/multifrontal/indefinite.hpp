@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "bunch_kaufman.hpp"
-#include "by_halves.hpp"
-#include "cholesky.hpp"
+#include "umform/multifrontal/bunch_kaufman.hpp"
+#include "umform/multifrontal/by_halves.hpp"
+#include "umform/multifrontal/cholesky.hpp"
 
-namespace umform {
+namespace umform::multifrontal {
 
 /// Columns of a front that are eliminated as far as stable pivots are found among them; the others are left, updated, behind
 /// those. Entries of L stay below 1 / `tolerance`.
@@ -210,4 +210,4 @@ class Indefinite : ByHalves<Indefinite> {
     }
 };
 
-}  // namespace umform
+}  // namespace umform::multifrontal

@@ -5,7 +5,7 @@
 
 #include "umform/algebra/lanes.hpp"
 
-namespace umform {
+namespace umform::multifrontal {
 
 /// Columns up to which the kernels below are used; wider blocks are halved.
 inline constexpr int panel_width = 32;
@@ -82,4 +82,4 @@ inline void take_triangle(const double* a, int ld, int width, bool unit, SmallTr
     }
 }
 
-}  // namespace umform
+}  // namespace umform::multifrontal

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace umform {
+namespace umform::multifrontal {
 
 /// Places of the columns of a matrix. Of a symmetric one they are stored by panels that begin at the diagonal of their first
 /// column, so that a panel is a matrix for BLAS and little is stored above the diagonal. Stored rows begin at the diagonal at
@@ -100,4 +100,4 @@ struct DenseColumns {
     }
 };
 
-}  // namespace umform
+}  // namespace umform::multifrontal

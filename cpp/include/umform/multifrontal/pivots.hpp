@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "factors.hpp"
+#include "umform/multifrontal/factors.hpp"
 
-namespace umform {
+namespace umform::multifrontal {
 
 struct Pivots {
     std::vector<double> size;  // [equation] pivot; of a pair the determinant over its largest entry
@@ -53,4 +53,4 @@ struct Pivots {
     }
 };
 
-}  // namespace umform
+}  // namespace umform::multifrontal

@@ -7,13 +7,13 @@
 #include <new>
 #include <vector>
 
-#include "entries.hpp"
-#include "panels.hpp"
-#include "structure.hpp"
-#include "supernodes.hpp"
+#include "umform/multifrontal/entries.hpp"
+#include "umform/multifrontal/panels.hpp"
+#include "umform/multifrontal/structure.hpp"
+#include "umform/multifrontal/supernodes.hpp"
 #include "umform/ordering/quotient.hpp"
 
-namespace umform {
+namespace umform::multifrontal {
 
 /// A dense matrix in which the equations of a supernode are eliminated. Its first `pivots` rows and columns are those, the
 /// others the equations of ancestors that they change.
@@ -41,7 +41,7 @@ struct Plan {
     std::int64_t factor_size = 0;          // numbers that are stored
     std::int64_t fill = 0;                 // entries of the factors: without the upper triangles of L
 
-    Plan(const Rows& matrix, bool is_symmetric, const Quotient& quotient, const Supernodes& tree)
+    Plan(const Rows& matrix, bool is_symmetric, const ordering::Quotient& quotient, const Supernodes& tree)
         : n(matrix.n), symmetric(is_symmetric), place(matrix.n), equation(matrix.n) {
         const int vertices = quotient.graph.size();
         std::vector<std::int32_t> weight(vertices, 0);
@@ -144,4 +144,4 @@ struct Plan {
     }
 };
 
-}  // namespace umform
+}  // namespace umform::multifrontal

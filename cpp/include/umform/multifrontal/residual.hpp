@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "structure.hpp"
+#include "umform/multifrontal/structure.hpp"
 
-namespace umform {
+namespace umform::multifrontal {
 
 /// R = B - f(K) X for columns of length n, f of each entry; of a symmetric matrix the upper triangle is stored.
 template <class Entry>
@@ -39,4 +39,4 @@ inline void residual_of_magnitudes(const Rows& rows, bool symmetric, const doubl
     subtract_product(rows, symmetric, values, b, x, 1, r, [](double value) { return std::abs(value); });
 }
 
-}  // namespace umform
+}  // namespace umform::multifrontal

@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "panels.hpp"
-#include "plan.hpp"
-#include "storage.hpp"
 #include "umform/assembly/threads.hpp"
+#include "umform/multifrontal/panels.hpp"
+#include "umform/multifrontal/plan.hpp"
+#include "umform/multifrontal/storage.hpp"
 
-namespace umform {
+namespace umform::multifrontal {
 
 /// Small subtrees are units, each worked through by one thread; fronts above them start when the last of their children has
 /// come. What is summed up in which order depends on the tree alone.
@@ -164,4 +164,4 @@ void share(int count, [[maybe_unused]] bool large, const Work& work) {
     for (int k = 0; k < count; ++k) work(k);
 }
 
-}  // namespace umform
+}  // namespace umform::multifrontal

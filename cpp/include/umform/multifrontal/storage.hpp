@@ -12,7 +12,7 @@
 #include <new>
 #include <utility>
 
-namespace umform {
+namespace umform::multifrontal {
 
 /// Numbers without a value, aligned to a cache line.
 class Block {
@@ -192,4 +192,4 @@ struct Room {
     }
 };
 
-}  // namespace umform
+}  // namespace umform::multifrontal

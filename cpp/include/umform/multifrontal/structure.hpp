@@ -6,7 +6,7 @@
 #include <iterator>
 #include <vector>
 
-namespace umform {
+namespace umform::multifrontal {
 
 /// Rows of a pattern, compressed: the columns of row i are indices[indptr[i]] ... indices[indptr[i + 1] - 1], sorted.
 struct Rows {
@@ -47,4 +47,4 @@ struct UpperTriangle {
     }
 };
 
-}  // namespace umform
+}  // namespace umform::multifrontal

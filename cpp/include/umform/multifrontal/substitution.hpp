@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "factors.hpp"
+#include "umform/multifrontal/factors.hpp"
 
-namespace umform {
+namespace umform::multifrontal {
 
 /// Solves K X = B for a few columns together: R K C Y = R B, X = C Y with the scales of rows and columns. The right-hand side of a front is changed by its children only, in their order:
 /// the same bits for any number of threads.
@@ -155,4 +155,4 @@ class Substitution {
     }
 };
 
-}  // namespace umform
+}  // namespace umform::multifrontal

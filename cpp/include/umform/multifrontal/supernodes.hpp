@@ -9,7 +9,7 @@
 
 #include "umform/ordering/quotient.hpp"
 
-namespace umform {
+namespace umform::multifrontal {
 
 /// Tree of supernodes of a graph and its order of elimination. (J. W. H. Liu, The multifrontal method for sparse matrix
 /// solution, SIAM Review 34 (1992) 82-109)
@@ -25,7 +25,8 @@ struct Supernodes {
     };
     std::vector<Node> nodes;  // children before parents
 
-    Supernodes(const Graph& graph, const std::vector<std::int32_t>& weight, const std::vector<std::int32_t>& order) {
+    Supernodes(const ordering::Graph& graph, const std::vector<std::int32_t>& weight,
+               const std::vector<std::int32_t>& order) {
         eliminate(graph, weight, order);
         amalgamate();
         sort();
@@ -46,7 +47,7 @@ struct Supernodes {
     static constexpr double tiny_fill = 0.5, small_fill = 0.08, large_fill = 0.03;  // share of zeros that may be added
 
     /// Structure of each column from those of its children.
-    void eliminate(const Graph& graph, const std::vector<std::int32_t>& weight,
+    void eliminate(const ordering::Graph& graph, const std::vector<std::int32_t>& weight,
                    const std::vector<std::int32_t>& order) {
         const int size = graph.size();
         std::vector<std::int32_t> when(size), mark(size, -1), owner(size, -1), child(size, -1), sibling(size, -1), rows;
@@ -174,4 +175,4 @@ struct Supernodes {
     }
 };
 
-}  // namespace umform
+}  // namespace umform::multifrontal

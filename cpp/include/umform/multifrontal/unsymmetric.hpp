@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "blas.hpp"
-#include "by_halves.hpp"
-#include "panel_solve.hpp"
+#include "umform/multifrontal/blas.hpp"
+#include "umform/multifrontal/by_halves.hpp"
+#include "umform/multifrontal/panel_solve.hpp"
 
-namespace umform {
+namespace umform::multifrontal {
 
 /// Rows and columns of a front that are eliminated as far as stable pivots are found; see `Indefinite`. Of the columns of a
 /// block the pivot is on the diagonal if no entry there is ten times larger, else that entry. L has ones on its diagonal.
@@ -169,4 +169,4 @@ class Unsymmetric : ByHalves<Unsymmetric> {
     }
 };
 
-}  // namespace umform
+}  // namespace umform::multifrontal

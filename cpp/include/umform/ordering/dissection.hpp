@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "quotient.hpp"
-#include "separator.hpp"
+#include "umform/ordering/quotient.hpp"
+#include "umform/ordering/separator.hpp"
 
-namespace umform {
+namespace umform::ordering {
 
 /// Order of elimination of the vertices of a graph by nested dissection (A. George, SIAM J. Numer. Anal. 10 (1973) 345-363).
 ///
@@ -195,4 +195,4 @@ class Dissection {
     }
 };
 
-}  // namespace umform
+}  // namespace umform::ordering

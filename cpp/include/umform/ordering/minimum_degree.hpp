@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "quotient.hpp"
+#include "umform/ordering/quotient.hpp"
 
-namespace umform {
+namespace umform::ordering {
 
 /// The vertex whose elimination couples the fewest equations comes next, by a bound on their number that is cheap to keep up
 /// to date. (P. R. Amestoy, T. A. Davis & I. S. Duff, SIAM J. Matrix Anal. Appl. 17 (1996) 886-905)
@@ -213,4 +213,4 @@ class MinimumDegree {
     }
 };
 
-}  // namespace umform
+}  // namespace umform::ordering

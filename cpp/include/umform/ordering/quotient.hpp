@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace umform {
+namespace umform::ordering {
 
 /// Undirected graph without loops; the neighbours of vertex v are to[start[v]] ... to[start[v + 1] - 1].
 struct Graph {
@@ -115,4 +115,4 @@ inline Quotient make_quotient(const std::int32_t* indptr, const std::int32_t* in
     return quotient;
 }
 
-}  // namespace umform
+}  // namespace umform::ordering

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace umform {
+namespace umform::ordering {
 
 /// Vertices between two sides. A path from side to side takes each vertex once; the most paths that share no vertex are as
 /// many as the fewest vertices that part the sides (Menger). They are found by searches in depth, many in one pass over the
@@ -164,4 +164,4 @@ class Between {
     }
 };
 
-}  // namespace umform
+}  // namespace umform::ordering

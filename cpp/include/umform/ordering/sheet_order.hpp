@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "dissection.hpp"
-#include "quotient.hpp"
+#include "umform/ordering/dissection.hpp"
+#include "umform/ordering/quotient.hpp"
 
-namespace umform {
+namespace umform::ordering {
 
 /// Order of elimination of the equations of a symmetric pattern, whose upper triangle is stored by rows. There is none
 /// where few equations are indistinguishable, or where the graph is not that of a sheet.
@@ -112,4 +112,4 @@ class BlockPattern {
     }
 };
 
-}  // namespace umform
+}  // namespace umform::ordering

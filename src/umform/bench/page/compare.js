@@ -4,12 +4,13 @@
 import { get } from "./api.js";
 import { element, make } from "./dom.js";
 import { plot } from "./plot.js";
+import { cell, forShop, heading } from "./quantities.js";
 import { number, t } from "./texts.js";
 
 const GIVEN = ["material", "thickness", "opening", "die_angle", "punch_angle", "punch_radius", "angle", "mesh"];
 
-/** @param {any} library @param {string[]} names */
-export async function compare(library, names) {
+/** @param {string[]} names */
+export async function compare(names) {
   const place = element("compare");
   const asked = await Promise.allSettled(names.map((name) => get(`/api/jobs/${name}`)));
   // A link may name jobs that are deleted or not finished.
@@ -21,10 +22,15 @@ export async function compare(library, names) {
   const curves = await Promise.all(jobs.map(async (job) => ({ name: `${job.number}`, ...(await get(`/api/jobs/${job.id}/curve`)) })));
   const head = make("tr", {}, make("td"), ...jobs.map((job, i) => make("th", { scope: "col" }, make("i", { class: `swatch c${i % 6}` }), `${job.number}`)));
   const given = GIVEN.filter((name) => new Set(jobs.map((job) => job.parameters[name])).size > 1 || ["material", "angle"].includes(name))
-    .map((name) => row(t(`field.${name}`), jobs.map((job) => shown(job.parameters[name]))));
-  const found = Object.entries(library.quantities).map(([name, one]) =>
-    row(`${t(`measure.${name}`, {}, one.label)}${one.unit ? `, ${one.unit === "deg" ? "°" : one.unit}` : ""}`, jobs.map((job) => number(job.summary.measures[name], one.decimals))));
-  const press = row(`${t("hero.largest_force")}, kN`, jobs.map((job) => number((job.summary.measures.largest_force * job.summary.length) / 1e3, 1)));
+    .map((name) => givenRow(t(`field.${name}`), jobs.map((job) => shown(job.parameters[name]))));
+  /** @type {import("./quantities.js").Quantity[][]} */
+  const columns = jobs.map((job) => [...(job.summary.quantities ?? []), ...(job.summary.checks ?? [])]);
+  const row = (/** @type {string} */ name, /** @type {(one: any, job: any) => any} */ as) => {
+    const ones = columns.map((column, i) => [column.find((one) => one.name === name), jobs[i]]).map(([one, job]) => one && as(one, job));
+    return make("tr", {}, make("th", { scope: "row" }, heading(ones.find(Boolean))), ...ones.map(cell));
+  };
+  const press = row("largest_force", (one, job) => forShop(one, job.summary.length));
+  const found = [...new Set(columns.flat().map((one) => one.name))].map((name) => row(name, (one) => one));
   place.replaceChildren(
     make("figure", { class: "card" }, plot(curves, { x: t("axis.stroke"), y: t("axis.force"), label: t("curve.label") }, 900, 320)),
     make("div", { class: "wide" }, make("table", { class: "columns" }, make("thead", {}, head), make("tbody", {}, ...given, press, ...found))),
@@ -34,7 +40,7 @@ export async function compare(library, names) {
 }
 
 /** @param {string} name @param {string[]} cells */
-const row = (name, cells) => make("tr", {}, make("th", { scope: "row" }, name), ...cells.map((cell) => make("td", {}, cell)));
+const givenRow = (name, cells) => make("tr", {}, make("th", { scope: "row" }, name), ...cells.map((cell) => make("td", {}, cell)));
 
 /** @param {any} value */
 const shown = (value) => (typeof value === "number" ? number(value) : value ?? "–");

@@ -90,7 +90,7 @@ async function start() {
     if (view === "deck") await deck.start();
     if (view === "compare") {
       const names = rest ? rest.split(",") : [...jobs.chosen];
-      await compare(library, names.filter((name) => /^[0-9a-f]{12}$/.test(name)).slice(0, 6));
+      await compare(names.filter((name) => /^[0-9a-f]{12}$/.test(name)).slice(0, 6));
       series(jobs.rows);
     }
   }

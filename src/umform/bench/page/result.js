@@ -6,6 +6,7 @@ import { element, make } from "./dom.js";
 import { message } from "./messages.js";
 import { howRead, numberField, taking, unclear } from "./number_field.js";
 import { plot } from "./plot.js";
+import { forShop, table, tile } from "./quantities.js";
 import { stripNumbers } from "./strips.js";
 import { language, number, problemText, t } from "./texts.js";
 
@@ -133,42 +134,24 @@ export class Result {
 
   /** @param {any} job */
   numbers(job) {
-    const { measures, spread = {}, shop_forces: shop, warnings = [], coarse_mesh: coarse = [] } = job.summary;
-    const heroes = HEROES.map((name) => this.hero(name, measures[name], spread[name], job.summary.length));
-    const { press } = job.summary; // jobs of earlier versions have none
+    const { measures, quantities = [], checks = [], shop_forces: shop, warnings = [], coarse_mesh: coarse = [], length, press } = job.summary;
+    const heroes = HEROES.flatMap((name) => quantities.filter((/** @type {any} */ one) => one.name === name))
+      .map((one) => {
+        const shown = forShop(one, length);
+        return tile(shown, "hero", t(`means.${shown.name}`, { length, each: number(one.value, 1) }));
+      });
     const notes = press ? [t("note.press", { press: number(press.force, 1), low: number(shop[0], 0), high: number(shop[1], 0) })] : [];
     const ratio = measures.largest_force / (0.5 * (shop[0] + shop[1]));
     if (ratio < 0.93) notes.push(t("note.below", { percent: Math.round(100 * (1 - ratio)) }));
     if (measures.k_factor !== null && measures.k_factor < 0.33) notes.push(t("note.k"));
     if (!job.parameters.budget && !coarse.length && job.parameters.work !== "bottom") notes.push(t("note.nobudget"));
-    const all = Object.entries(this.library.quantities).map(([name, one]) => this.row(name, one, measures[name], spread[name]));
     return [
       ...[...warnings, ...coarse].map((/** @type {string} */ text) => make("p", { class: "note warn" }, message(text))),
       make("dl", { class: "heroes" }, ...heroes),
       ...notes.map((text) => make("p", { class: "note" }, text)),
       this.flat(measures),
-      make("details", {}, make("summary", {}, t("all")), make("div", { class: "wide" }, make("table", {}, make("tbody", {}, ...all)))),
+      make("details", {}, make("summary", {}, t("all")), table([...quantities, ...checks])),
     ];
-  }
-
-  /** @param {string} name @param {number} value @param {number | undefined} spread @param {number} length */
-  hero(name, value, spread, length) {
-    const { unit, decimals } = this.library.quantities[name];
-    const force = name === "largest_force";
-    const factor = force ? length / 1e3 : name === "thinning" ? 100 : 1;
-    const digits = force ? 1 : name === "thinning" ? 1 : name === "outer_strain" ? 3 : Math.min(decimals, 3);
-    const shown = name === "thinning" && value !== null ? 100 * (1 - value) : value === null ? null : value * factor;
-    const units = force ? "kN" : name === "thinning" ? "%" : unit === "deg" ? "°" : unit;
-    const error = spread === undefined ? "" : ` ± ${number(spread * factor, digits)}`;
-    return make("div", { "data-measure": name }, make("dt", {}, t(`hero.${name}`)),
-      make("dd", {}, make("b", {}, number(shown, digits)), make("span", {}, ` ${units}${error}`)),
-      make("dd", { class: "soft" }, t(`means.${name}`, { length, each: number(value, 1) })));
-  }
-
-  /** @param {string} name @param {any} one @param {number} value @param {number | undefined} spread */
-  row(name, one, value, spread) {
-    return make("tr", {}, make("th", { scope: "row" }, t(`measure.${name}`, {}, one.label)), make("td", {}, number(value, one.decimals)),
-      make("td", {}, spread === undefined ? "" : `± ${number(spread, one.decimals)}`), make("td", {}, one.unit === "deg" ? "°" : one.unit));
   }
 
   /** The flat length of a part from its outer dimensions. @param {any} measures */
@@ -193,7 +176,8 @@ export class Result {
     const rows = Object.entries(job.summary.last).map(([name, value]) => make("tr", {}, make("th", { scope: "row" }, name), make("td", {}, number(/** @type {number} */ (value)))));
     const notes = [...job.summary.warnings.map((/** @type {string} */ text) => make("p", { class: "note warn" }, text)),
       ...job.summary.events.map((/** @type {string} */ text) => make("p", { class: "note" }, text))];
-    return make("div", {}, ...notes, make("details", { open: true }, make("summary", {}, t("deck.end")), make("div", { class: "wide" }, make("table", {}, make("tbody", {}, ...rows)))));
+    const { quantities = [], checks = [] } = job.summary;
+    return make("div", {}, ...notes, table([...quantities, ...checks]), make("details", { open: true }, make("summary", {}, t("deck.end")), make("div", { class: "wide" }, make("table", {}, make("tbody", {}, ...rows)))));
   }
 
   /** @param {any} job */

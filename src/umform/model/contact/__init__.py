@@ -2,6 +2,6 @@
 
 from umform.model.contact.found import ContactFound, ContactPoints
 from umform.model.contact.pair import Contact
-from umform.model.contact.settings import ContactSettings, contact_settings
+from umform.model.contact.settings import ContactOptions, ContactSettings, contact_settings
 
-__all__ = ["Contact", "ContactFound", "ContactPoints", "ContactSettings", "contact_settings"]
+__all__ = ["Contact", "ContactFound", "ContactOptions", "ContactPoints", "ContactSettings", "contact_settings"]

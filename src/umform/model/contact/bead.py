@@ -6,8 +6,10 @@ import logging
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
+from annotated_types import MinLen
 from numpy.typing import ArrayLike, NDArray
 
 from umform import _core
@@ -20,6 +22,8 @@ from umform.model.contact.settings import ContactSettings
 from umform.model.term import Energies, Found
 from umform.model.tool import Tool
 from umform.ranks import Ranks
+from umform.spec import About, check_fields
+from umform.spec.types import ContactPoints, NotNegative, Positive
 
 log = logging.getLogger("umform.contact")
 
@@ -29,6 +33,39 @@ Floats = NDArray[np.float64]
 _SLIP, _OFF = 1.0 / 200.0, 0.5
 #: Points within half a band for an error of the resultant below 1e-3, and for one of some per cent.
 _WANTED, _FEWEST, _MOST = 4.5, 1.5, 10
+
+
+_FORCE = About(
+    cause="a sign: restraint acts against the way of the sheet, uplift off the tool",
+    remedy="from a test, or from the section of the bead by `umform bead`",
+    error=InvalidBead,
+)
+_INVALID = About(error=InvalidBead)
+
+
+@dataclass(frozen=True)
+class BeadOptions:
+    """An equivalent draw bead: a line on a tool that restrains the sheet."""
+
+    curve: Annotated[Sequence[tuple[float, float, float]], MinLen(2), _INVALID]
+    """Line: its corners on the tool, in its initial position."""
+    restraint: Annotated[NotNegative, _FORCE]
+    """Restraint: force per length of the line to draw the sheet across it. `umform bead` computes it from the section
+    of a bead."""
+    width: Annotated[Positive, _INVALID]
+    """Width of the band over which a smooth hat function spreads the forces."""
+    uplift: Annotated[NotNegative, _FORCE] = 0.0
+    """Uplift: force per length of the line that lifts the sheet off the tool, as a bead does while it bends the
+    sheet."""
+    closed: bool = False
+    """Whether the last point is joined to the first."""
+    slip: Annotated[Positive, _INVALID] | None = None
+    """Elastic slip that is allowed; by default 1/200 of the thickness."""
+    points: Annotated[ContactPoints, _INVALID] | None = None
+    """Gauss points per direction of a face; by default as many as the band needs. eq. (4.105)"""
+
+    def __post_init__(self) -> None:
+        check_fields(self)
 
 
 @dataclass(frozen=True)
@@ -136,43 +173,20 @@ class Bead(Contact):
         return Energies(0.0, 0.0, float(found.held.stored), found.friction_work)
 
 
-def bead_line(
-    mesh: Mesh,
-    tool: Tool,
-    curve: ArrayLike | Sequence[ArrayLike],
-    *,
-    restraint: float,
-    uplift: float,
-    width: float,
-    slip: float | None,
-    closed: bool,
-    where: str,
-) -> BeadLine:
+def bead_line(mesh: Mesh, tool: Tool, options: BeadOptions, where: str) -> BeadLine:
     """Make a checked bead.
 
     Raises
     ------
     InvalidBead
-        If a number is out of range, or the line is invalid or not on its tool.
+        If the line is invalid or not on its tool.
     """
-    for name, value in (("restraint", restraint), ("uplift", uplift)):
-        if not (_is_number(value) and value >= 0.0):
-            raise InvalidBead(
-                f"the {name} of a bead is a force per length, zero or more",
-                where=where,
-                value=value,
-                cause="a sign: restraint acts against the way of the sheet, uplift off the tool",
-                remedy="from a test, or from the section of the bead by `umform bead`",
-            )
-    thickness = sheet_thickness(mesh)
-    slip = _SLIP * thickness if slip is None else slip
-    for name, value in (("width", width), ("slip", slip)):
-        if not (_is_number(value) and value > 0.0):
-            raise InvalidBead(f"the {name} of a bead must be positive", where=where, value=value)
+    thickness, closed, width = sheet_thickness(mesh), options.closed, options.width
+    slip = _SLIP * thickness if options.slip is None else options.slip
     line = BeadLine(
-        _corners(curve, closed, where),
-        float(restraint),
-        float(uplift),
+        _corners(options.curve, closed, where),
+        float(options.restraint),
+        float(options.uplift),
         float(width),
         float(slip),
         _OFF * thickness,
@@ -188,10 +202,6 @@ def bead_line(
         )
     _refuse_beside(line, tool, where)
     return line
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, int | float | np.number) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def _corners(curve: ArrayLike | Sequence[ArrayLike], closed: bool, where: str) -> Floats:
@@ -252,8 +262,6 @@ def _points(mesh: Mesh, faces: Selector, half_width: float, points: int | None, 
                 cause=f"{_MOST} points per direction leave fewer than three within the band",
                 remedy=f"a finer mesh where the bead is, or width = {2 * _FEWEST * size / _MOST:.3g} at least",
             )
-    elif points not in range(1, _MOST + 1) or isinstance(points, bool):
-        raise InvalidBead("points of a bead per direction must be 1 to 10", where=where, value=points)
     if points * half_width < 0.5 * _WANTED * size:
         log.warning(
             "%s: %d points per side of a facet of %.4g in a band of %.4g: its force may be wrong by some per cent",

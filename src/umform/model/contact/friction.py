@@ -5,35 +5,85 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from numbers import Real
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from annotated_types import Ge, Gt, Le
+from numpy.typing import NDArray
 
 from umform import _core
 from umform.errors import InvalidFriction, NotFinite
+from umform.spec import About, Checked, check_fields, check_value
 
 #: (pressure, distance slid, position in the frame of the tool) -> largest tangential traction.
 FrictionFunction = Callable[[float, float, NDArray[np.float64]], float]
 
+
+def check_table(value: Any, where: str) -> None:
+    """Reject a table of friction whose pressures do not ascend, or without valid coefficients."""
+    table = _numbers(value)
+    if table.ndim != 2 or table.shape[1:] != (2,) or not len(table):
+        raise InvalidFriction(
+            "friction is a coefficient or pairs (pressure, coefficient)",
+            where=where,
+            value=value,
+            cause="a list of coefficients, or an empty one",
+            remedy="0.12, or [(0, 0.14), (50, 0.10)]",
+        )
+    pressures, coefficients = table.T
+    if not (np.isfinite(pressures).all() and (np.diff(pressures) > 0).all() and pressures[0] >= 0):
+        raise InvalidFriction(
+            "the pressures of a table of friction must ascend from zero or more",
+            where=where,
+            value=pressures.tolist(),
+            cause="rows out of order, or a row twice",
+            remedy="pairs (pressure, coefficient), sorted by pressure",
+        )
+    for coefficient in coefficients.tolist():
+        check_value(Friction, "kinetic", coefficient)
+
+
+def check_corner(value: Any, where: str) -> None:
+    """Reject a corner of a box that is not three numbers; infinite ones are."""
+    corner = _numbers(value)
+    if corner.shape != (3,) or np.isnan(corner).any():
+        raise InvalidFriction(
+            "a region of friction is a box with a lower and an upper corner",
+            where=where,
+            value=value,
+            cause="not three numbers",
+            remedy="Region((-10, -inf, -inf), (10, inf, inf), 0.05)",
+        )
+
+
+def _numbers(values: Any) -> NDArray[np.float64]:
+    """An array; empty if the values are not numbers."""
+    try:
+        return np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        return np.empty(0)
+
+
 #: A larger coefficient is more often a mistake of units or sign than a rough tool.
-_ROUGHEST = 2.0
+Coefficient = Annotated[
+    float,
+    Ge(0.0),
+    Le(2.0),
+    About(
+        cause="a sign, a percentage (12 instead of 0.12), or a missing value",
+        remedy="0.05 to 0.2 for lubricated steel; no friction at all by leaving it away",
+        error=InvalidFriction,
+    ),
+]
+CoefficientTable = Annotated[Sequence[tuple[float, Coefficient]], Checked(check_table)]
+Above = Annotated[float, Gt(0.0), About(cause="a sign, or a missing value", error=InvalidFriction)]
+Corner = Annotated[tuple[float, float, float], Checked(check_corner)]
 
 
 @dataclass(frozen=True)
 class Friction:
     """Coulomb's law with options for forming: t <= min(mu p, cap). eq. (4.48)
-
-    Parameters
-    ----------
-    mu : float or sequence of (float, float)
-        Coefficient, or a table of pairs (pressure, coefficient), linear in between and constant beyond its ends.
-    kinetic : float, optional
-        Coefficient of a sliding point, approached from mu with the distance slid; with a table its ratio to the first
-        entry. Default: mu.
-    decay : float, optional
-        Distance slid after which 1 / e of the difference remains; required with ``kinetic``.
-    cap : float, optional
-        Largest tangential traction, for instance the shear strength of the sheet or its coating; default: no limit.
 
     Raises
     ------
@@ -47,53 +97,39 @@ class Friction:
     1.2
     """
 
-    mu: float | Sequence[tuple[float, float]]
-    kinetic: float | None = None
-    decay: float | None = None
-    cap: float | None = None
+    mu: Coefficient | CoefficientTable
+    """Coefficient, or a table of pairs (pressure, coefficient), linear in between and constant beyond its ends."""
+    kinetic: Coefficient | None = None
+    """Coefficient of a sliding point, approached from mu with the distance slid; with a table its first entry falls to
+    it, and all others in proportion; default: mu."""
+    decay: Above | None = None
+    """Decay: distance slid after which 1 / e of the difference remains; it goes with ``kinetic``."""
+    cap: Above | None = None
+    """Largest tangential traction, for instance the shear strength of the sheet or its coating; default: no limit."""
 
     def __post_init__(self) -> None:
-        pressures, coefficients = self._table()
-        if len(coefficients) == 0 or (np.diff(pressures) <= 0).any() or pressures[0] < 0:
-            raise InvalidFriction(
-                "the pressures of a table of friction must ascend from zero or more",
-                where="friction",
-                value=pressures.tolist(),
-                cause="rows out of order, or a row twice",
-                remedy="pairs (pressure, coefficient), sorted by pressure",
-            )
-        for coefficient in coefficients.tolist():
-            _check_coefficient(coefficient)
+        check_fields(self)
         if (self.kinetic is None) != (self.decay is None):
             raise InvalidFriction(
                 "a kinetic coefficient and the distance of its decay belong together",
-                where="friction",
+                where="kinetic",
                 value=f"kinetic {self.kinetic}, decay {self.decay}",
                 cause="one of the two is missing",
                 remedy="Friction(0.12, kinetic=0.10, decay=0.5)",
             )
-        if self.kinetic is not None:
-            _check_coefficient(self.kinetic)
-        for name in ("decay", "cap"):
-            value = getattr(self, name)
-            if value is not None and not (math.isfinite(value) and value > 0):
-                raise InvalidFriction(f"the {name} of friction must be positive", where="friction", value=value)
-        if self.kinetic is not None and not coefficients[0] > 0:
+        first = self._table()[1][0]
+        if self.kinetic is not None and not first > 0:
             raise InvalidFriction(
-                "a kinetic coefficient needs a positive one to begin with", where="friction", value=coefficients[0]
+                "a kinetic coefficient needs a positive one to begin with",
+                where="mu",
+                value=first,
+                cause="no friction at rest",
+                remedy="a coefficient above the kinetic one",
             )
 
     def _table(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        try:
-            table = np.array([(0.0, self.mu)] if np.ndim(self.mu) == 0 else self.mu, dtype=float)
-            pressures, coefficients = table.T
-        except (TypeError, ValueError):
-            raise InvalidFriction(
-                "friction is a coefficient or pairs (pressure, coefficient)",
-                where="friction",
-                value=self.mu,
-                remedy="0.12, or [(0, 0.14), (50, 0.10)]",
-            ) from None
+        rows = [(0.0, self.mu)] if isinstance(self.mu, Real) else self.mu
+        pressures, coefficients = np.array(rows, dtype=float).T
         return pressures, coefficients
 
     def kernel(self) -> _core.FrictionLaw:
@@ -120,13 +156,6 @@ class Friction:
 class Region:
     """Another friction law within a box in the frame of the tool.
 
-    Attributes
-    ----------
-    lower, upper : array_like, shape (3,)
-        Corners; infinite where the box has no end.
-    friction : float, Friction or callable
-        Law inside the box.
-
     Examples
     --------
     >>> import umform as uf
@@ -134,18 +163,23 @@ class Region:
     >>> friction = uf.FrictionByRegion(0.1, [dry])
     """
 
-    lower: ArrayLike
-    upper: ArrayLike
+    inside: ClassVar = "friction"
+
+    lower: Corner
+    """Lower corner; infinite where the box has no end."""
+    upper: Corner
+    """Upper corner."""
     friction: float | Friction | FrictionFunction
+    """Law inside the box."""
 
     def __post_init__(self) -> None:
-        lower, upper = np.asarray(self.lower, dtype=float), np.asarray(self.upper, dtype=float)
-        if lower.shape != (3,) or upper.shape != (3,) or not (lower < upper).all():
+        check_fields(self)
+        if not (np.asarray(self.lower) < np.asarray(self.upper)).all():
             raise InvalidFriction(
-                "a region of friction is a box with a lower and an upper corner",
-                where="friction",
-                value=f"{lower.tolist()} to {upper.tolist()}",
-                cause="corners exchanged, or not three numbers each",
+                "the lower corner of a region of friction must lie below its upper one",
+                where="lower",
+                value=f"{self.lower} to {self.upper}",
+                cause="corners exchanged",
                 remedy="Region((-10, -inf, -inf), (10, inf, inf), 0.05)",
             )
 
@@ -153,13 +187,6 @@ class Region:
 @dataclass(frozen=True)
 class FrictionByRegion:
     """Friction that varies over a tool: the first region that contains a point applies.
-
-    Parameters
-    ----------
-    elsewhere : float, Friction or callable
-        Law outside of all regions.
-    regions : sequence of Region
-        Boxes in the frame of the tool, its initial position.
 
     Examples
     --------
@@ -170,11 +197,17 @@ class FrictionByRegion:
     >>> pair = model.contact("lower", uf.Plane((0, 0, -0.1), (0, 0, 1)), friction=friction)
     """
 
+    inside: ClassVar = "elsewhere"
+
     elsewhere: float | Friction | FrictionFunction
-    regions: Sequence[Region]
+    """Law outside of all regions."""
+    regions: Sequence[Region] = ()
+    """Boxes in the frame of the tool, its initial position; the first one that contains a point applies."""
 
     def kernel(self) -> _core.FrictionLaw:
         """The law as the kernels take it."""
+        if not self.regions:
+            return friction_kernel(self.elsewhere)
         boxes = [
             (
                 np.asarray(region.lower, dtype=float).tolist(),
@@ -186,7 +219,10 @@ class FrictionByRegion:
         return _core.friction_by_region(boxes, friction_kernel(self.elsewhere))
 
 
-AnyFriction = float | Friction | FrictionByRegion | FrictionFunction
+#: A coefficient, a table, a law, or a function.
+AnyFriction = Annotated[
+    Coefficient | CoefficientTable | Friction | FrictionByRegion | FrictionFunction, About(error=InvalidFriction)
+]
 
 
 def friction_kernel(friction: AnyFriction) -> _core.FrictionLaw:
@@ -229,15 +265,3 @@ def _guarded(function: FrictionFunction) -> Callable[[float, float, Sequence[flo
         return value
 
     return bound
-
-
-def _check_coefficient(mu: float) -> None:
-    if math.isfinite(mu) and 0.0 <= mu <= _ROUGHEST:
-        return
-    raise InvalidFriction(
-        "a coefficient of friction lies between 0 and 2",
-        where="friction",
-        value=mu,
-        cause="a sign, a percentage (12 instead of 0.12), or a missing value",
-        remedy="0.05 to 0.2 for lubricated steel; no friction at all by leaving it away",
-    )

@@ -21,6 +21,7 @@ from umform.model.cut import Cut
 from umform.model.elsewhere import not_here
 from umform.model.term import Term, Tree
 from umform.model.tool import Pose, Tool
+from umform.quantities import history_of, named
 
 Floats = NDArray[np.float64]
 
@@ -207,12 +208,12 @@ class PairPoints(Term):
     @property
     def multipliers(self) -> Floats:
         """Multipliers of the converged state at the contact points; zero without augmentation."""
-        return self.block.state[:, 0]
+        return history_of(self.block)["multiplier"].ravel()
 
     def forget_multipliers(self) -> None:
         """Remove pressures of points without penetration."""
         state = self.block.state
-        state[:, 0] = 0.0
+        named(state, self.block.quantities)["multiplier"][:] = 0.0
         self.block.restore(state)
 
     def _not_here(self) -> ModelError:

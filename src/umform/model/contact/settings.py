@@ -7,16 +7,19 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Annotated, Literal
 
-import numpy as np
+from annotated_types import Ge, Gt, Le, Lt
 
 from umform import _core
-from umform.errors import InvalidFriction, InvalidPenalty, InvalidValue
+from umform.errors import InvalidPenalty, InvalidValue
 from umform.materials import Material
 from umform.mesh import Mesh, Selector
-from umform.model.contact.cells import RIPPLE, cells_for, checked_cells, ripple_of
+from umform.model.contact.cells import MOST, RIPPLE, cells_for, ripple_of
 from umform.model.contact.encounter import Encounter, sheet_thickness
 from umform.model.contact.friction import AnyFriction, friction_kernel
+from umform.spec import About, check_fields
+from umform.spec.types import ContactPoints, Positive
 from umform.surfaces import Surface
 
 log = logging.getLogger("umform.contact")
@@ -34,6 +37,82 @@ _STIFFEST = 10.0
 _WITHIN, _MOST = 6.0, 10
 #: Default of the points per direction.
 _POINTS = 2
+_CELLS = About(cause="a number of cells in all, or a word", remedy="3 on 4-node and 5 on 9-node faces to begin with")
+
+
+@dataclass(frozen=True)
+class ContactOptions:
+    """Choices of a contact; the rest follows from mesh, tool and law."""
+
+    penalty: (
+        Annotated[
+            float,
+            Gt(0.0),
+            About(
+                cause="a sign or a missing value",
+                remedy="omit it, and give the penetration that you allow if the default will not do",
+                error=InvalidPenalty,
+            ),
+        ]
+        | None
+    ) = None
+    """Penalty: contact pressure per penetration; by default from the allowed penetration, the strength of the sheet and
+    the radius of the tool. eq. (4.29)"""
+    penetration: Positive | None = None
+    """Allowed penetration, instead of the penalty; by default 1/200 of the thickness. A run that exceeds it warns."""
+    augmented: bool = False
+    """Remove excess penetration by multipliers; penalty and penetration may then both be given. Costs a few iterations
+    per increment."""
+    points: ContactPoints | Literal["nodes", "auto"] | None = None
+    """Contact points per direction of a face, by default 2: Gauss points, the nodes with their tributary areas, or as
+    many as the contact length requires (auto) by eq. (4.31). Use at least 2 on 4-node and 3 on 9-node faces."""
+    cells: Annotated[int, Ge(1), Le(MOST), _CELLS] | Literal["auto"] | None = None
+    """Instead of points: cells per direction of a face, over which a linear gap is integrated up to the moving edge of
+    contact, so that the force is smooth; auto: as many as the allowed ripple requires, eq. (4.122). Use at least 3 on
+    4-node and 5 on 9-node faces. The tangent is unsymmetric. docs/cells.md"""
+    ripple: Annotated[float, Gt(0.0), Lt(1.0), About(cause="per cent", remedy="0.001")] | None = None
+    """Allowed ripple for cells = auto, as a fraction of the force; by default 0.001."""
+    friction: AnyFriction | None = None
+    """Coefficient of friction, or a law; by default none."""
+    slip: Annotated[Positive, About(remedy="omit it: 1/200 of the thickness of the sheet is allowed then")] | None = (
+        None
+    )
+    """Elastic slip that is allowed: displacement of a sticking point before it slips, at any pressure; by default 1/200
+    of the thickness. Multipliers remove it."""
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        if self.penalty is not None and self.penetration is not None and not self.augmented:
+            raise InvalidValue(
+                "give the penalty or the penetration that is allowed, and not both",
+                where="penetration",
+                value=f"penalty {self.penalty:g}, penetration {self.penetration:g}",
+                cause="the penalty follows from the penetration",
+                remedy="leave one of them away; with augmented=True both may be given",
+            )
+        if self.points is not None and self.cells is not None:
+            raise InvalidValue(
+                "give points or cells, and not both",
+                where="cells",
+                value=f"points {self.points}, cells {self.cells}",
+                cause="cells take the place of points",
+                remedy="leave one of them away",
+            )
+        if self.ripple is not None and self.cells != "auto":
+            raise InvalidValue(
+                "a ripple can be wanted only of cells whose number follows from it",
+                where="ripple",
+                value=f"ripple {self.ripple}, cells {self.cells}",
+                cause="a number of cells, or points",
+                remedy="cells='auto'",
+            )
+        _ = self.law
+
+    @property
+    def law(self) -> _core.FrictionLaw | None:
+        """The friction law; None without friction."""
+        none = self.friction is None or (isinstance(self.friction, int | float) and self.friction == 0)
+        return None if none else friction_kernel(self.friction)  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True)
@@ -82,34 +161,26 @@ class ContactSettings:
 
 
 def contact_settings(
-    mesh: Mesh,
-    faces: Selector,
-    tool: Surface,
-    material: Material,
-    *,
-    penalty: float | None = None,
-    penetration: float | None = None,
-    points: int | str | None = None,
-    cells: int | str | None = None,
-    ripple: float | None = None,
-    augmented: bool = False,
-    friction: AnyFriction | None = None,
-    slip: float | None = None,
-    where: str = "contact",
+    mesh: Mesh, faces: Selector, tool: Surface, material: Material, options: ContactOptions, where: str = "contact"
 ) -> ContactSettings:
     """Settings from the given values, the rest from mesh, tool and law. eqs. (4.29), (4.31), (4.122)
 
     Raises
     ------
     InvalidPenalty, InvalidValue
-        If a number is out of range, or two settings exclude each other.
+        If the tool is no surface, or nothing can be estimated.
     """
-    _check(penalty, penetration, augmented, tool, where)
-    cells = checked_cells(cells, ripple, where)
-    points, over_cells = _places(points, cells, where), cells is not None
-    law = _friction_law(friction, slip, where)
+    if not isinstance(tool, Surface):
+        raise InvalidValue(
+            "a tool must be a surface",
+            where=where,
+            value=type(tool).__name__,
+            remedy="a tool of umform.surfaces, VDie or Cylinder for instance, or UserSurface(function)",
+        )
+    penalty, ripple, augmented, slip = options.penalty, options.ripple, options.augmented, options.slip
+    over_cells, law, allowed = options.cells is not None, options.law, options.penetration
+    points: int | str = options.cells or options.points or _POINTS
     estimated, given = penalty is None or points == "auto", penalty is not None
-    allowed = penetration
     if allowed is None and (penalty is None or augmented):
         allowed = ALLOWED * sheet_thickness(mesh)
     met = None
@@ -146,26 +217,7 @@ def contact_settings(
     else:
         pressure = penalty * allowed
     ratio = _tangential_stiffness(law, pressure, slip) / penalty
-    return replace(plain, friction=friction, slip=slip, ratio=ratio)
-
-
-def _friction_law(friction: AnyFriction | None, slip: float | None, where: str) -> _core.FrictionLaw | None:
-    """The checked friction law; None without friction."""
-    if slip is not None and not (np.isfinite(slip) and slip > 0):
-        raise InvalidValue(
-            "the elastic slip that is allowed must be positive",
-            where=where,
-            value=slip,
-            cause="a sign or a missing value",
-            remedy="omit it: 1/200 of the thickness of the sheet is allowed then",
-        )
-    if friction is None or (isinstance(friction, int | float) and friction == 0):
-        return None
-    try:
-        return friction_kernel(friction)
-    except InvalidFriction as error:
-        error.where = where
-        raise
+    return replace(plain, friction=options.friction, slip=slip, ratio=ratio)
 
 
 def _pressure(
@@ -243,51 +295,3 @@ def _cells(met: Encounter, penalty: float | None, allowed: float | None, ripple:
 def _default(met: Encounter) -> float:
     """Default allowed penetration."""
     return ALLOWED * met.thickness
-
-
-def _places(points: int | str | None, cells: int | str | None, where: str) -> int | str:
-    """Checked number of points or cells per direction."""
-    if cells is None:
-        points = _POINTS if points is None else points
-        if points not in ("auto", "nodes") and (isinstance(points, str) or points not in range(1, _MOST + 1)):
-            raise InvalidValue(
-                "contact points per direction must be 1 to 10, 'auto' or 'nodes'", where=where, value=points
-            )
-        return points
-    if points is not None:
-        raise InvalidValue(
-            "contact is held at points or over cells, not both",
-            where=where,
-            value=f"points {points}, cells {cells}",
-            cause="cells take the place of points",
-            remedy="leave one of them away",
-        )
-    return cells
-
-
-def _check(penalty: float | None, penetration: float | None, augmented: bool, tool: Surface, where: str) -> None:
-    if penalty is not None and not (np.isfinite(penalty) and penalty > 0):
-        raise InvalidPenalty(
-            "the penalty must be positive",
-            where=where,
-            value=penalty,
-            cause="a sign or a missing value",
-            remedy="omit it, and give the penetration that you allow if the default will not do",
-        )
-    if penetration is not None and not (np.isfinite(penetration) and penetration > 0):
-        raise InvalidValue("the penetration that is allowed must be positive", where=where, value=penetration)
-    if penalty is not None and penetration is not None and not augmented:
-        raise InvalidValue(
-            "give the penalty or the penetration that is allowed, and not both",
-            where=where,
-            value=f"penalty {penalty:g}, penetration {penetration:g}",
-            cause="the penalty follows from the penetration",
-            remedy="leave one of them away; with augmented=True both may be given",
-        )
-    if not isinstance(tool, Surface):
-        raise InvalidValue(
-            "a tool must be a surface",
-            where=where,
-            value=type(tool).__name__,
-            remedy="a tool of umform.surfaces, VDie or Cylinder for instance, or UserSurface(function)",
-        )

@@ -10,14 +10,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.processes.air_bending.brake import force_per_width, loading
+from umform.processes.air_bending.changes import Budget
+from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.measures import Measures, measure
+from umform.processes.air_bending.remarks import remarks, tools_text
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.spec import AirBending
+from umform.results.outcome import Outcome
+from umform.results.quantity import Quantity, in_rows, quantities_of
 from umform.run import Result
 
 Floats = NDArray[np.float64]
 #: Penetration, relative to the thickness, that is reported.
 _DEEP = 0.02
+#: Columns of a bending table.
+_TABLE = ("stroke", "loaded_angle", "angle", "springback", "force", "radius", "k_factor", "bend_deduction")
 
 
 @dataclass(frozen=True)
@@ -51,7 +58,7 @@ class Loaded:
 
 
 @dataclass(frozen=True)
-class AirBend:
+class AirBend(Outcome):
     """A bend.
 
     Attributes
@@ -72,6 +79,10 @@ class AirBend:
         Tool whose flank touches the sheet at the stroke: "die", "punch" or none. With a contact it is no air bending.
     result : Result
         History, frames and iterations.
+    table : tuple of Measures
+        Bending table: other strokes, if they were asked for.
+    budget : Budget, optional
+        Error budget, if it was asked for.
     """
 
     case: AirBending
@@ -84,6 +95,8 @@ class AirBend:
     path: Floats
     against: str
     result: Result
+    table: tuple[Measures, ...] = ()
+    budget: Budget | None = None
 
     @classmethod
     def of(cls, case: AirBending, result: Result, loaded: Loaded, measures: Measures) -> Self:
@@ -113,14 +126,38 @@ class AirBend:
         return None if self.case.width is None else self.measures.largest_force * self.case.width
 
     @property
+    def title(self) -> str:
+        """Heading of tables and pages."""
+        case = self.case
+        return f"Air bending: {case.thickness:g} mm sheet, {case.opening:g} mm opening, {self['angle'].full_text}"
+
+    @property
+    def quantities(self) -> list[Quantity]:
+        """The measures, and the force on the width if it is finite."""
+        found = quantities_of(self.measures, None if self.budget is None else self.budget.bands)
+        if self.total_force is not None:
+            force = Quantity("force on the width", "kN", 2, name="force_on_width", value=self.total_force / 1e3)
+            found.insert(3, force)
+        return found
+
+    @property
+    def tables(self) -> dict[str, list[list[str]]]:
+        """The measures, and the bending table."""
+        found = [{one.name: one for one in quantities_of(row)} for row in self.table]
+        rows = in_rows([[row[name] for name in _TABLE] for row in found])
+        return super().tables | ({"Bending table": rows} if rows else {})
+
+    @property
+    def notes(self) -> list[str]:
+        """Tools, force by the rule of the shop, remarks."""
+        low, high = shop_forces(self.case)
+        rule = f"the rule of the shop, 1.33 to 1.42 Rm t²/V, gives {low:.1f} to {high:.1f} N/mm"
+        return [tools_text(self.case), rule, *remarks(self.case, self.measures)]
+
+    @property
     def stages(self) -> dict[str, Result]:
         """The run by its name."""
         return {"bend": self.result}
-
-    @property
-    def iterations(self) -> int:
-        """Number of Newton iterations."""
-        return int(self.result["iterations"].sum())
 
     @property
     def force_balance(self) -> float:
@@ -150,4 +187,6 @@ class AirBend:
             deep: self.penetration > _DEEP * self.case.thickness and not exceeded,
             flat: not self.released.is_bent,
         }
-        return [*(text for text, holds in found.items() if holds), *self.result.warnings]
+        failures = {} if self.budget is None else self.budget.failures
+        failed = (f"{name}: {why}" for name, why in failures.items())
+        return [*(text for text, holds in found.items() if holds), *self.result.warnings, *failed]

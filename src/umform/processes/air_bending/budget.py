@@ -3,44 +3,22 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from typing import Any
 
 from umform.elements import element
 from umform.pool import run_all
-from umform.processes.air_bending.brake import build
 from umform.processes.air_bending.branches import Brake
+from umform.processes.air_bending.changes import Budget
 from umform.processes.air_bending.goal import needed_stroke
 from umform.processes.air_bending.measures import Measures
+from umform.processes.air_bending.problem import build
 from umform.processes.air_bending.spec import AirBending
 from umform.progress import progress_bar
 from umform.spec import parameters
 
 #: Element of the reference stack for the layers, and its points through the thickness of each element.
 _STACK, _STACK_POINTS = element("EAS3DEAS", thickness_order=2, tie_E33=True), 4
-
-
-@dataclass(frozen=True)
-class Budget:
-    """Sensitivities of the measures.
-
-    Attributes
-    ----------
-    base : Measures
-        The measures of the case as it stands.
-    changes : dict of str to dict of str to float
-        For each refinement, the change of each measure. NaN if the refined run failed.
-    failures : dict of str to str
-        Cause of the failure of refined runs.
-    """
-
-    base: Measures
-    changes: dict[str, dict[str, float]]
-    failures: dict[str, str]
-
-    def total(self, name: str) -> float:
-        """Square root of the sum of squares of the changes of a measure: its uncertainty from the discretisation."""
-        return math.sqrt(sum(change[name] ** 2 for change in self.changes.values()))
 
 
 def refinements(case: AirBending) -> dict[str, AirBending]:
@@ -139,7 +117,7 @@ def error_budget(
         }
         for name, answer in zip(cases, answers, strict=True)
     }
-    return Budget(base, changes, {n: a for n, a in zip(cases, answers, strict=True) if isinstance(a, str)})
+    return Budget(changes, {n: a for n, a in zip(cases, answers, strict=True) if isinstance(a, str)})
 
 
 def _run(case: AirBending) -> Measures | str:

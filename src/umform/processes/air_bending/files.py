@@ -5,28 +5,24 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from umform.elements import element
 from umform.errors import InvalidValue
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
 from umform.processes.air_bending.bend import AirBend
-from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.formulas import shop_forces, strength
 from umform.processes.air_bending.measures import Measures
+from umform.processes.air_bending.problem import problem_of
 from umform.processes.air_bending.remarks import coarse_mesh
 from umform.processes.air_bending.spec import AirBending
-from umform.processes.air_bending.words import columns
 from umform.report.versions import versions
-from umform.results.run_record import run_record
+from umform.results.outcome import QUANTITIES
+from umform.results.quantity import columns, quantities_of, values
 
-if TYPE_CHECKING:
-    from umform.processes.air_bending.budget import Budget
-
-_DATA = ("curve.csv", "table.csv", "bend.json", "bend.vtkhdf", "bend.toml")
+_DATA = ("curve.csv", "table.csv", QUANTITIES, "bend.json", "bend.vtkhdf", "bend.toml")
 _PAGE = ("curve.png", "curve.svg", "shape.png", "shape.svg", "drawing.png", "drawing.svg", "report.html")
 #: Files of a bend; they also mark a folder as that of a bend, with the files of a run that ended early.
 FILES = (*_DATA, *_PAGE)
@@ -35,27 +31,17 @@ RESULTS = (*FILES, "history.csv")
 _DPI = 120
 
 
-def write_files(
-    out: str | Path,
-    bend: AirBend,
-    table: Sequence[Measures] = (),
-    budget: Budget | None = None,
-    *,
-    note: str = "",
-) -> list[Path]:
+def write_files(out: str | Path, bend: AirBend, note: str = "") -> list[Path]:
     """Write all files of a bend.
 
     Parameters
     ----------
     out : str or Path
-        Folder for curve.csv, bend.json, bend.vtkhdf, bend.toml (the deck; not for your own hardening curve), curve,
-        shape and drawing as .png and .svg, report.html, and table.csv if there is a table; made if it is missing.
+        Folder for curve.csv, quantities.csv, bend.json, bend.vtkhdf, bend.toml (the deck; not for your own hardening
+        curve), curve, shape and drawing as .png and .svg, report.html, and table.csv if there is a table; made if it is
+        missing.
     bend : AirBend
         The bend.
-    table : sequence of Measures
-        Bending table.
-    budget : Budget, optional
-        Error budget.
     note : str, optional
         Source of the material data, for the report.
 
@@ -72,41 +58,45 @@ def write_files(
     with staging(out, FILES) as stage:
         here = stage.waiting
         write_csv(here / "curve.csv", {"step": bend.step, "stroke": bend.stroke, "force": bend.force})
-        if table:
-            write_csv(here / "table.csv", columns(table))
-        write_json(here / "bend.json", record(bend, table, budget))
+        if bend.table:
+            write_table(here / "table.csv", bend.table)
+        bend.write(here)
+        write_json(here / "bend.json", record(bend))
         bend.result.write(here / "bend.vtkhdf")
         deck = ""
         with suppress(InvalidValue):  # a deck cannot express a curve or an element of the user
-            deck = deck_of(bend.case)
+            deck = problem_of(bend.case).toml()
             (here / "bend.toml").write_text(deck, encoding="utf-8")
         files = stage.commit(_DATA)  # a failure of a picture must not lose the numbers
-        figures = {"curve": curves(bend, table), "shape": shapes(bend), "drawing": drawing(bend)}
+        figures = {"curve": curves(bend, bend.table), "shape": shapes(bend), "drawing": drawing(bend)}
         for name, figure in figures.items():
             save(figure, here / f"{name}.png", dpi=_DPI)
             save(figure, here / f"{name}.svg")
-        write_page(here / "report.html", bend, figures, table, budget, deck, note)
+        write_page(here / "report.html", bend, figures, deck, note)
         return [*files, *stage.commit(_PAGE)]
 
 
-def record(bend: AirBend, table: Sequence[Measures] = (), budget: Budget | None = None) -> dict[str, Any]:
+def write_table(path: Path, table: Sequence[Measures]) -> None:
+    """Write all measures of a bending table; NaN for unknown ones."""
+    found = columns([quantities_of(row) for row in table])
+    write_csv(path, {name: [math.nan if one is None else one for one in column] for name, column in found.items()})
+
+
+def record(bend: AirBend) -> dict[str, Any]:
     """Parameters, measures, table and budget as JSON data; None for unknown values."""
+    budget = bend.budget
     content: dict[str, Any] = {
+        **bend.record(),
         "parameters": parameters(bend.case),
-        "measures": _told(asdict(bend.measures)),
+        "measures": bend.values,
         "total_force": bend.total_force,
         "shop_forces": shop_forces(bend.case),
         "tensile_strength": strength(bend.case),
         **_told({"force_balance": bend.force_balance}),
         "penetration": bend.penetration,
-        **run_record(bend.stages),
-        "increments": len(bend.result) - 1,
-        "iterations": bend.iterations,
-        "seconds": bend.result.seconds,
         "coarse_mesh": coarse_mesh(bend.case),
-        "warnings": bend.warnings,
         "versions": versions(),
-        "table": [_told(asdict(row)) for row in table],
+        "table": [values(quantities_of(row)) for row in bend.table],
     }
     if budget:
         finished = {name: _told(change) for name, change in budget.changes.items() if name not in budget.failures}

@@ -1,96 +1,60 @@
-"""The measures of a bend: name, unit and meaning."""
+"""The measures of a bend: label, unit, decimals, meaning; and how they are taken."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
 from umform.processes.air_bending.section import Floats, Section
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """Presentation of a measure: label, unit, decimals, and what it is for."""
-
-    label: str
-    unit: str
-    decimals: int
-    hint: str = ""
-
-
-#: The measures in the order of tables, defined in docs/air-bending.md.
-QUANTITIES = {
-    "stroke": Quantity("stroke", "mm", 3),
-    "force": Quantity("force at the stroke", "N/mm", 1),
-    "largest_force": Quantity("largest force", "N/mm", 1, "choose the press by it"),
-    "loaded_angle": Quantity("angle under load", "deg", 2),
-    "angle": Quantity("angle", "deg", 2),
-    "springback": Quantity("springback", "deg", 2),
-    "springback_ratio": Quantity("springback ratio", "", 4),
-    "radius": Quantity("inside radius", "mm", 3),
-    "smallest_radius": Quantity("smallest radius", "mm", 3),
-    "neutral_fibre": Quantity("neutral fibre", "", 3, "its place in the sheet"),
-    "k_factor": Quantity("K-factor", "", 3, "for the flat pattern"),
-    "bend_allowance": Quantity("bend allowance", "mm", 3),
-    "bend_deduction": Quantity("bend deduction", "mm", 3),
-    "setback": Quantity("outside setback", "mm", 3),
-    "leg": Quantity("straight leg", "mm", 3),
-    "length_balance": Quantity("length balance", "mm", 4, "a check: near 0"),
-    "outer_strain": Quantity("outer strain", "", 4),
-    "thinning": Quantity("smallest thickness ratio", "", 4),
-}
+from umform.results.quantity import Quantity
 
 
 @dataclass(frozen=True)
 class Measures:
     """Measures of one bend, under load and after unloading; NaN where a flat sheet does not define them.
 
-    Attributes
-    ----------
-    stroke : float
-        Travel of the punch from first contact with the sheet.
-    force, largest_force : float
-        Force of the punch per length of bend at the stroke, and its largest value up to there.
-    loaded_angle, angle : float
-        Angle between the legs in degrees under load, and after unloading.
-    springback, springback_ratio : float
-        Their difference; bend angle (180 degrees less the angle) after unloading over that under load.
-    radius, smallest_radius : float
-        Inside radius after unloading: of the best-fit circle, and the smallest local one.
-    neutral_fibre : float
-        Distance of the fibre that keeps its length from the inner face, in the flat sheet, relative to the thickness.
-    k_factor : float
-        K in bend allowance = bend angle (radius + K thickness).
-    bend_allowance, bend_deduction, setback, leg : float
-        Flat length = 2 legs + bend allowance = 2 (leg + setback) - bend deduction; setback is that of the outer faces.
-    length_balance : float
-        2 legs + length of the neutral fibre between them - flat length: a measure of the curvature of the legs.
-    outer_strain : float
-        Largest logarithmic strain of the outer face along the sheet.
-    thinning : float
-        Smallest thickness relative to that of the flat sheet.
+    Their order is that of tables; docs/air-bending.md defines them.
     """
 
-    stroke: float
-    force: float
-    largest_force: float
-    loaded_angle: float
-    angle: float
-    springback: float
-    springback_ratio: float
-    radius: float
-    smallest_radius: float
-    neutral_fibre: float
-    k_factor: float
-    bend_allowance: float
-    bend_deduction: float
-    setback: float
-    leg: float
-    length_balance: float
-    outer_strain: float
-    thinning: float
+    stroke: Annotated[float, Quantity("stroke", "mm", 3)]
+    """Travel of the punch from first contact with the sheet."""
+    force: Annotated[float, Quantity("force at the stroke", "N/mm", 1)]
+    """Force of the punch per length of bend at the stroke."""
+    largest_force: Annotated[float, Quantity("largest force", "N/mm", 1, hint="choose the press by it")]
+    """The largest force up to there."""
+    loaded_angle: Annotated[float, Quantity("angle under load", "degrees", 2)]
+    """Angle between the legs under load."""
+    angle: Annotated[float, Quantity("angle", "degrees", 2)]
+    """The same after unloading."""
+    springback: Annotated[float, Quantity("springback", "degrees", 2)]
+    """Their difference."""
+    springback_ratio: Annotated[float, Quantity("springback ratio", "", 4)]
+    """Bend angle (180 degrees less the angle) after unloading over that under load."""
+    radius: Annotated[float, Quantity("inside radius", "mm", 3)]
+    """Inside radius after unloading, of the best-fit circle."""
+    smallest_radius: Annotated[float, Quantity("smallest radius", "mm", 3)]
+    """The smallest local one."""
+    neutral_fibre: Annotated[float, Quantity("neutral fibre", "", 3, hint="its place in the sheet")]
+    """Distance of the fibre that keeps its length from the inner face, in the flat sheet, relative to the thickness."""
+    k_factor: Annotated[float, Quantity("K-factor", "", 3, hint="for the flat pattern")]
+    """K in bend allowance = bend angle (radius + K thickness)."""
+    bend_allowance: Annotated[float, Quantity("bend allowance", "mm", 3)]
+    """Flat length less two legs."""
+    bend_deduction: Annotated[float, Quantity("bend deduction", "mm", 3)]
+    """2 (leg + setback) less the flat length."""
+    setback: Annotated[float, Quantity("outside setback", "mm", 3)]
+    """Setback of the outer faces."""
+    leg: Annotated[float, Quantity("straight leg", "mm", 3)]
+    """Straight part beside the bend."""
+    length_balance: Annotated[float, Quantity("length balance", "mm", 4, hint="a check: near 0")]
+    """2 legs + length of the neutral fibre between them - flat length: a measure of the curvature of the legs."""
+    outer_strain: Annotated[float, Quantity("outer strain", "", 4)]
+    """Largest logarithmic strain of the outer face along the sheet."""
+    thinning: Annotated[float, Quantity("smallest thickness ratio", "", 4)]
+    """Smallest thickness relative to that of the flat sheet."""
 
 
 #: Measures that only a bent section defines (`Section.is_bent`): they need its radius or its neutral fibre.

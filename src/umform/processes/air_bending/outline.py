@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from umform.surfaces.directions import Point2
 from umform.surfaces.profile import Profile
-from umform.surfaces.segments import Arc, Line, Point2, Segment
+from umform.surfaces.segments import Arc, Line, Segment
 
 #: Degrees by which an arc and its line may miss being tangent, and by which a top may be tilted.
 _BENT, _TILTED = 1.0, 0.05

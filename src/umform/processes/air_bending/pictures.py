@@ -44,8 +44,8 @@ def shapes(bend: AirBend) -> Figure:
     """The sheet and its tools under load, and after unloading, coloured by the plastic strain."""
     last = max(n for n, frame in enumerate(bend.result.frames) if bend.step[frame.number] < 2)
     states = [
-        (f"under load: {bend.measures.loaded_angle:.2f}°", bend.loaded, bend.result.frames[last]),
-        (f"released: {bend.measures.angle:.2f}°", bend.released, bend.result.frames[-1]),
+        (f"under load: {bend['loaded_angle'].full_text}", bend.loaded, bend.result.frames[last]),
+        (f"released: {bend['angle'].full_text}", bend.released, bend.result.frames[-1]),
     ]
     largest = max(float(frame.cells[_FIELD].max()) for _, _, frame in states)
     with house_style():

@@ -15,14 +15,17 @@ from umform.io.tables import write_csv, write_json
 from umform.processes.air_bending.files import parameters
 from umform.processes.air_bending.remarks import coarse_mesh
 from umform.processes.bend_sequence.part import BendDone, Part
+from umform.processes.bend_sequence.spec import MOST_BENDS
 from umform.report.versions import versions
-from umform.results.run_record import run_record
+from umform.results.outcome import QUANTITIES
+from umform.results.quantity import quantities_of, values
 
-_DATA = ("sequence.json", "profile.csv", "curves.csv", "part.vtkhdf")
+_DATA = ("sequence.json", QUANTITIES, "profile.csv", "curves.csv", "part.vtkhdf")
 _PICTURES = ("part.png", "part.svg")
 _PAGE = "report.html"
+_DECKS = tuple(f"bend{number}.toml" for number in range(1, MOST_BENDS + 1))
 #: Files of a part.
-FILES = (*_DATA, *_PICTURES, _PAGE)
+FILES = (*_DATA, *_DECKS, *_PICTURES, _PAGE)
 RESULTS = FILES
 
 
@@ -32,8 +35,8 @@ def write_files(out: str | Path, part: Part, note: str = "") -> list[Path]:
     Parameters
     ----------
     out : str or Path
-        Folder for sequence.json, profile.csv, curves.csv, part.vtkhdf (the last bend), part.png, part.svg and
-        report.html.
+        Folder for sequence.json, quantities.csv, profile.csv, curves.csv, part.vtkhdf (the last bend), part.png,
+        part.svg and report.html; bend1.toml, ... are decks of the bends.
     part : Part
         The part.
     note : str
@@ -46,12 +49,16 @@ def write_files(out: str | Path, part: Part, note: str = "") -> list[Path]:
     with staging(out, FILES) as stage:
         here = stage.waiting
         write_json(here / "sequence.json", record(part) | {"note": note})
+        part.write(here)
         write_csv(here / "profile.csv", {"x": part.profile[:, 0], "z": part.profile[:, 1]})
         number = np.concatenate([np.full(len(done.stroke), k) for k, done in enumerate(part.bends, start=1)])
         stroke, force = (np.concatenate([getattr(done, name) for done in part.bends]) for name in ("stroke", "force"))
         write_csv(here / "curves.csv", {"bend": number, "stroke": stroke, "force": force})
         part.bends[-1].result.write(here / "part.vtkhdf")
-        files = stage.commit(_DATA)
+        decks = part.decks()
+        for name, text in decks.items():
+            (here / name).write_text(text, encoding="utf-8")
+        files = stage.commit([*_DATA, *decks])
         figure = picture(part)
         for name in _PICTURES:
             save(figure, here / name)
@@ -86,13 +93,9 @@ def record(part: Part) -> dict[str, Any]:
         "flanges": part.flanges,
         "length_balance": _number(part.length_balance),
         "profile": _points(part.profile),
-        "increments": sum(len(done.result) - 1 for done in part.bends),
-        "iterations": int(sum(done.result["iterations"].sum() for done in part.bends)),
-        "seconds": sum(done.result.seconds for done in part.bends),
-        **run_record(part.stages),
+        **part.record(),
         "collisions": part.collisions,
         "coarse_mesh": coarse_mesh(sequence.sheet),
-        "warnings": part.warnings,
         "versions": versions(),
     }
 
@@ -101,7 +104,7 @@ def _bend(done: BendDone, angle: float) -> dict[str, Any]:
     """One bend."""
     loaded = max(done.states[:-1] or done.states, key=lambda state: state[0])
     return {
-        "measures": {name: _number(value) for name, value in asdict(done.measures).items()},
+        "measures": values(quantities_of(done.measures)),
         "final_angle": _number(angle),
         "collisions": [asdict(hit) for hit in done.collisions],
         "trials": [list(trial) for trial in done.trials],

@@ -10,10 +10,8 @@ from matplotlib.figure import Figure
 from umform.plotting import COLOURS, Picture, house_style
 from umform.processes.air_bending.page import parameters
 from umform.processes.bend_sequence.part import Part
-from umform.processes.bend_sequence.words import bend_rows, flanges, remarks
 from umform.report import parts
-from umform.report.page import closing, parameter_parts, settings
-from umform.report.repeats import counted
+from umform.report.page import outcome_parts
 
 
 def write_page(path: Path, part: Part, picture: Figure, note: str = "") -> Path:
@@ -30,28 +28,16 @@ def write_page(path: Path, part: Part, picture: Figure, note: str = "") -> Path:
     note : str
         Source of the material data; may be empty.
     """
-    sheet = part.sequence.sheet
-    title = f"Part of {len(part.bends)} bends: {sheet.thickness:g} mm sheet, {part.sequence.length:g} mm long"
-    seconds = sum(done.result.seconds for done in part.bends)
-    return parts.write_html(path, title, f"plane strain; {seconds:.1f} s", _parts(part, picture, note))
+    given = parameters(part.sequence.sheet)
+    content = outcome_parts(part, _parts(part, picture), given, note, model="Model of the last bend")
+    return parts.write_html(path, part.title, f"plane strain; {part.seconds:.1f} s", content)
 
 
-def _parts(part: Part, picture: Figure, note: str) -> Iterator[str]:
-    for message in counted(part.warnings):
-        yield parts.note(message, bad=True)
-    header, *rows = bend_rows(part)
-    yield parts.heading("Bends")
-    yield parts.table(header, rows)
-    yield parts.paragraph(flanges(part))
-    yield from map(parts.note, remarks(part))
+def _parts(part: Part, picture: Figure) -> Iterator[str]:
     yield parts.heading("Shape")
     yield parts.figure(picture, "Each bend under load in its tools, and the part after the last one.")
     yield parts.heading("Force")
     yield parts.figure(curves(part), "Force of the punch per mm of bend over the stroke, with unloading.")
-    yield from parameter_parts(parameters(part.sequence.sheet), note)
-    yield parts.heading("Model of the last bend")
-    yield parts.pairs(settings(part.bends[-1].result))
-    yield from closing(part.stages, part.bends[-1].result)
 
 
 def curves(part: Part) -> Figure:

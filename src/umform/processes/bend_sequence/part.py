@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.problem.problem import Problem
 from umform.processes.air_bending.measures import Measures
+from umform.processes.air_bending.remarks import coarse_mesh, extrapolated, tools_text
 from umform.processes.bend_sequence.collisions import Collision
 from umform.processes.bend_sequence.sides import Sides, Strip
 from umform.processes.bend_sequence.spec import Bend, BendSequence
+from umform.results.outcome import Outcome
+from umform.results.quantity import Quantity, prefixed, quantities_of, side_by_side, table
 from umform.run import Result
 
 Floats = NDArray[np.float64]
@@ -25,6 +29,11 @@ def when_and_where(bend: Bend, hit: Collision) -> str:
     when = "before it is bent" if hit.stroke <= 0.0 else f"from a stroke of {hit.stroke:.4g} mm on"
     place = bend.position + (-hit.distance if bend.over else hit.distance)
     return f"{when}, at {abs(place):.3g} mm from the left end of the flat strip"
+
+
+def after(deck: str) -> dict[str, str]:
+    """Table of the operation before, whose deck was run in the folder of both."""
+    return {"deck": deck, "state": f"results/{deck.removesuffix('.toml')}/state.h5"}
 
 
 @dataclass(frozen=True)
@@ -49,6 +58,8 @@ class BendDone:
         Warnings.
     result : Result
         History, frames and iterations.
+    problem : Problem
+        The bend with the stroke that it took, as a problem of its own.
     """
 
     bend: Bend
@@ -60,10 +71,11 @@ class BendDone:
     trials: tuple[tuple[float, float], ...]
     warnings: tuple[str, ...]
     result: Result
+    problem: Problem
 
 
 @dataclass(frozen=True)
-class Part:
+class Part(Outcome):
     """A part after all of its bends.
 
     Attributes
@@ -109,10 +121,68 @@ class Part:
     def _sides(self, bend: Bend) -> Sides:
         return self.strip.at(bend.position, over=bend.over).sides(self.sequence.zone(bend))
 
+    def decks(self) -> dict[str, str]:
+        """Decks of the bends by the names of their files: `umform run` of one after the other repeats the runs."""
+        names = [f"bend{number}.toml" for number in range(1, len(self.bends) + 1)]
+        befores = [None, *map(after, names)]
+        return {name: done.problem.toml(before) for name, done, before in zip(names, self.bends, befores)}
+
     @property
     def length_balance(self) -> float:
         """Outer lengths of the flanges less the bend deductions less the flat length. eq. (5.92)"""
         return sum(self.flanges) - sum(done.measures.bend_deduction for done in self.bends) - self.sequence.length
+
+    @property
+    def title(self) -> str:
+        """Heading of tables and pages."""
+        sheet = self.sequence.sheet
+        return f"Part of {len(self.bends)} bends: {sheet.thickness:g} mm sheet, {self.sequence.length:g} mm long"
+
+    @property
+    def of_bends(self) -> dict[str, list[Quantity]]:
+        """Measures of each bend by its number, and its angle after the last bend."""
+        last = Quantity("angle after the last bend", "degrees", 2, name="final_angle")
+        return {
+            f"{number}": [*quantities_of(done.measures), replace(last, value=angle)]
+            for number, (done, angle) in enumerate(zip(self.bends, self.angles, strict=True), start=1)
+        }
+
+    @property
+    def of_part(self) -> list[Quantity]:
+        """Outer lengths of the flanges, and the length balance."""
+        flanges = [
+            Quantity(f"flange {number}, outer length", "mm", 3, name=f"flange {number}", value=length)
+            for number, length in enumerate(self.flanges, start=1)
+        ]
+        balance = Quantity(
+            "length balance", "mm", 4, name="length_balance", value=self.length_balance, hint="a check: near 0"
+        )
+        return [*flanges, balance]
+
+    @property
+    def quantities(self) -> list[Quantity]:
+        """Those of the bends, and those of the part."""
+        bends = [prefixed(one, f"bend {number}: ") for number, row in self.of_bends.items() for one in row]
+        return [*bends, *self.of_part]
+
+    @property
+    def tables(self) -> dict[str, list[list[str]]]:
+        """The bends side by side; the part."""
+        header, *rows = side_by_side(self.of_bends, "bend")
+        bends = [done.bend for done in self.bends]
+        placed = [
+            ["position", *(f"{bend.position:g}" for bend in bends), "mm"],
+            ["direction", *(bend.direction for bend in bends), ""],
+        ]
+        return {"Bends": [header, *placed, *rows], "Part": table(self.of_part)}
+
+    @property
+    def notes(self) -> list[str]:
+        """Tools of each bend, mesh, extrapolated flow curve."""
+        sheet = self.sequence.sheet
+        strain = max(done.measures.outer_strain for done in self.bends)
+        tools = dict.fromkeys(tools_text(self.sequence.case(done.bend)) for done in self.bends)
+        return [*tools, *coarse_mesh(sheet), *extrapolated(sheet, strain)]
 
     @property
     def stages(self) -> dict[str, Result]:

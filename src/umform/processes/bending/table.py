@@ -5,28 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from umform.processes.bending.case import Bending
+from umform.results.quantity import Quantity, in_rows
 
 
-def header(runs: Sequence[Bending]) -> list[str]:
-    """Names of the columns."""
-    forces = [f"F({mark:g})" for mark in runs[0].case.marks]
-    return ["run", *forces, "u at F = 0", "J %", "rms %", "iterations", "s"]
-
-
-def rows(runs: Sequence[Bending]) -> list[list[str]]:
-    """One row a run; what a run did not reach is a dash."""
-    return [
-        [
-            run.case.name,
-            *(_number(force, 2) for force in run.forces),
-            _number(run.zero_force, 3),
-            _percent(run.jump),
-            _percent(run.roughness),
-            str(run.iterations),
-            f"{run.seconds:.1f}",
-        ]
-        for run in runs
-    ]
+def table(runs: Sequence[Bending]) -> list[list[str]]:
+    """A header and a row for each run; what a run did not reach is a dash."""
+    header, *rows = in_rows([[*run.quantities, *_effort(run)] for run in runs])
+    return [["run", *header], *([run.case.name, *row] for run, row in zip(runs, rows, strict=True))]
 
 
 def legend(runs: Sequence[Bending]) -> list[str]:
@@ -41,9 +26,5 @@ def legend(runs: Sequence[Bending]) -> list[str]:
     return lines
 
 
-def _number(value: float | None, digits: int) -> str:
-    return "–" if value is None else f"{value:.{digits}f}"
-
-
-def _percent(value: float | None) -> str:
-    return _number(None if value is None else 100.0 * value, 2)
+def _effort(run: Bending) -> list[Quantity]:
+    return [Quantity("iterations", decimals=0, value=run.iterations), Quantity("time", "s", 1, value=run.seconds)]

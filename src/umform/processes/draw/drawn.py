@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -36,6 +36,8 @@ from umform.results.forming import (
     section,
     u_bend_angles,
 )
+from umform.results.outcome import Outcome
+from umform.results.quantity import Band, Quantity, in_rows
 from umform.run import Result
 
 Floats = NDArray[np.float64]
@@ -44,12 +46,13 @@ Floats = NDArray[np.float64]
 _HIGHEST = 0.85
 #: Names of the measures of the punch force: while the holder holds the sheet, and afterwards.
 FORCE, FORCE_OFF = "largest punch force", "off the holder: punch force"
+_RIPPLE = "half of the ripple of the force as elements pass the edge of the die"
 #: Force of a holder relative to its largest one below which it has let go of the sheet.
 _HELD = 0.05
 
 
 @dataclass(frozen=True)
-class Drawn:
+class Drawn(Outcome):
     """A drawn part.
 
     Attributes
@@ -218,14 +221,9 @@ class Drawn:
         return {"drawing": self.result} | ({} if self.released is None else {"release": self.released})
 
     @property
-    def iterations(self) -> int:
-        """Newton iterations of drawing and release."""
-        return int(sum(stage["iterations"].sum() for stage in self.stages.values()))
-
-    @property
-    def seconds(self) -> float:
-        """Wall time of drawing and release."""
-        return sum(stage.seconds for stage in self.stages.values())
+    def increments(self) -> int:
+        """Number of increments of the drawing."""
+        return len(self.result) - 1
 
     @property
     def warnings(self) -> list[str]:
@@ -262,47 +260,94 @@ class Drawn:
         heights = ", ".join(f"{height:.3g}" for height in self.wall_heights)
         return [f"the wall has sprung back below the usual heights: its angles and radius are those at {heights} mm"]
 
-    def measures(self) -> dict[str, tuple[float, str]]:
-        """Measures of the part by name, with units."""
-        found, punch, after = self.fields, self.punch_force, self.punch_force_after
-        rows: dict[str, tuple[float, str]] = {
-            FORCE: (punch.value / 1000.0, "kN"),
-            "at a stroke of": (punch.stroke, "mm"),
-        }
-        if after is not None:
-            rows |= {FORCE_OFF: (after.value / 1000.0, "kN"), "off the holder: at a stroke of": (after.stroke, "mm")}
-        rows |= {
-            "largest holder force": (float(self.forces["holder"].max()) / 1000.0, "kN"),
-            "draw-in, mean": (float(self.outline.draw_in.mean()), "mm"),
-            "largest thinning": (float(found["thinning"].max()), "%"),
-            "largest thickening": (float(-found["thinning"].min()), "%"),
-            "largest major strain": (float(found["major_middle"].max()), ""),
-            "margin to the forming limit": (float(found["limit_margin"].min()), ""),
-            "work of friction": (self.friction_share, "% of the work"),
-        }
-        if math.isfinite(torn := tears_from(self.result)):
-            rows["stroke at the forming limit"] = (torn, "mm")
-        if self.released is not None:
-            rows["largest springback"] = (self.springback.largest, "mm")
-        if isinstance(self.case, Cup):
-            ears = self.ears
-            rows |= {name: (height, "mm") for name, height in ears.heights().items()}
-            if self.has_ears:
-                rows |= {name: (amplitude, "mm") for name, amplitude in ears.waves().items()}
-                rows[NUMBER_OF_EARS] = (float(len(ears.ears())), "")
-        elif self.angles is not None:
-            rows |= {
-                "theta1": (self.angles.theta1, "degrees"),
-                "theta2": (self.angles.theta2, "degrees"),
-                "radius of the wall": (self.angles.radius, "mm"),
-            }
-        return rows
+    @property
+    def title(self) -> str:
+        """Heading of tables and pages."""
+        case = self.case
+        if isinstance(case, Cup):
+            return f"Cup: punch of {2.0 * case.punch_radius:g} mm, {case.thickness:g} mm sheet"
+        return f"U-bend: punch of {case.punch_width:g} mm, {case.thickness:g} mm sheet"
 
-    def errors(self) -> dict[str, float]:
-        """Errors of measures, in their units: those of three meshes, or the ripple of a force by one mesh."""
+    @property
+    def quantities(self) -> list[Quantity]:
+        """Measures of the part: those of forming, then those of a cup or of a U-bend."""
+        found, punch, after = self.fields, self.punch_force, self.punch_force_after
+        torn, bands = tears_from(self.result), self._bands
+        rows = [
+            Quantity(FORCE, "kN", value=punch.value / 1000.0),
+            Quantity("at a stroke of", "mm", value=punch.stroke),
+            *(
+                []
+                if after is None
+                else [
+                    Quantity(FORCE_OFF, "kN", value=after.value / 1000.0),
+                    Quantity("off the holder: at a stroke of", "mm", value=after.stroke),
+                ]
+            ),
+            Quantity("largest holder force", "kN", value=float(self.forces["holder"].max()) / 1000.0),
+            Quantity("draw-in, mean", "mm", value=float(self.outline.draw_in.mean())),
+            Quantity("largest thinning", "%", value=float(found["thinning"].max())),
+            Quantity("largest thickening", "%", value=float(-found["thinning"].min())),
+            Quantity("largest major strain", value=float(found["major_middle"].max())),
+            Quantity("margin to the forming limit", value=float(found["limit_margin"].min()), limit=0.0, at_least=True),
+            Quantity("work of friction", "% of the work", value=self.friction_share),
+            *([Quantity("stroke at the forming limit", "mm", value=torn)] if math.isfinite(torn) else []),
+            *([] if self.released is None else [Quantity("largest springback", "mm", value=self.springback.largest)]),
+            *(self._of_cup() if isinstance(self.case, Cup) else self._of_u_bend()),
+        ]
+        return [replace(one, band=bands.get(one.name)) for one in rows]
+
+    def _of_cup(self) -> list[Quantity]:
+        heights = [Quantity(name, "mm", value=height) for name, height in self.ears.heights().items()]
+        if not self.has_ears:
+            return heights
+        waves = [Quantity(name, "mm", value=amplitude) for name, amplitude in self.ears.waves().items()]
+        return [*heights, *waves, Quantity(NUMBER_OF_EARS, value=float(len(self.ears.ears())))]
+
+    def _of_u_bend(self) -> list[Quantity]:
+        if self.angles is None:
+            return []
+        return [
+            Quantity("theta1", "degrees", value=self.angles.theta1),
+            Quantity("theta2", "degrees", value=self.angles.theta2),
+            Quantity("radius of the wall", "mm", value=self.angles.radius),
+        ]
+
+    @property
+    def _bands(self) -> dict[str, Band]:
+        """Errors by name: those of three meshes, or the ripple of a force by one mesh."""
         ripples = {FORCE: self.punch_force, FORCE_OFF: self.punch_force_after} if isinstance(self.case, Cup) else {}
-        known = {name: force.ripple / 1000.0 for name, force in ripples.items() if force is not None}
-        return known | {name: limit.error for name, limit in self.estimates.items() if limit.error is not None}
+        known = {name: Band(force.ripple / 1000.0, _RIPPLE) for name, force in ripples.items() if force is not None}
+        return known | {name: limit.band for name, limit in self.estimates.items()}
+
+    @property
+    def tables(self) -> dict[str, list[list[str]]]:
+        """The measures, and those of each mesh that gave the estimates."""
+        return super().tables | ({"Meshes": in_rows(list(map(self._on, self._meshes)))} if self.estimates else {})
+
+    @property
+    def _meshes(self) -> tuple[Drawn, ...]:
+        return (*self.coarser, self)
+
+    def _on(self, mesh: Drawn) -> list[Quantity]:
+        elements = len(mesh.result.model.mesh.connectivity)
+        size = [Quantity("degrees per element", value=mesh.case.turn), Quantity("elements", decimals=0, value=elements)]
+        return [*size, *(replace(mesh[name], band=None) for name in self.estimates)]
+
+    @property
+    def notes(self) -> list[str]:
+        """Which errors are unknown."""
+        return list(filter(None, [self.about_errors]))
+
+    @property
+    def about_errors(self) -> str:
+        """Note on values without an error; empty if there are none."""
+        if self.estimates:
+            return ""
+        text = f"values of one mesh, whose elements turn up to {self.case.turn:g} degrees: most errors are unknown"
+        if isinstance(self.case, UBend):
+            return f"{text}; three meshes (without --coarse, or --extrapolate) give it"
+        return f"{text}; repeat with half of --turn, and twice --around, to see it"
 
 
 def passage(case: Cup, cut: Section) -> float:

@@ -11,10 +11,10 @@ from umform.io.tables import write_csv, write_json
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.u_bend import UBend
-from umform.processes.draw.words import about_errors, parameters
+from umform.processes.draw.words import parameters
 from umform.report.versions import versions
 from umform.results.forming.sections import columns as section_columns
-from umform.results.run_record import run_record
+from umform.results.outcome import QUANTITIES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -26,7 +26,8 @@ _PICTURES = (
 #: The mesh over the wanted sizes, drawn before the run.
 _BEFORE = "blank.png"
 _DATA = (
-    "curve.csv", "fields.csv", "outline.csv", "section.csv", "ears.csv", "part.json", "draw.vtkhdf", "release.vtkhdf",
+    "curve.csv", QUANTITIES, "fields.csv", "outline.csv", "section.csv", "ears.csv", "part.json", "draw.vtkhdf",
+    "release.vtkhdf",
 )  # fmt: skip
 _PAGE = (*(f"{name}.png" for name in _PICTURES), "report.html")
 #: Files of a part; they also mark a folder as that of a part.
@@ -61,6 +62,7 @@ def write_files(out: str | Path, drawn: Drawn, note: str = "", blank: Figure | N
     with staging(out, FILES) as stage:
         here = stage.waiting
         _write_tables(here, drawn)
+        drawn.write(here)
         write_json(here / "part.json", record(drawn))
         drawn.result.write(here / "draw.vtkhdf")
         if drawn.released is not None:
@@ -106,16 +108,12 @@ def record(drawn: Drawn) -> dict[str, Any]:
     """Parameters and measures as JSON data."""
     return {
         "parameters": parameters(drawn.case),
-        "measures": {name: value for name, (value, _) in drawn.measures().items()},
-        "errors": dict.fromkeys(drawn.measures()) | drawn.errors(),
-        "about_errors": about_errors(drawn),
+        "measures": drawn.values,
+        "errors": {one.name: None if one.band is None else one.band.error for one in drawn.quantities},
+        "about_errors": drawn.about_errors,
         "estimates": {name: asdict(limit) for name, limit in drawn.estimates.items()},
         "ending": None if drawn.ending is None else drawn.ending.text,
         "elements": len(drawn.result.model.mesh.connectivity),
-        "increments": len(drawn.result) - 1,
-        "iterations": drawn.iterations,
-        "seconds": drawn.seconds,
-        **run_record(drawn.stages),
-        "warnings": drawn.warnings,
+        **drawn.record(),
         "versions": versions(),
     }

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
+from itertools import chain
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -10,11 +11,10 @@ from matplotlib.figure import Figure
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.u_bend import UBend
-from umform.processes.draw.words import about_errors, before_the_run, meshes, parameters, summary, title
+from umform.processes.draw.words import before_the_run, parameters
 from umform.report import parts
 from umform.report.materials import material_text
-from umform.report.page import closing, parameter_parts, settings
-from umform.report.repeats import counted
+from umform.report.page import outcome_parts
 
 _CAPTIONS = {
     "blank": "Mesh of the blank over the sizes that keep the angle of an element over the radii of the tools.",
@@ -30,11 +30,6 @@ _CAPTIONS = {
     "section": "Section at y = 0, at the end of the stroke and out of the tools.",
     "ears": "Height of the cup over the angle to the rolling direction.",
 }
-
-_ESTIMATES = (
-    "Values with an error are extrapolated to zero element size from these meshes. All else, pictures too, is from the "
-    "finest mesh."
-)
 
 
 def write_page(path: Path, drawn: Drawn, figures: Mapping[str, Figure], note: str = "") -> Path:
@@ -53,7 +48,10 @@ def write_page(path: Path, drawn: Drawn, figures: Mapping[str, Figure], note: st
     """
     elements = len(drawn.result.model.mesh.connectivity)
     lead = f"{elements} elements; {drawn.iterations} Newton iterations in {drawn.seconds:.1f} s"
-    return parts.write_html(path, title(drawn), lead, _parts(drawn, figures, note))
+    figured = (parts.figure(figure, _CAPTIONS[name]) for name, figure in figures.items())
+    middle = chain(figured, [parts.paragraph(before_the_run(drawn.case))])
+    given = parameters(drawn.case) | _texts(drawn.case)
+    return parts.write_html(path, drawn.title, lead, outcome_parts(drawn, middle, given, note))
 
 
 def _texts(case: Cup | UBend) -> dict[str, str]:
@@ -64,23 +62,3 @@ def _texts(case: Cup | UBend) -> dict[str, str]:
         for name, given in settings.items()
     }
     return texts | {"material": material_text(case.material)}
-
-
-def _parts(drawn: Drawn, figures: Mapping[str, Figure], note: str) -> Iterator[str]:
-    for message in counted(drawn.warnings):
-        yield parts.note(message, bad=True)
-    yield parts.heading("Measures")
-    columns, *rows = summary(drawn)
-    yield parts.table(columns, rows)
-    yield from map(parts.note, filter(None, [about_errors(drawn)]))
-    if drawn.estimates:
-        yield parts.paragraph(_ESTIMATES)
-        columns, *rows = meshes(drawn)
-        yield parts.table(columns, rows)
-    for name, figure in figures.items():
-        yield parts.figure(figure, _CAPTIONS[name])
-    yield from parameter_parts(parameters(drawn.case) | _texts(drawn.case), note)
-    yield parts.paragraph(before_the_run(drawn.case))
-    yield parts.heading("Model")
-    yield parts.pairs(settings(drawn.result))
-    yield from closing(drawn.stages, drawn.result)

@@ -74,10 +74,9 @@ def estimates_of(meshes: list[Drawn]) -> dict[str, Limit]:
 
     Elements of 18 nodes converge faster than with the square once they are small: the error reaches the finest mesh.
     """
-    measures = [drawn.measures() for drawn in meshes]
     found = {}
     for name in _QUANTITIES:
-        numbers = [row[name][0] for row in measures]
+        numbers = [number for drawn in meshes if (number := drawn.values[name]) is not None]
         if name == _RADIUS:
             found[name] = Limit.of_three([1.0 / number for number in numbers], FINER, least=1.0).inverse
         else:

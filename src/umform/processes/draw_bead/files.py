@@ -9,12 +9,12 @@ from typing import Any
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
 from umform.processes.draw_bead.equivalent import in_deck, in_python
-from umform.processes.draw_bead.measures import QUANTITIES, Drawn
+from umform.processes.draw_bead.measures import Drawn
 from umform.processes.draw_bead.words import parameters
 from umform.report.versions import versions
-from umform.results.run_record import run_record
+from umform.results.outcome import QUANTITIES
 
-_DATA = ("curve.csv", "bead.json", "bead.vtkhdf", "equivalent.toml")
+_DATA = ("curve.csv", QUANTITIES, "bead.json", "bead.vtkhdf", "equivalent.toml")
 _PAGE = ("curve.png", "curve.svg", "shape.png", "shape.svg", "report.html")
 #: Files of a bead; they also mark a folder as that of a bead, with the files of a run that ended early.
 FILES = (*_DATA, *_PAGE)
@@ -27,7 +27,8 @@ def write_files(out: str | Path, drawn: Drawn, note: str = "") -> list[Path]:
     Parameters
     ----------
     out : str or Path
-        Folder for curve.csv, bead.json, bead.vtkhdf, equivalent.toml, curve and shape as .png and .svg, report.html.
+        Folder for curve.csv, quantities.csv, bead.json, bead.vtkhdf, equivalent.toml, curve and shape as .png and .svg,
+        report.html.
     drawn : Drawn
         The bead.
     note : str, optional
@@ -46,6 +47,7 @@ def write_files(out: str | Path, drawn: Drawn, note: str = "") -> list[Path]:
         here = stage.waiting
         columns = {"way": drawn.way, "restraint": drawn.restraint_curve, "uplift": drawn.uplift_curve}
         write_csv(here / "curve.csv", columns)
+        drawn.write(here)
         write_json(here / "bead.json", record(drawn))
         drawn.result.write(here / "bead.vtkhdf")
         (here / "equivalent.toml").write_text(in_deck(drawn), encoding="utf-8")
@@ -62,13 +64,9 @@ def record(drawn: Drawn) -> dict[str, Any]:
     """Parameters and measures as JSON data."""
     return {
         "parameters": parameters(drawn),
-        "measures": {name: getattr(drawn, name) for name in QUANTITIES},
+        "measures": drawn.values,
         "limits": None if drawn.limits is None else asdict(drawn.limits),
         "equivalent": in_python(drawn),
-        "increments": len(drawn.result) - 1,
-        "iterations": int(drawn.result["iterations"].sum()),
-        "seconds": drawn.result.seconds,
-        **run_record(drawn.stages),
-        "warnings": drawn.warnings,
+        **drawn.record(),
         "versions": versions(),
     }

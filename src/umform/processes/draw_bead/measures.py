@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Self
+from typing import Annotated, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,27 +11,18 @@ from numpy.typing import NDArray
 from umform.processes.draw_bead.limits import Limits
 from umform.processes.draw_bead.spec import DrawBead
 from umform.results import fields
+from umform.results.outcome import Outcome
+from umform.results.quantity import Quantity, quantities_of
 from umform.run import Result
 
 Floats = NDArray[np.float64]
 
-#: The measures with their labels, units and decimals, in the order of tables.
-QUANTITIES = {
-    "restraint": ("restraining force", "N/mm", 1),
-    "restraint_spread": ("its spread, half of largest less smallest", "N/mm", 1),
-    "uplift": ("uplift force", "N/mm", 1),
-    "uplift_spread": ("its spread", "N/mm", 1),
-    "closing_force": ("largest force to close", "N/mm", 1),
-    "thinning": ("thinning out", "%", 2),
-    "friction_share": ("share of friction in the work", "%", 1),
-    "balance": ("work less energies, over the work", "%", 2),
-}
 #: Parts of the work of the drawing force.
 _ENERGIES = ("elastic_energy", "plastic_work", "contact_energy", "friction_work")
 
 
 @dataclass(frozen=True)
-class Drawn:
+class Drawn(Outcome):
     """A strip that was drawn through a bead; forces are per length of bead in N/mm.
 
     Attributes
@@ -40,18 +31,6 @@ class Drawn:
         The parameters.
     way, restraint_curve, uplift_curve : ndarray, shape (n,)
         Travel of the strip in mm, drawing force, and force that separates the tools, in each increment.
-    restraint, uplift : float
-        Means over the steady part of the travel, which begins when the exiting sheet has passed the whole bead.
-    restraint_spread, uplift_spread : float
-        Half of the range of the force over this part: ripple due to the mesh.
-    closing_force : float
-        Largest force to close the tools.
-    thinning : float
-        Relative loss of thickness of the sheet that has passed the whole bead, in per cent.
-    friction_share : float
-        Work of friction relative to that of the force, on the steady part, in per cent.
-    balance : float
-        Work of the force minus plastic, friction and elastic work, relative to the work of the force, in per cent.
     result : Result
         History, frames and iterations.
     limits : Limits, optional
@@ -62,14 +41,22 @@ class Drawn:
     way: Floats
     restraint_curve: Floats
     uplift_curve: Floats
-    restraint: float
-    restraint_spread: float
-    uplift: float
-    uplift_spread: float
-    closing_force: float
-    thinning: float
-    friction_share: float
-    balance: float
+    restraint: Annotated[float, Quantity("restraining force", "N/mm", 1)]
+    """Mean over the steady part of the travel, which begins when the exiting sheet has passed the whole bead."""
+    restraint_spread: Annotated[float, Quantity("its spread, half of largest less smallest", "N/mm", 1)]
+    """Half of the range of the force over this part: ripple due to the mesh."""
+    uplift: Annotated[float, Quantity("uplift force", "N/mm", 1)]
+    """Mean over the steady part."""
+    uplift_spread: Annotated[float, Quantity("its spread", "N/mm", 1)]
+    """Half of the range over this part."""
+    closing_force: Annotated[float, Quantity("largest force to close", "N/mm", 1)]
+    """Largest force to close the tools."""
+    thinning: Annotated[float, Quantity("thinning out", "%", 2)]
+    """Relative loss of thickness of the sheet that has passed the whole bead."""
+    friction_share: Annotated[float, Quantity("share of friction in the work", "%", 1)]
+    """Work of friction relative to that of the force, on the steady part."""
+    balance: Annotated[float, Quantity("work less energies, over the work", "%", 2)]
+    """Work of the force minus plastic, friction and elastic work, relative to the work of the force."""
     result: Result
     limits: Limits | None = None
 
@@ -103,6 +90,17 @@ class Drawn:
         if self.limits is None:
             return self.restraint, self.uplift
         return self.limits.restraint.value, self.limits.uplift.value
+
+    @property
+    def title(self) -> str:
+        """Heading of tables and pages."""
+        return f"Draw bead: {self.case.thickness:g} mm sheet, {self['restraint'].full_text}"
+
+    @property
+    def quantities(self) -> list[Quantity]:
+        """The measures; with several meshes, both forces have a band."""
+        limits = {} if self.limits is None else {"restraint": self.limits.restraint, "uplift": self.limits.uplift}
+        return quantities_of(self, {name: limit.band for name, limit in limits.items()})
 
     @property
     def stages(self) -> dict[str, Result]:

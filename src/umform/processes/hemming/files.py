@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,16 +13,18 @@ from umform.processes.air_bending.files import parameters
 from umform.processes.air_bending.remarks import coarse_mesh
 from umform.processes.hemming.measures import Hem
 from umform.report.versions import versions
-from umform.results.run_record import run_record
+from umform.results.outcome import QUANTITIES
+from umform.results.quantity import quantities_of, values
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_DATA = ("hem.json", "curve.csv", "profile.csv", "hem.vtkhdf")
+_DATA = ("hem.json", QUANTITIES, "curve.csv", "profile.csv", "hem.vtkhdf")
 _PICTURES = ("hem.png", "hem.svg")
 _PAGE = "report.html"
+_DECKS = ("bend1.toml", "hem.toml")
 #: Files of a hem.
-FILES = (*_DATA, *_PICTURES, _PAGE)
+FILES = (*_DATA, *_DECKS, *_PICTURES, _PAGE)
 RESULTS = FILES
 
 
@@ -34,7 +34,8 @@ def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:
     Parameters
     ----------
     out : str or Path
-        Folder for hem.json, curve.csv, profile.csv, hem.vtkhdf, hem.png, hem.svg and report.html.
+        Folder for hem.json, quantities.csv, curve.csv, profile.csv, hem.vtkhdf, hem.png, hem.svg, report.html, and for
+        bend1.toml and hem.toml, the decks of its operations.
     hem : Hem
         The hem.
     note : str
@@ -47,9 +48,12 @@ def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:
         here = stage.waiting
         write_json(here / "hem.json", record(hem) | {"note": note})
         write_csv(here / "curve.csv", {"stroke": hem.stroke, "force": hem.force})
+        hem.write(here)
         write_csv(here / "profile.csv", {"x": hem.profile[:, 0], "z": hem.profile[:, 1]})
         hem.result.write(here / "hem.vtkhdf")
-        files = stage.commit(_DATA)
+        for name, text in hem.decks().items():
+            (here / name).write_text(text, encoding="utf-8")
+        files = stage.commit([*_DATA, *_DECKS])
         figure = picture(hem)
         for name in _PICTURES:
             save(figure, here / name)
@@ -63,16 +67,12 @@ def record(hem: Hem) -> dict[str, Any]:
     given = {name: getattr(case, name) for name in ("gap", "flange", "base", "insert", "insert_edge", "angle")}
     return {
         "parameters": {**given, "increments": case.increments, "sheet": parameters(case.sheet)},
-        "first": {name: None if math.isnan(value) else value for name, value in asdict(first.measures).items()},
-        "measures": asdict(hem.measures),
+        "first": values(quantities_of(first.measures)),
+        "measures": hem.values,
         "curve": {"stroke": hem.stroke.tolist(), "force": hem.force.tolist()},
         "profile": np.round(hem.profile, 4).tolist(),
-        **run_record(hem.stages),
-        "increments": sum(len(run) - 1 for run in hem.stages.values()),
-        "iterations": int(sum(run["iterations"].sum() for run in hem.stages.values())),
-        "seconds": sum(run.seconds for run in hem.stages.values()),
+        **hem.record(),
         "coarse_mesh": coarse_mesh(case.sheet),
-        "warnings": list(hem.warnings),
         "versions": versions(),
     }
 
@@ -87,7 +87,7 @@ def picture(hem: Hem) -> Figure:
         left.plot(hem.stroke, hem.force, color=COLOURS[0])
         left.set(xlabel="way of the plate in mm", ylabel="force in N for each mm of the hem", title="Force")
         right.fill(*hem.profile.T, facecolor="#d9dde2", edgecolor=INK, linewidth=0.8)
-        right.set_title(f"released: height {hem.measures.height:.2f} mm")
+        right.set_title(f"released: height {hem['height'].full_text}")
         right.set_aspect("equal")
         right.axis("off")
     return figure

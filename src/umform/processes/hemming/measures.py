@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.problem.problem import Problem
+from umform.processes.air_bending.remarks import coarse_mesh, extrapolated, tools_text
 from umform.processes.air_bending.section import Section
-from umform.processes.bend_sequence.part import Part
+from umform.processes.bend_sequence.part import Part, after
 from umform.processes.bend_sequence.sides import Strip
 from umform.processes.hemming.spec import Hemming
+from umform.results.outcome import Outcome
+from umform.results.quantity import Quantity, quantities_of
 from umform.run import Result
 
 Floats = NDArray[np.float64]
@@ -19,40 +24,32 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class HemMeasures:
-    """Measures of a hem; lengths in mm, forces per length of hem in N/mm.
+    """Measures of a hem; their order is that of tables, docs/bending-operations.md defines them."""
 
-    Attributes
-    ----------
-    force, largest_force : float
-        Force of the plate at the end of its travel, and the largest one.
-    loaded_height, height : float
-        Outer height of the hem with the plate on it, and after unloading.
-    springback : float
-        Their difference.
-    tip_gap, loop_gap : float
-        After unloading: gap between flange and base at the tip of the flange, and the largest one.
-    angle : float
-        Angle between flange and base after unloading in degrees; positive: it opens towards the tip.
-    outer_strain : float
-        Largest mean logarithmic strain of an element along the outer face.
-    thinning : float
-        Smallest thickness relative to that of the flat sheet.
-    """
-
-    force: float
-    largest_force: float
-    loaded_height: float
-    height: float
-    springback: float
-    tip_gap: float
-    loop_gap: float
-    angle: float
-    outer_strain: float
-    thinning: float
+    force: Annotated[float, Quantity("force", "N/mm", 1)]
+    """Force of the plate per length of hem at the end of its travel."""
+    largest_force: Annotated[float, Quantity("largest force", "N/mm", 1)]
+    """The largest one."""
+    loaded_height: Annotated[float, Quantity("height under load", "mm", 3)]
+    """Outer height of the hem with the plate on it."""
+    height: Annotated[float, Quantity("height", "mm", 3)]
+    """The same after unloading."""
+    springback: Annotated[float, Quantity("springback", "mm", 3)]
+    """Their difference."""
+    tip_gap: Annotated[float, Quantity("gap at the tip", "mm", 3)]
+    """Gap between flange and base at the tip of the flange, after unloading."""
+    loop_gap: Annotated[float, Quantity("largest gap", "mm", 3)]
+    """The largest one."""
+    angle: Annotated[float, Quantity("angle of the flange", "degrees", 2)]
+    """Angle between flange and base after unloading; positive: it opens towards the tip."""
+    outer_strain: Annotated[float, Quantity("outer strain", "", 4)]
+    """Largest mean logarithmic strain of an element along the outer face."""
+    thinning: Annotated[float, Quantity("smallest thickness ratio", "", 4)]
+    """Smallest thickness relative to that of the flat sheet."""
 
 
 @dataclass(frozen=True)
-class Hem:
+class Hem(Outcome):
     """A hem.
 
     Attributes
@@ -67,10 +64,10 @@ class Hem:
         Travel of the plate and its force per length of hem in N/mm, all converged increments.
     strip : Strip
         The section after unloading, the base on z = 0.
-    warnings : tuple of str
-        Warnings.
     result : Result
         History and frames of the flattening.
+    problem : Problem
+        The flattening as a problem of its own.
     """
 
     case: Hemming
@@ -79,8 +76,35 @@ class Hem:
     stroke: Floats
     force: Floats
     strip: Strip
-    warnings: tuple[str, ...]
     result: Result
+    problem: Problem
+
+    def decks(self) -> dict[str, str]:
+        """Decks of bend and flattening by the names of their files: `umform run` of both repeats the runs."""
+        decks = self.first.decks()
+        return decks | {"hem.toml": self.problem.toml(after(*decks))}
+
+    @property
+    def title(self) -> str:
+        """Heading of tables and pages."""
+        case = self.case
+        return f"Hem: {case.sheet.thickness:g} mm sheet, gap {case.gap:g} mm, {'insert' if case.insert else 'open'}"
+
+    @property
+    def quantities(self) -> list[Quantity]:
+        """The measures."""
+        return quantities_of(self.measures)
+
+    @property
+    def warnings(self) -> list[str]:
+        """Warnings of the first bend and of the flattening."""
+        return [*self.first.warnings, *self.result.warnings]
+
+    @property
+    def notes(self) -> list[str]:
+        """Tools of the first bend, mesh, extrapolated flow curve."""
+        sheet = self.case.sheet
+        return [tools_text(sheet), *coarse_mesh(sheet), *extrapolated(sheet, self.measures.outer_strain)]
 
     @property
     def stages(self) -> dict[str, Result]:

@@ -9,7 +9,7 @@ import logging
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 import numpy as np
 
@@ -17,17 +17,16 @@ from umform.errors import InvalidValue, NoConvergence
 from umform.model import Model
 from umform.model.control import Control
 from umform.solution.records import Cause, Failed
+from umform.spec import check_fields
+from umform.spec.types import Count, Cuts, Duration, Growth, Increments, Share
 from umform.steps.arc_length.critical import CriticalPoints
 from umform.steps.arc_length.equation import Line
 from umform.steps.arc_length.path import Path
 from umform.steps.increment import last_residuals
 from umform.steps.loop import Run
-from umform.steps.move import check_time
 from umform.steps.thinned import thinned
 
 log = logging.getLogger("umform.arc")
-
-_KINDS = ("cylindrical", "spherical")
 
 
 @dataclass(frozen=True)
@@ -39,31 +38,6 @@ class Arc:
     exactly at the load parameter 1; or after ``most`` increments, or when ``until`` returns True. Time is proportional
     to the length of the path, with ``increment * time`` in the first increment. Limit points and bifurcation points are
     listed in ``result.events``.
-
-    Parameters
-    ----------
-    control : Control or sequence of Control
-        Loads, pressures, prescribed displacements or tools to move, one or several.
-    to : float or sequence of float
-        End value for each control.
-    increment : float
-        First increment of the load parameter along the tangent. It sets the first arc length.
-    kind : {"cylindrical", "spherical"}
-        Length of an increment: of the displacements, or of displacements and load parameter (which weighs as much as
-        the displacements in the first increment). eq. (5.22)
-    iterations : int
-        Number of iterations to which the arc length is adapted.
-    grow : float
-        Ratio of the largest arc length to the first.
-    cuts : int
-        How often the first arc length may be halved before the run fails.
-    most : int
-        Number of increments at which the step ends with a warning.
-    until : callable, optional
-        Called with the model after each converged increment; True ends the step.
-    time : float
-        Time for the path to ``to`` at the rate of the first increment, for rate-dependent metals: the path is followed
-        at constant arc-length speed. Near a limit point a control slows down, and moves back behind it.
 
     Notes
     -----
@@ -89,28 +63,31 @@ class Arc:
     """
 
     control: Control | Sequence[Control]
+    """Loads, pressures, prescribed displacements or tools to move, one or several."""
     to: float | Sequence[float]
-    increment: float = 0.05
-    kind: str = "cylindrical"
-    iterations: int = 6
-    grow: float = 4.0
-    cuts: int = 10
-    most: int = 200
+    """End value for each control."""
+    increment: Share = 0.05
+    """First increment of the load parameter, which goes from 0 to 1, along the tangent. It sets the first arc
+    length."""
+    kind: Literal["cylindrical", "spherical"] = "cylindrical"
+    """Length of an increment: of the displacements, or of displacements and load parameter (which weighs as much as the
+    displacements in the first increment). eq. (5.22)"""
+    iterations: Count = 6
+    """Number of iterations to which the arc length is adapted."""
+    grow: Growth = 4.0
+    """Ratio of the largest arc length to the first."""
+    cuts: Cuts = 10
+    """How often the first arc length may be halved before the run fails."""
+    most: Increments = 200
+    """Number of increments at which the step ends with a warning."""
     until: Callable[[Model], bool] | None = None
-    time: float = 1.0
+    """Called with the model after each converged increment; True ends the step."""
+    time: Duration = 1.0
+    """Time for the path to ``to`` at the rate of the first increment, for rate-dependent metals: the path is followed
+    at constant arc-length speed. Near a limit point a control slows down, and moves back behind it."""
 
     def __post_init__(self) -> None:
-        if not 0.0 < self.increment <= 1.0:
-            raise InvalidValue("the first increment of an arc is a fraction of the way", value=self.increment)
-        if self.kind not in _KINDS:
-            raise InvalidValue("an arc is cylindrical or spherical", value=self.kind)
-        if not self.grow >= 1:
-            raise InvalidValue("grow must be 1 or more", value=self.grow)
-        for name, least in (("iterations", 1), ("cuts", 0), ("most", 1)):
-            value = getattr(self, name)
-            if not isinstance(value, int) or value < least:
-                raise InvalidValue(f"{name} must be a whole number, {least} or more", value=value)
-        check_time("Arc", self.time)
+        check_fields(self)
         if len(self.targets()) != len(self.moved()) or len(set(self.moved())) != len(self.moved()):
             raise InvalidValue(
                 "give one target for each control, and each control once",

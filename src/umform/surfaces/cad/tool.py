@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -132,6 +133,10 @@ class CadTool(Tool):
     def largest_curvature(self) -> float:
         """Largest convex curvature; infinite with a sharp edge."""
         return self.smooth.largest_curvature
+
+    def convex_radii(self) -> Iterator[float]:
+        """One over the largest curvature."""
+        return self.smooth.convex_radii()
 
     def kernel(self) -> _core.Surface:
         """The surface as the kernels take it."""

@@ -20,7 +20,7 @@ from umform.processes.draw.files import draw_blank
 from umform.processes.draw.pictures import pictures, sections
 from umform.processes.draw.press import OPTIONS
 from umform.processes.draw.spec import coarse
-from umform.processes.draw.words import before_the_run, summary
+from umform.processes.draw.words import before_the_run
 from umform.results.forming import ear_profile, passage
 
 STEEL = uf.J2(E=206e3, nu=0.3, hardening=uf.Swift(565.3, 0.0071, 0.259))
@@ -83,18 +83,18 @@ def test_the_gauge_of_a_cup_keeps_its_symmetry():
     """It may carry a force while the punch still holds the part."""
     tools = {"punch_radius": 30.0, "punch_edge": 5.0, "die_radius": 31.2, "die_edge": 10.0}
     model, press = replace(CUP, blank_radius=53.75, turn=30.0, around=8, **tools).build()
-    x = model.mesh.points[press.gauge.nodes]
+    x = model.mesh.points[press.opening[0].on.nodes]
     assert len(x) == 1
     np.testing.assert_allclose(x[:, :2], 0.0, atol=1e-9)
 
 
 def test_measures_of_a_cup():
     drawn = cup()
-    rows = drawn.measures()
+    rows = drawn.values
     loaded = ear_profile(drawn.result.model.mesh, drawn.u)
     assert 7.0 < loaded.mean < 8.0  # stroke and thickness, and the bottom bulges away from the flat of the punch
-    assert 0 < rows["draw-in, mean"][0] < 3
-    assert rows["margin to the forming limit"][0] > 0
+    assert 0 < rows["draw-in, mean"] < 3
+    assert rows["margin to the forming limit"] > 0
     assert drawn.released is not None
     assert abs(drawn.released["die_fz"][-1]) < 1e-9
     assert 0 < drawn.springback.largest < 0.5
@@ -106,9 +106,9 @@ def test_measures_of_a_cup():
 def test_the_ripple_of_a_mesh_is_the_band_of_its_force(monkeypatch):
     drawn = replace(cup())
     own = float(drawn.forces["punch"].max()) / 1000.0
-    force, ripple = drawn.measures()[FORCE][0], drawn.errors()[FORCE]
+    force, ripple = drawn[FORCE].value, drawn[FORCE].band.error
     assert 0.0 < ripple < 0.2 * force and own == pytest.approx(force, abs=1.001 * ripple)
-    assert drawn.punch_force_after is None and FORCE_OFF not in drawn.measures() | drawn.errors()
+    assert drawn.punch_force_after is None and FORCE_OFF not in drawn.values
     monkeypatch.setattr(passage, "RIPPLE", 0.2)
     assert not any("ripples" in text for text in drawn.warnings)
     monkeypatch.setattr(passage, "RIPPLE", 0.01)
@@ -123,11 +123,11 @@ def test_a_peak_off_the_holder_is_not_the_force_of_drawing():
     vars(drawn).update(
         stroke=stroke, forces={"punch": punch, "holder": np.where(stroke < 25.0, 20e3, 10.0), "die": punch}
     )
-    rows = drawn.measures()
-    assert rows["largest punch force"][0] == pytest.approx(30.0, rel=0.05)
-    assert rows["at a stroke of"][0] == pytest.approx(15.0, abs=0.5)
-    off, ripple = rows[FORCE_OFF][0], drawn.errors()[FORCE_OFF]
-    assert off + ripple >= 49.9 and rows["off the holder: at a stroke of"][0] == pytest.approx(33.0, abs=0.5)
+    rows = drawn.values
+    assert rows["largest punch force"] == pytest.approx(30.0, rel=0.05)
+    assert rows["at a stroke of"] == pytest.approx(15.0, abs=0.5)
+    off, ripple = rows[FORCE_OFF], drawn[FORCE_OFF].band.error
+    assert off + ripple >= 49.9 and rows["off the holder: at a stroke of"] == pytest.approx(33.0, abs=0.5)
     assert any("the rim is ironed row by row" in text for text in drawn.warnings)
 
 
@@ -157,7 +157,7 @@ def test_values_of_one_coarse_mesh_are_marked_everywhere(tmp_path):
     (said,) = [text for text in drawn.warnings if text.startswith("coarse mesh")]
     assert "turns 45 degrees over a radius, 15 is usual" in said
     assert not coarse(replace(CUP, turn=15.0)) and not coarse(replace(U, turn=12.0))
-    header, *rows = summary(drawn)
+    header, *rows = drawn.tables["Measures"]
     assert header[2] == "error" and {row[2] for row in rows[1:]} == {"unknown"} and rows[0][2].startswith("± ")
     write_files(tmp_path, drawn)
     kept, page = json.loads((tmp_path / "part.json").read_text()), (tmp_path / "report.html").read_text()
@@ -223,7 +223,7 @@ def test_the_stroke_at_the_forming_limit():
     ending = ending_of(CUP, drawn.result, lambda minor: 0.0 * minor + limit, None)
     middle = 0.5 * (strokes[-1] + strokes[-2])
     assert ending is not None and f"from a stroke of about {middle:.3g}" in ending.text
-    assert drawn.measures()["stroke at the forming limit"][0] == pytest.approx(middle)
+    assert drawn["stroke at the forming limit"].value == pytest.approx(middle)
     cup.cache_clear()
 
 
@@ -237,7 +237,7 @@ def test_only_ears_of_a_metal_with_directions_and_without_a_flange_count():
         (wide | {"material": metal}, True),
     ):
         drawn = replace(cup(), case=replace(CUP, **changes))
-        assert drawn.has_ears is counted and ("number of ears" in drawn.measures()) is counted
+        assert drawn.has_ears is counted and ("number of ears" in drawn.values) is counted
 
 
 @pytest.mark.parametrize(
@@ -366,8 +366,8 @@ def test_a_clearance_below_the_thickness_is_a_warning():
 
 
 def test_a_part_that_stays_in_its_tools_has_no_springback():
-    assert "largest springback" in cup().measures()
+    assert "largest springback" in cup().values
     kept = replace(cup(), released=None)
-    assert "largest springback" not in kept.measures() and "gauge" not in pictures(kept)
+    assert "largest springback" not in kept.values and "gauge" not in pictures(kept)
     labels = [line.get_label() for line in sections(kept).axes[0].lines]
     assert "drawn" in labels and "released" not in labels

@@ -16,7 +16,6 @@ from umform.processes.draw.endings import Ending
 from umform.processes.draw.files import record
 from umform.processes.draw.pictures import sections
 from umform.processes.draw.three_meshes import estimates_of
-from umform.processes.draw.words import meshes, summary
 from umform.processes.limit import Limit, allowed_penetration
 
 STEEL = uf.J2(E=206e3, nu=0.3, hardening=uf.Swift(565.3, 0.0071, 0.259))
@@ -39,13 +38,13 @@ EXACT = {"theta1": 100.0, "theta2": 80.0, "largest punch force": 2.0, "draw-in, 
 def measured(turn, squares=1e-3):
     """Measures whose error falls with the square of the element size; of the wall it is that of the curvature."""
     error = squares * turn**2
-    rows = {name: (value * (1.0 + error), "") for name, value in EXACT.items()}
-    return rows | {"radius of the wall": (1.0 / (0.01 * (1.0 - error)), "mm")}
+    rows = {name: value * (1.0 + error) for name, value in EXACT.items()}
+    return rows | {"radius of the wall": 1.0 / (0.01 * (1.0 - error))}
 
 
 def test_limits_of_errors_that_fall_with_the_square_are_exact():
     turns = [20.0, 20.0 / 2.0**0.5, 10.0]
-    found = estimates_of([SimpleNamespace(measures=lambda turn=turn: measured(turn)) for turn in turns])
+    found = estimates_of([SimpleNamespace(values=measured(turn)) for turn in turns])
     for name, value in EXACT.items():
         assert found[name].value == pytest.approx(value, rel=1e-12)
         assert found[name].error == pytest.approx(0.1 * value, rel=1e-9)  # what was extrapolated
@@ -59,8 +58,10 @@ def test_limits_of_errors_that_fall_with_the_square_are_exact():
 class Measured(Drawn):
     """A drawn part with measures of a known error."""
 
-    def measures(self):
-        return super().measures() | measured(self.case.turn)
+    @property
+    def quantities(self):
+        known = measured(self.case.turn)
+        return [replace(one, value=known.get(one.name, one.value)) for one in super().quantities]
 
 
 @pytest.fixture(scope="module")
@@ -90,11 +91,11 @@ def test_three_meshes_are_run_and_the_finest_is_kept(runs):
     assert [frames for _, frames in runs] == [0, 0, 7]
     assert found.case.turn == 15.0 and [one.case.turn for one in found.coarser] == pytest.approx([30.0, 21.2132])
     assert found.estimates["theta1"].value == pytest.approx(100.0)
-    columns, *rows = summary(found)
+    columns, *rows = found.tables["Measures"]
     assert columns == ["quantity", "value", "error", "finest mesh", "unit"]
-    assert ["theta1", "100", "± 22", "122.5", ""] in rows
+    assert ["theta1", "100", "± 22", "122.5", "degrees"] in rows
     assert next(row for row in rows if row[0] == "largest thinning")[2:4] == ["unknown", ""]
-    assert len(meshes(found)) == 4
+    assert len(found.tables["Meshes"]) == 4
     assert "theta1 100 ± 22°" in sections(found).axes[0].get_title(loc="left")
     assert record(found)["estimates"]["theta1"]["error"] == pytest.approx(22.5)
     assert record(found)["errors"]["theta1"] == pytest.approx(22.5)
@@ -129,7 +130,7 @@ def test_without_angles_on_a_coarse_mesh_there_is_no_estimate(drawn, monkeypatch
     monkeypatch.setattr("umform.processes.draw.three_meshes.draw", instead)
     found = extrapolated(U)
     assert turns == pytest.approx([30.0, 15.0]) and not found.estimates and not found.coarser
-    assert summary(found)[0] == ["quantity", "value", "error", "unit"]
+    assert found.tables["Measures"][0] == ["quantity", "value", "unit"]
 
 
 def test_meshes_that_would_be_too_coarse_are_refused():

@@ -1,0 +1,55 @@
+"""What a process prints of its outcome: tables, notes, checks, warnings; red beyond a limit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+from umform.cli.root import console
+from umform.cli.run_checks import show_checks
+from umform.cli.warnings import echo_warnings
+
+if TYPE_CHECKING:
+    from umform.results.outcome import Outcome
+
+#: Columns of text: all others are numbers.
+_TEXT = ("quantity", "outcome", "unit")
+
+
+def show_outcome(outcome: Outcome, *more: str, without: Iterable[str] = ()) -> None:
+    """Print an outcome.
+
+    Parameters
+    ----------
+    outcome : Outcome
+        What a process reports.
+    more : str
+        Further notes, such as the source of the material data; empty ones are left out.
+    without : iterable of str
+        Warnings that are printed elsewhere.
+    """
+    screen = console()
+    for number, (title, rows) in enumerate(outcome.tables.items()):
+        print_table(rows, title if number else outcome.title)
+    for note in filter(None, (*outcome.all_notes, *more)):
+        screen.print(note, soft_wrap=True, markup=False)
+    show_checks(screen, outcome.stages)
+    echo_warnings(text for text in outcome.warnings if text not in without)
+
+
+def print_table(rows: Sequence[Sequence[str]], title: str | None = None) -> None:
+    """Print a header and rows of cells; cells beyond a limit are red."""
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
+    from umform.results.quantity import Bad
+
+    header, *cells = rows
+    table = Table(title=title, box=box.SIMPLE_HEAD)
+    for number, name in enumerate(header):
+        text = number == 0 or name in _TEXT
+        table.add_column(name, justify="left" if text else "right", no_wrap=number == 0)
+    for row in cells:
+        table.add_row(*(Text(cell, style="bold red" if isinstance(cell, Bad) else "") for cell in row))
+    console().print(table)

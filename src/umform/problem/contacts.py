@@ -1,0 +1,120 @@
+"""The contacts of a deck: faces, a tool, a penalty or the allowed penetration, and the motion of the tool."""
+
+from __future__ import annotations
+
+from functools import partial
+from itertools import pairwise
+from typing import Annotated, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Discriminator, Field, Strict, Tag, model_validator
+from pydantic_core import PydanticCustomError
+
+from umform.model import Model
+from umform.model.contact import Contact, ContactOptions, friction
+from umform.model.tool import Motion
+from umform.model.tool import Tool as RigidTool
+from umform.problem.parts import Name, Part, Positive, Vector
+from umform.problem.selection import Selection, faces_of
+from umform.problem.tagged import deck_type, refused, table, with_keys, write_as
+from umform.surfaces import Tool
+
+Floats = NDArray[np.float64]
+
+
+class MotionPart(Part):
+    """Motion of a tool in time, in addition to the steps: linear between the points of a table.
+
+    The first step goes from time 0 to 1, the second from 1 to 2, and so on.
+    """
+
+    time: Annotated[list[float], Field(min_length=2)]
+    """Times, increasing."""
+    translation: list[Vector] | None = None
+    """Translation at each time."""
+    rotation: list[Vector] | None = None
+    """Rotation vector in degrees at each time."""
+    about: Vector = (0.0, 0.0, 0.0)
+    """Point of the tool about which it rotates."""
+
+    @model_validator(mode="after")
+    def _is_table(self) -> MotionPart:
+        if any(b <= a for a, b in pairwise(self.time)):
+            raise PydanticCustomError("motion", "the times of a motion must increase")
+        for name in ("translation", "rotation"):
+            rows = getattr(self, name)
+            if rows is not None and len(rows) != len(self.time):
+                raise PydanticCustomError(
+                    "motion",
+                    "a motion needs one {name} for each time: there are {rows} for {times}",
+                    {"name": name, "rows": len(rows), "times": len(self.time)},
+                )
+        return self
+
+    def build(self) -> Motion:
+        """Motion as a picklable function of time."""
+        return partial(_motion, self.time, self.translation, self.rotation)
+
+
+def _motion(
+    times: list[float], translation: list[Vector] | None, rotation: list[Vector] | None, time: float
+) -> tuple[Floats, Floats]:
+    """Translation and rotation vector at a time, from tables of them."""
+
+    def at(rows: list[Vector] | None) -> Floats:
+        return np.zeros(3) if rows is None else np.array([np.interp(time, times, column) for column in zip(*rows)])
+
+    return at(translation), np.radians(at(rotation))
+
+
+def _notation(value: object) -> str:
+    return "word" if isinstance(value, str) else "number"
+
+
+_Coordinate = Annotated[float, Field(allow_inf_nan=True)]
+write_as(friction.Corner, Annotated[tuple[_Coordinate, _Coordinate, _Coordinate], Strict(False)])
+write_as(friction.Region, table(friction.Friction, friction.Region))
+write_as(
+    friction.AnyFriction,
+    Annotated[
+        Annotated[deck_type(friction.Coefficient), Tag("number")]
+        | Annotated[table(friction.Friction, friction.FrictionByRegion), Tag("law")],
+        Discriminator(lambda value: "number" if isinstance(value, int | float) else "law"),
+    ],
+)
+
+
+@with_keys(ContactOptions)
+class ContactPart(Part):
+    """Contact of lower or upper faces with one tool."""
+
+    tool: Name
+    """Name of the tool."""
+    faces: Selection
+    """Lower or upper faces of the sheet."""
+    allowed: (
+        Annotated[Annotated[Positive, Tag("number")] | Annotated[Literal["any"], Tag("word")], Discriminator(_notation)]
+        | None
+    ) = None
+    """Penetration above which a penalty grows, or the run warns; by default that of penetration; any: no limit."""
+    motion: MotionPart | None = None
+    """Motion in time."""
+    may_bottom: bool = False
+    """Whether the tool may press the sheet onto another one: no warning that it bottoms."""
+
+    @model_validator(mode="after")
+    def _is_one(self) -> ContactPart:
+        with refused():
+            ContactOptions(**self.of_spec())
+        return self
+
+    def add_to(self, model: Model, tool: Tool | RigidTool, name: str) -> Contact:
+        """Add the contact to the model, with a tool of its own or a shared one."""
+        contact = model.contact(faces_of(model.mesh, self.faces), tool, name=name, **self.of_spec())
+        if self.allowed is not None:
+            contact.allowed = None if isinstance(self.allowed, str) else self.allowed
+        contact.tool.may_bottom |= self.may_bottom
+        if self.motion is not None:
+            model.set_motion(contact, self.motion.build(), self.motion.about)
+        return contact

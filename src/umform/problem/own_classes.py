@@ -1,0 +1,60 @@
+"""Classes of the user that a deck names as ``module:Class``: code, which runs only if the user trusts the deck."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from collections.abc import Mapping
+from dataclasses import is_dataclass
+from pathlib import Path
+from typing import Any
+
+from umform.errors import InvalidValue
+
+
+def own_class(key: str, word: str, context: Mapping[str, Any]) -> type:
+    """The class that a word of a deck names.
+
+    Parameters
+    ----------
+    key, word : str
+        Key of the deck, and ``module:Class``: a module in the folder of the deck or on the path of Python.
+    context : mapping
+        Whether the deck is trusted (``trust``), and its folder (``folder``).
+
+    Raises
+    ------
+    InvalidValue
+        If the deck is not trusted, or there is no such dataclass.
+    """
+    if not context.get("trust"):
+        raise InvalidValue(
+            f"this {key} is code of the author of the deck, which is not trusted",
+            where=key,
+            value=word,
+            cause="a class of Python in a deck: reading it runs its module",
+            remedy="if you trust the author: umform run --trust, check --trust, or load(path, trust=True)",
+        )
+    module, _, name = word.partition(":")
+    folder = str(Path(context.get("folder", ".")).resolve())
+    if folder not in sys.path:
+        sys.path.append(folder)
+    try:
+        found = getattr(importlib.import_module(module), name)
+    except Exception as error:  # whatever a module of the user raises
+        raise InvalidValue(
+            f"the class of this {key} cannot be imported",
+            where=key,
+            value=word,
+            cause=f"{type(error).__name__}: {error}",
+            remedy=f"{module}.py in the folder of the deck, or installed, with the class {name}",
+        ) from error
+    if not isinstance(found, type) or not is_dataclass(found):
+        raise InvalidValue(
+            f"the class of this {key} must be a dataclass",
+            where=key,
+            value=word,
+            cause="a function, an object, or a class without fields",
+            remedy="@dataclass(frozen=True); its fields are the keys of the table",
+        )
+    return found

@@ -1,0 +1,123 @@
+"""A number that a process reports: as text, table, record and columns; the same mark beyond its limit everywhere."""
+
+import json
+import math
+from dataclasses import dataclass, replace
+from typing import Annotated
+
+import pytest
+
+from umform.results.quantity import (
+    NO_BAND,
+    UNKNOWN,
+    Bad,
+    Band,
+    Quantity,
+    columns,
+    in_rows,
+    list_columns,
+    quantities_of,
+    side_by_side,
+    table,
+    values,
+)
+
+HEIGHT = Quantity("height", "mm", 2, value=12.3456)
+
+
+@pytest.mark.parametrize(
+    ("changes", "text", "error"),
+    [
+        ({}, "12.35", NO_BAND),
+        ({"value": None}, UNKNOWN, NO_BAND),
+        ({"value": math.nan}, UNKNOWN, NO_BAND),
+        ({"decimals": None}, "12.35", NO_BAND),
+        ({"decimals": None, "digits": 5}, "12.346", NO_BAND),
+        ({"decimals": None, "value": -0.0}, "0", NO_BAND),
+        ({"band": Band(0.123, "mesh")}, "12.35", "± 0.12"),
+        ({"decimals": None, "band": Band(0.00123, "mesh")}, "12.3456", "± 0.0012"),
+        ({"decimals": None, "band": Band(0.0, "mesh")}, "12.35", ""),
+        ({"band": Band(math.nan, "mesh")}, "12.35", NO_BAND),
+        ({"band": Band(0.5, "meshes", middle=11.0)}, "11.00", "± 0.50"),
+    ],
+)
+def test_texts_of_a_number_and_its_error(changes, text, error):
+    one = replace(HEIGHT, **changes)
+    assert (one.text, one.error_text) == (text, error)
+
+
+@pytest.mark.parametrize(
+    ("changes", "missed"),
+    [
+        ({"limit": 12.3456}, ""),
+        ({"limit": 6.1728}, "MISSED 2 times over"),
+        ({"limit": 12.34, "slack": 1e-3}, ""),
+        ({"limit": 13.0, "at_least": True}, "MISSED"),
+        ({"limit": 12.0, "at_least": True}, ""),
+        ({"limit": 12.0, "band": Band(0.1, "meshes", middle=11.0)}, ""),
+        ({"limit": 1.0, "value": None}, ""),
+    ],
+)
+def test_a_number_beyond_its_limit_is_marked(changes, missed):
+    one = replace(HEIGHT, **changes)
+    assert one.verdict == missed and one.missed is bool(missed) and one.record()["missed"] is bool(missed)
+    assert isinstance(one.text, Bad) is bool(missed) and one.text.endswith(missed)
+
+
+def test_a_full_text_has_error_and_unit():
+    assert HEIGHT.full_text == "12.35 mm"
+    assert Quantity("angle", "degrees", 1, value=90.0, band=Band(0.2, "mesh")).full_text == "90.0 ± 0.2°"
+    assert Quantity("ratio", value=0.5).full_text == "0.5"
+
+
+@dataclass(frozen=True)
+class Measures:
+    """Numbers of a test."""
+
+    height: Annotated[float, Quantity("height", "mm", 2, hint="of the cup")]
+    other: float
+    """No quantity."""
+    strain: Annotated[float, Quantity("outer strain", decimals=3)]
+
+
+def test_a_field_declares_a_quantity():
+    found = quantities_of(Measures(1.0, 2.0, math.nan), {"strain": Band(0.1, "mesh")})
+    assert values(found) == {"height": 1.0, "strain": None}
+    assert [one.label for one in found] == ["height", "outer strain"] and found[1].band is not None
+
+
+def test_tables_have_the_columns_that_the_bands_need():
+    plain = [replace(HEIGHT, hint="of the cup"), Quantity("strain", value=0.1)]
+    assert table(plain) == [
+        ["quantity", "value", "unit"],
+        ["height (of the cup)", "12.35", "mm"],
+        ["strain", "0.1", ""],
+    ]
+    band = Band(0.5, "refinements", middle=12.0, parts={"mesh/2": -0.25})
+    assert table([replace(plain[0], band=band), plain[1]]) == [
+        ["quantity", "value", "error", "finest mesh", "mesh/2", "unit"],
+        ["height", "12.00", "± 0.50", "12.35", "-0.25", "mm"],
+        ["strain", "0.1", NO_BAND, "", "", ""],
+    ]
+
+
+def test_several_lists_are_columns_or_rows():
+    strain = Quantity("strain", value=0.1)
+    assert side_by_side({"1": [HEIGHT], "2": [strain, HEIGHT]}) == [
+        ["quantity", "1", "2", "unit"],
+        ["height", "12.35", "12.35", "mm"],
+        ["strain", "", "0.1", ""],
+    ]
+    assert in_rows([[HEIGHT, strain]]) == [["height, mm", "strain"], ["12.35", "0.1"]]
+    rows = [[HEIGHT], [strain]]
+    assert columns(rows) == {"height": [12.3456, None], "strain": [None, 0.1]}
+    assert list(columns(rows, units=True)) == ["height mm", "strain"]
+
+
+def test_a_record_gives_the_quantity_back():
+    for band in (None, Band(math.nan, "failed", parts={"mesh/2": math.nan}), Band(0.1, "meshes", 12.0)):
+        one = replace(HEIGHT, limit=3.0, band=band)
+        kept = json.loads(json.dumps(one.record(), allow_nan=False))
+        assert repr(Quantity.of(kept)) == repr(one)  # NaN differs from itself
+    (row,) = zip(*list_columns([replace(HEIGHT, limit=3.0, band=Band(0.1, "meshes"))]).values(), strict=True)
+    assert row == ("height", "height", 12.3456, "mm", 0.1, "meshes", 3.0, True)
