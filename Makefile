@@ -26,7 +26,7 @@ CPP_TESTS := $(wildcard tests/cpp/*.hpp tests/cpp/*.cpp tests/cpp/*/*.hpp tests/
 STRICT := $(if $(CI),--config-settings=cmake.define.UMFORM_STRICT=ON)
 
 export CMAKE_BUILD_PARALLEL_LEVEL := $(JOBS)
-unexport PYTHONPATH PYTHONHOME
+unexport PYTHONPATH PYTHONHOME PYTHONDONTWRITEBYTECODE
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
@@ -53,12 +53,17 @@ $(VENV)/.tools: pyproject.toml tools/check_machine.py tools/requirements.py
 	@$(PIP) install -r $@.new
 	@mv $@.new $@
 
-# What umform needs at run time is fetched while umform is compiled.
+# What umform needs at run time is fetched while umform is compiled. pip would write the bytecode of some 3000 files,
+# which takes as long as to unpack them; umform imports a fifth of these: those that this line imports.
+IMPORTED := import h5py._hl.base, matplotlib.figure, matplotlib.backends.backend_agg, matplotlib.backends.backend_svg, \
+    rich.progress, scipy.sparse.linalg, typer.main, typer.rich_utils
+
 $(VENV)/.package: $(VENV)/.tools $(PACKAGE)
 	$(SAY) 'Compiling and installing umform with $(JOBS) jobs (a minute the first time)'
 	@touch $@.new
 	@$(BIN)/python tools/requirements.py run > $(VENV)/run.new
-	@{ cmp -s $(VENV)/run.new $(VENV)/run || { $(PIP) install -r $(VENV)/run.new && mv $(VENV)/run.new $(VENV)/run; }; } & fetched=$$!; \
+	@{ cmp -s $(VENV)/run.new $(VENV)/run || { $(PIP) install --no-compile -r $(VENV)/run.new \
+	    && $(BIN)/python -c '$(IMPORTED)' && mv $(VENV)/run.new $(VENV)/run; }; } & fetched=$$!; \
 	$(PIP) install --no-deps --no-build-isolation --config-settings=build-dir=$(BUILD) $(STRICT) .; built=$$?; \
 	wait $$fetched && exit $$built
 	@mv $@.new $@

@@ -196,7 +196,7 @@ class Gathering:
         }
         model["rows"] = {key: list(state) for key, state in terms.items() if key in self.rows}
         result = {key: value for key, value in tree["result"].items() if key != "frames"}
-        small = {key: tree[key] for key in ("fingerprint", "note", "number", "factors", "loop", "habits")}
+        small = {key: tree[key] for key in ("fingerprint", "note", "number", "factors", "loop", "statistics")}
         trail = tree["trail"]
         if trail is not None:  # of its rows only what no node has
             trail = {**trail, "terms": trail["terms"][:, tree["model"]["u"].size :]}

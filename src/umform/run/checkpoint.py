@@ -22,8 +22,8 @@ from umform.model.contact import ContactPoints
 from umform.model.frame import Frame
 from umform.ranks import ONE, Ranks
 from umform.results.history import History
-from umform.solution.habits import Habits
 from umform.solution.records import Iteration
+from umform.solution.strategy_statistics import StrategyStatistics
 from umform.solvers.protocol import Remembering
 from umform.steps.loop import Run
 from umform.steps.trail import Trail
@@ -167,7 +167,7 @@ def take_up(run: Run, checkpoints: Checkpoints) -> dict[str, Any] | None:
     checkpoints.note = tree["note"]
     run.model.restore(Snapshot(**tree["model"]))
     run.evaluation = run.model.repeat(tree["before"])
-    run.number, run.habits = tree["number"], Habits(**tree["habits"])
+    run.number, run.statistics = tree["number"], StrategyStatistics(**tree["statistics"])
     run.trail = None if tree["trail"] is None else Trail(**tree["trail"])
     solver = run.newton.ready_solver().solver.solver
     if isinstance(solver, Remembering):
@@ -188,7 +188,7 @@ def _tree(run: Run) -> dict[str, Any]:
             "model": vars(model.snapshot()),
             "before": {term.key: term.before for term in model.terms if model.ranks.any(term.before.size > 0)},
             "trail": None if run.trail is None else vars(run.trail),
-            "habits": vars(run.habits),
+            "statistics": vars(run.statistics),
             "result": _result_tree(run.result),
         }
     )

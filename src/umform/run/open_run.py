@@ -18,9 +18,9 @@ from umform.results.untouched import warn_of_untouched
 from umform.run.checked import checked
 from umform.run.going import begun, taken
 from umform.run.result import Result
-from umform.solution.habits import Habits
 from umform.solution.options import NewtonOptions
 from umform.solution.records import Iteration
+from umform.solution.strategy_statistics import StrategyStatistics
 from umform.solvers.protocol import Remembering
 from umform.steps import Step
 from umform.steps.trail import Trail
@@ -47,7 +47,7 @@ class Mark:
         The corresponding part of the result.
     factors : int or None
         State of the sparse solver.
-    habits : Habits
+    statistics : StrategyStatistics
         Statistics of earlier increments that select the first strategy.
     """
 
@@ -57,7 +57,7 @@ class Mark:
     trail: Trail | None
     history: HistoryMark
     factors: int | None
-    habits: Habits
+    statistics: StrategyStatistics
 
 
 class OpenRun:
@@ -126,7 +126,13 @@ class OpenRun:
         factors = solver.memory() if isinstance(solver, Remembering) else None
         before = {term.key: term.before for term in run.model.terms if term.before.size > 0}
         return Mark(
-            run.model.snapshot(), before, list(self.steps), run.trail, self.result.mark(), factors, replace(run.habits)
+            run.model.snapshot(),
+            before,
+            list(self.steps),
+            run.trail,
+            self.result.mark(),
+            factors,
+            replace(run.statistics),
         )
 
     def go_back(self, mark: Mark) -> None:
@@ -137,7 +143,7 @@ class OpenRun:
         run.trail, run.loop, run.number = mark.trail, None, len(mark.steps) + 1
         if isinstance(solver, Remembering) and mark.factors is not None:
             solver.recall(mark.factors)
-        run.habits = replace(mark.habits)
+        run.statistics = replace(mark.statistics)
         self.result.go_back(mark.history)
         self.steps = list(mark.steps)
 

@@ -99,7 +99,7 @@ def carried(model: Model, last: Evaluation, increment: Floats) -> Floats | None:
     return None if held else whole
 
 
-def came_round(model: Model, last: Evaluation, increment: Floats) -> bool:
+def leaves_arc(model: Model, last: Evaluation, increment: Floats) -> bool:
     """Whether an extrapolated increment is that of a body that rotated with a tool: it leaves the arc.
 
     Parameters as of `carried`.
@@ -129,8 +129,8 @@ def _turning(model: Model, last: Evaluation, increment: Floats) -> list[Screw]:
         unknown.move(values, unknown.value + change)
     screws = []
     for tool in model.tools:
-        rubs = [pair for pair in tool.pairs if pair.rubs and not tool.open]
-        if not rubs or not model.ranks.any(any(bool(last.found[pair].active.any()) for pair in rubs)):
+        pairs = [pair for pair in tool.pairs if pair.rubs and not tool.open]
+        if not pairs or not model.ranks.any(any(bool(last.found[pair].active.any()) for pair in pairs)):
             continue
         Q, s = _motion(tool, last, values, model.time)
         if np.trace(Q) < 3.0 - 1e-15:

@@ -11,7 +11,7 @@ import numpy as np
 from umform.model import Model
 from umform.model.changed_forces import changed_residual
 from umform.solution.newton import Newton
-from umform.solution.options import Manner
+from umform.solution.options import IterationMode
 from umform.solution.records import Converged, Failed
 
 log = logging.getLogger("umform.contact")
@@ -28,7 +28,7 @@ def within_allowed(
     converged: Converged,
     again: Callable[[], Converged],
     yields: bool,
-    manner: Manner | None = None,
+    mode: IterationMode | None = None,
 ) -> Converged:
     """Equilibrium with penalties that keep the allowed penetration.
 
@@ -44,7 +44,7 @@ def within_allowed(
         Finds it again from the state before the increment.
     yields : bool
         Whether the increment may exceed the allowed penetration rather than fail.
-    manner : Manner, optional
+    mode : IterationMode, optional
         Mode of the iterations; default: from the options.
 
     Raises
@@ -58,7 +58,7 @@ def within_allowed(
             break
         try:
             with newton.timing.attempts.trying("stiffer penalties"):
-                return _grown(model, newton, converged, growth, manner)
+                return _grown(model, newton, converged, growth, mode)
         except Failed:
             for contact, penalty in penalties.items():
                 contact.use_penalty(penalty)
@@ -69,7 +69,7 @@ def within_allowed(
     return converged
 
 
-def _grown(model: Model, newton: Newton, converged: Converged, growth: float, manner: Manner | None) -> Converged:
+def _grown(model: Model, newton: Newton, converged: Converged, growth: float, mode: IterationMode | None) -> Converged:
     """Increase the penalties of contacts beyond their allowed penetration, and iterate, until none is. eq. (4.200)
 
     Parameters
@@ -82,7 +82,7 @@ def _grown(model: Model, newton: Newton, converged: Converged, growth: float, ma
         Equilibrium with the present penalties.
     growth : float
         Largest growth of a penalty in a pass.
-    manner : Manner, optional
+    mode : IterationMode, optional
         Mode of the iterations.
 
     Raises
@@ -90,7 +90,7 @@ def _grown(model: Model, newton: Newton, converged: Converged, growth: float, ma
     Failed
         If a pass does not converge; the model is reverted, but not its penalties.
     """
-    manner = manner or newton.manner()
+    mode = mode or newton.mode()
     for number in range(1, _PASSES + 1):
         found = converged.evaluation.found
         excess = model.too_deep(converged.evaluation)
@@ -101,7 +101,7 @@ def _grown(model: Model, newton: Newton, converged: Converged, growth: float, ma
             grown = min(excess[contact] / _AIM, growth) * contact.penalty
             contact.stiffen(found[contact], min(grown, contact.largest_penalty), part)
         change = converged.evaluation.residual + changed_residual(model, converged.evaluation, parts)
-        again = newton.go_on(converged, change, replace(manner, grows=number < _PASSES))
+        again = newton.go_on(converged, change, replace(mode, grows=number < _PASSES))
         converged = replace(converged, evaluation=again.evaluation, passes=converged.passes + again.iterations)
         log.debug("    pass %d of the penalties, %d iterations", number, len(again.iterations))
     return converged

@@ -19,14 +19,13 @@ from numpy.typing import NDArray
 from umform.errors import NotFinite, SingularMatrix
 from umform.solution.bordered import Bordered
 from umform.solution.criteria import EPS, Criteria, largest
-from umform.solution.factor_reuse import Reuse
+from umform.solution.divergence_guard import DivergenceGuard
 from umform.solution.line_search import lengthened, shortened
-from umform.solution.options import Manner, NewtonOptions, Wary
-from umform.solution.prospects import Prospects
+from umform.solution.options import IndefiniteTangent, IterationMode, NewtonOptions
 from umform.solution.recorder import Recorder
 from umform.solution.records import Cause, Converged, Failed, First, Iteration
-from umform.solution.shift import Shift
 from umform.solution.system import Evaluation, System
+from umform.solution.tangent import Tangent
 from umform.solution.timed_solver import TimedSolver
 from umform.solvers import Pattern, make_solver
 from umform.timing import Timing
@@ -40,6 +39,8 @@ _T = TypeVar("_T")
 _FLIGHT = 1e4
 #: Residual, relative to the forces, at which iterations end where a penalty will grow. docs/theory, 4.11
 _NEAR = 1e-2
+#: Residual, relative to its tolerance, below which an increment is not shortened. docs/theory, 5.4
+_CLOSE = 30.0
 
 
 class Newton:
@@ -83,39 +84,39 @@ class Newton:
         """Whether the sheet is elastic, or nearly so."""
         return self.springs_back or not self._has_history
 
-    def manner(
+    def mode(
         self,
         *,
         consistent: bool = False,
-        wary: Wary = Wary.NOT,
-        rubs: bool = False,
-        patient: bool = False,
+        indefinite: IndefiniteTangent = IndefiniteTangent.IGNORED,
+        friction: bool = False,
+        extended: bool = False,
         grows: bool = False,
-    ) -> Manner:
+    ) -> IterationMode:
         """Mode of the iterations, with the options of the user.
 
         Parameters
         ----------
         consistent : bool
             Use the consistent tangent even if the options select the mixed one.
-        wary : Wary
+        indefinite : IndefiniteTangent
             When to stop because the tangent is indefinite far from equilibrium.
-        rubs : bool
+        friction : bool
             Whether points may alternate between stick and slip, so that elastic sheets use a line search, too.
-        patient : bool
+        extended : bool
             Whether more iterations are allowed.
         grows : bool
             Whether to end near equilibrium where a penalty will grow.
         """
         search = self.options.line_search
         if search is None:  # in elastic sheets, whose energy is a narrow curved valley, it is too slow
-            search = rubs or not self._elastic
-        return Manner(search, True, self.mixed and not consistent, wary, patient, grows)
+            search = friction or not self._elastic
+        return IterationMode(search, True, self.mixed and not consistent, indefinite, extended, grows)
 
     def solve(
         self,
         extrapolation: Floats | None = None,
-        manner: Manner | None = None,
+        mode: IterationMode | None = None,
         beyond: Floats | None = None,
         keep: bool = False,
     ) -> Converged:
@@ -126,7 +127,7 @@ class Newton:
         extrapolation : ndarray, shape (3 n,), optional
             Predicted increment; prescribed entries are overwritten. Without it the first increment is that of the
             tangent. It is recovered with the blocks of the last evaluation, which must be at ``system.u``.
-        manner : Manner, optional
+        mode : IterationMode, optional
             Mode of the iterations; default: from the options.
         beyond : ndarray, shape (3 n + k,), optional
             A rigid rotation in addition to the extrapolation, which strains no element. eq. (4.178)
@@ -138,9 +139,9 @@ class Newton:
         Failed
             If it does not converge; the system is reverted.
         """
-        return self.guarded(lambda: self._solve(extrapolation, manner or self.manner(), beyond, keep))
+        return self.guarded(lambda: self._solve(extrapolation, mode or self.mode(), beyond, keep))
 
-    def go_on(self, converged: Converged, change: Floats, manner: Manner | None = None) -> Converged:
+    def go_on(self, converged: Converged, change: Floats, mode: IterationMode | None = None) -> Converged:
         """Find the equilibrium again after a change of forces in the system at fixed loads, supports and tools.
 
         Parameters
@@ -149,7 +150,7 @@ class Newton:
             The previous equilibrium, at which the last evaluation was made.
         change : ndarray, shape (3 n,)
             First-order change of the residual there; the first increment uses the previous tangent.
-        manner : Manner, optional
+        mode : IterationMode, optional
             Mode of the iterations; default: from the options.
 
         Raises
@@ -162,7 +163,7 @@ class Newton:
             solver = self.ready_solver()
             solver.factor(converged.evaluation)
             du = self.system.extend(solver.solve(-self.system.restrict(change)))
-            return self.correct(converged.x, du, manner or self.manner())
+            return self.correct(converged.x, du, mode or self.mode())
 
         return self.guarded(work)
 
@@ -187,7 +188,7 @@ class Newton:
                 error.motion = self._solver.weak
             raise
 
-    def _solve(self, extrapolation: Floats | None, manner: Manner, beyond: Floats | None, keep: bool) -> Converged:
+    def _solve(self, extrapolation: Floats | None, mode: IterationMode, beyond: Floats | None, keep: bool) -> Converged:
         """First increment from the extrapolation, or from the tangent by eq. (5.6); then corrections."""
         system = self.system
         solver = self.ready_solver()
@@ -204,7 +205,7 @@ class Newton:
                 of_tangent = First(factors, system.largest_entry(first.values))
             du += system.extend(solver.solve(-system.restrict(first.residual + first.predictor)))
             del first  # with its tangent
-        return self.correct(u, du, manner, start, of_tangent, beyond, keep)
+        return self.correct(u, du, mode, start, of_tangent, beyond, keep)
 
     def prescribed_increment(self, u: Floats) -> Floats:
         """Increment of the supports from ``u`` to their prescribed values; zero at the unknowns."""
@@ -217,94 +218,82 @@ class Newton:
         self,
         u: Floats,
         du: Floats,
-        manner: Manner,
+        mode: IterationMode,
         start: float | None = None,
         first: First | None = None,
         beyond: Floats | None = None,
         keep: bool = False,
     ) -> Converged:
         """Apply a first increment ``du`` from ``u``, and iterate until residual and increments are small. eq. (5.9)"""
-        system, options = self.system, self.options
-        solver = self.ready_solver()
-        start = clock.perf_counter() if start is None else start
-        recorder = Recorder(self.callbacks, system.ranks, start)
+        system, options, solver = self.system, self.options, self.ready_solver()
+        recorder = Recorder(self.callbacks, system.ranks, clock.perf_counter() if start is None else start)
+        guard = DivergenceGuard(system, mode.indefinite, extended=mode.extended)
+        tangent = Tangent(system, solver, options, mode, guard, first)
+        criteria = Criteria(system, options.residual, options.increment, self.settled)
         iterations = recorder.iterations
-        if system.ranks.max(float(np.abs(du).max(initial=0.0))) <= EPS * system.extent:
-            du = self.prescribed_increment(u)  # the rest would shake a sheet without forces off its tools
-        system.recover(du, manner.mixed)
-        u = u + du if beyond is None else u + du + beyond
-        criteria, shift = Criteria(system, options.residual, options.increment), Shift(system)
-        criteria.settled = self.settled
-        prospects = Prospects(system, patient=manner.patient)
-        reuse = Reuse(options, system.pattern.n, system.effort)
-        pivots = reuse.remember(first.factors) if first is not None else None
-        criteria.entry = first.entry if first is not None else None
-        lean = first is not None and self._lean(reuse, manner)
-        evaluation = system.evaluate(u, keep=True) if keep else system.evaluate(u, tangent=not lean)
-        increment, step_length, shifted = self._relative(du, evaluation), 1.0, False
-        status = previous = evaluation.status
 
-        while len(iterations) < prospects.most(options.max_iterations):
+        du, evaluation = self._predicted(u, du, mode, beyond, keep=keep, forces=tangent.forces_first)
+        increment, length = self._relative(du, evaluation), 1.0
+        while len(iterations) < guard.iteration_limit(options.max_iterations):
             self.check_domain(evaluation, iterations)
             r = system.restrict(evaluation.residual)
-            norm = math.sqrt(system.ranks.dot(r, r))
-            scale = evaluation.force_scale or 1.0
-            if not math.isfinite(norm):
-                raise Failed("the residual is not finite", iterations)
-            entered, left = self._count((status > 0) & (previous == 0)), self._count((status == 0) & (previous > 0))
-            moved = bool(entered or left) or system.ranks.any(not np.array_equal(status, previous))
+            norm = self._finite(math.sqrt(system.ranks.dot(r, r)), iterations)
+            residual = norm / (evaluation.force_scale or 1.0)
+
             solved = bool(iterations) or first is not None
-            done = not evaluation.kept and criteria.met(norm, increment, u, evaluation, moved=moved, solved=solved)
-            near = manner.grows and solved and not evaluation.kept and norm <= _NEAR * scale
-            if done or (near and system.too_deep(evaluation)):
-                recorder.add(evaluation.flowing, norm / scale, increment, 0.0, entered, left, step_length, pivots)
+            criteria.entry = tangent.entry
+            if self._accepts(criteria, evaluation, norm, increment, solved=solved, grows=mode.grows):
+                recorder.add(evaluation, residual, increment, 0.0, length, tangent.pivots)
                 self._check_flight(evaluation, iterations)
-                if lean:
-                    system.follow()
-                return Converged(evaluation, iterations, jumped=prospects.jumps)
-            longest = prospects.longest(evaluation, previous, norm, iterations)
-            if not reuse.factors_will_do(norm / scale, increment, settled=manner.reuses and not moved):
-                if lean:
-                    evaluation = system.evaluate(u)
-                pivots = reuse.remember(solver.factor(evaluation))
-                prospects.bear(pivots, norm / scale, manner.wary, iterations)
-                pivots = shift.negative_pivots(evaluation, pivots, asked=prospects.asks(norm / scale, manner.wary))
-                shifted = prospects.shifts(pivots, manner.wary)
-                if shifted:
-                    shift.factor(solver, evaluation)
-                manner = manner.searching(prospects.jumps)
-                criteria.entry = system.largest_entry(evaluation.values)
-            elif lean:
-                system.follow()
+                tangent.follow()
+                return Converged(evaluation, iterations, jumped=guard.jumps)
+
+            longest, moved = guard.longest_step(evaluation, norm, iterations), recorder.moved(evaluation)
+            evaluation = tangent.factor(evaluation, residual, increment, iterations, moved=moved)
             du = system.extend(solver.solve(-r))
             energy = abs(system.ranks.dot(r, system.coefficients(du)))
-            recorder.add(evaluation.flowing, norm / scale, increment, energy, entered, left, step_length, pivots)
-            lean = self._lean(reuse, manner) and not evaluation.border.unknowns
+            recorder.add(evaluation, residual, increment, energy, length, tangent.pivots)
+            tangent.plan(evaluation)
             evaluation = evaluation.without_tangent()  # factors exist: release the memory of the tangent
-            u, evaluation, step_length = self._advance(u, du, r, manner, longest, lean, shifted)
-            criteria.entry = criteria.entry if lean else None
-            increment = step_length * self._relative(du, evaluation)
-            previous, status = status, evaluation.status
+            evaluation, length = self._advanced(evaluation.x, du, r, mode, longest, tangent)
+            increment = length * self._relative(du, evaluation)
         raise Failed(f"no convergence in {len(iterations)} iterations", iterations, Cause.ITERATIONS)
 
-    def _lean(self, reuse: Reuse, manner: Manner) -> bool:
-        """Whether an iteration evaluates the forces first: where factors are expensive, it may need no tangent."""
-        return reuse.dear and not manner.line_search and self.system.smooth
+    def _predicted(
+        self, u: Floats, du: Floats, mode: IterationMode, beyond: Floats | None, *, keep: bool, forces: bool
+    ) -> tuple[Floats, Evaluation]:
+        """The first increment, and the evaluation at its end."""
+        system = self.system
+        if system.ranks.max(float(np.abs(du).max(initial=0.0))) <= EPS * system.extent:
+            du = self.prescribed_increment(u)  # the rest would shake a sheet without forces off its tools
+        system.recover(du, mode.mixed)
+        end = u + du if beyond is None else u + du + beyond
+        return du, system.evaluate(end, keep=True) if keep else system.evaluate(end, tangent=not forces)
 
-    def _advance(
-        self, u: Floats, du: Floats, r: Floats, manner: Manner, longest: float, lean: bool, shifted: bool
-    ) -> tuple[Floats, Evaluation, float]:
-        """Apply the increment, or a part of it if it is too long. eq. (5.12)"""
+    def _accepts(
+        self, criteria: Criteria, evaluation: Evaluation, norm: float, increment: float, *, solved: bool, grows: bool
+    ) -> bool:
+        """Whether the iterations end: they have converged, or are near equilibrium where a penalty will grow."""
+        if evaluation.kept:
+            return False
+        near = grows and solved and norm <= _NEAR * (evaluation.force_scale or 1.0)
+        done = criteria.met(norm, increment, evaluation.x, evaluation, solved=solved)
+        return done or (near and bool(self.system.too_deep(evaluation)))
+
+    def _advanced(
+        self, u: Floats, du: Floats, r: Floats, mode: IterationMode, longest: float, tangent: Tangent
+    ) -> tuple[Evaluation, float]:
+        """The evaluation after the increment, or after a part of it if it is too long; this part. eq. (5.12)"""
         system, length = self.system, longest
-        system.recover(du, manner.mixed)
+        system.recover(du, mode.mixed)
         if length < 1.0:
             system.shorten(length)
-        evaluation = system.evaluate(u + length * du, tangent=not lean)
-        if shifted:
-            evaluation, length = lengthened(system, u, du, r, evaluation, length)
-        elif manner.line_search:
-            evaluation, length = shortened(system, u, du, r, evaluation, length)
-        return evaluation.x, evaluation, length
+        evaluation = system.evaluate(u + length * du, tangent=not tangent.forces_first)
+        if tangent.shifted:
+            return lengthened(system, u, du, r, evaluation, length)
+        if tangent.searches:
+            return shortened(system, u, du, r, evaluation, length, near=_CLOSE * self.options.residual)
+        return evaluation, length
 
     def ready_solver(self) -> Bordered:
         """Return the solver that has analysed the present pattern."""
@@ -322,8 +311,11 @@ class Newton:
         if evaluation.failed >= 0:
             raise Failed(f"cell {evaluation.failed} {evaluation.failure}", iterations, Cause.CELL)
 
-    def _count(self, points: NDArray[np.bool_]) -> int:
-        return int(self.system.ranks.sum(float(points.sum())))
+    @staticmethod
+    def _finite(norm: float, iterations: list[Iteration]) -> float:
+        if not math.isfinite(norm):
+            raise Failed("the residual is not finite", iterations)
+        return norm
 
     def _relative(self, dx: Floats, evaluation: Evaluation) -> float:
         """Size of an increment relative to the displacement."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import Enum
 from typing import Annotated, Literal
 
@@ -54,35 +54,35 @@ class NewtonOptions:
         check_fields(self)
 
 
-class Wary(Enum):
+class IndefiniteTangent(Enum):
     """Response to an indefinite tangent far from equilibrium."""
 
-    NOT = "it goes on"
-    OF_MORE = "it ends where negative pivots become more from one iteration to the next"
-    OF_ANY = "it ends at once"
-    UNTIL_DOWNHILL = "it ends at once, unless the iterations go downhill to the next stable state already"
+    IGNORED = "the iterations go on"
+    STOPS_IF_MORE = "they end where negative pivots become more from one iteration to the next"
+    STOPS = "they end at once"
+    STOPS_BEFORE_JUMP = "they end at once, unless they descend to the next stable state already"
 
     @property
-    def of_any(self) -> bool:
+    def stops(self) -> bool:
         """Whether the last equilibrium was stable: an indefinite tangent is unexpected."""
-        return self in (Wary.OF_ANY, Wary.UNTIL_DOWNHILL)
+        return self in (IndefiniteTangent.STOPS, IndefiniteTangent.STOPS_BEFORE_JUMP)
 
 
 @dataclass(frozen=True)
-class Manner:
+class IterationMode:
     """Mode of the iterations.
 
     Attributes
     ----------
     line_search : bool
-        Whether to shorten increments that are too long, and to stop when the residual stagnates. eq. (5.12)
+        Whether to shorten increments that are too long. eq. (5.12)
     reuses : bool
         Whether the factors of the previous iteration may be reused.
     mixed : bool
         Whether the geometric stiffness is that of the stress predicted by the last increment. eq. (5.39)
-    wary : Wary
+    indefinite : IndefiniteTangent
         When to stop because the tangent is indefinite far from equilibrium.
-    patient : bool
+    extended : bool
         Whether more iterations are allowed, since a smaller increment would need as many.
     grows : bool
         Whether the iterations end near equilibrium where a penalty will grow. docs/theory, 4.11
@@ -91,10 +91,6 @@ class Manner:
     line_search: bool
     reuses: bool
     mixed: bool
-    wary: Wary = Wary.NOT
-    patient: bool = False
+    indefinite: IndefiniteTangent = IndefiniteTangent.IGNORED
+    extended: bool = False
     grows: bool = False
-
-    def searching(self, wanted: bool) -> Manner:
-        """The same, with a line search if it is wanted."""
-        return replace(self, line_search=self.line_search or wanted)

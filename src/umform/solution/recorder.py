@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from umform.ranks import Ranks
 from umform.solution.records import Iteration
+from umform.solution.system import Evaluation
 
 log = logging.getLogger("umform.newton")
 
@@ -32,21 +33,28 @@ class Recorder:
         self.iterations: list[Iteration] = []
         self._callbacks, self._ranks, self._start = callbacks, ranks, start
         self._flowing: NDArray[np.uint8] | None = None  # of the previous iteration
+        self._status: NDArray[np.uint8] | None = None
+
+    def moved(self, evaluation: Evaluation) -> bool:
+        """Whether contact points have opened or closed, begun or ceased to slip since the previous iteration."""
+        before = evaluation.status if self._status is None else self._status
+        return self._ranks.any(not np.array_equal(evaluation.status, before))
 
     def add(
         self,
-        flowing: NDArray[np.uint8],
+        evaluation: Evaluation,
         residual: float,
         increment: float,
         energy: float,
-        entered: int,
-        left: int,
         step_length: float,
         pivots: int | None,
     ) -> None:
-        """Add a record; the arguments are those of :class:`Iteration`, and the plastic points."""
-        before, self._flowing = self._flowing, flowing
-        switched = 0 if before is None else int(self._ranks.sum(float((flowing != before).sum())))
+        """Add a record of an evaluation; the other arguments are those of :class:`Iteration`."""
+        status, flowing = evaluation.status, evaluation.flowing
+        before = status if self._status is None else self._status
+        entered, left = self._count((status > 0) & (before == 0)), self._count((status == 0) & (before > 0))
+        switched = 0 if self._flowing is None else self._count(flowing != self._flowing)
+        self._status, self._flowing = status, flowing
         number, seconds = len(self.iterations) + 1, clock.perf_counter() - self._start
         record = Iteration(number, residual, increment, energy, entered, left, step_length, pivots, seconds, switched)
         self.iterations.append(record)
@@ -62,3 +70,6 @@ class Recorder:
         )
         for callback in self._callbacks:
             callback(record)
+
+    def _count(self, points: NDArray[np.bool_]) -> int:
+        return int(self._ranks.sum(float(points.sum())))

@@ -13,7 +13,7 @@ from umform.model import Model
 from umform.model.changed_forces import changed_residual
 from umform.model.contact import Contact
 from umform.solution.newton import Newton
-from umform.solution.options import Manner
+from umform.solution.options import IterationMode
 from umform.solution.records import Cause, Converged, Failed
 
 log = logging.getLogger("umform.contact")
@@ -27,7 +27,7 @@ def softened(
     newton: Newton,
     start: Callable[[], Converged],
     accept: Callable[[Converged], Converged],
-    manner: Manner | None = None,
+    mode: IterationMode | None = None,
     *,
     touched: bool = False,
 ) -> Converged:
@@ -43,7 +43,7 @@ def softened(
         Finds the equilibrium with the present penalties of the contacts.
     accept : callable
         Returns an equilibrium, or raises Failed: with a soft tool the sheet may pass through it.
-    manner : Manner, optional
+    mode : IterationMode, optional
         Mode of the iterations; default: from the options.
     touched : bool
         Whether the sheet touches a tool in the converged state. If so, the first penalty is soft enough, and the second
@@ -61,16 +61,16 @@ def softened(
     """
     soft, softest = _SOFTER
     try:
-        return accept(_stiffened(model, newton, start, soft, manner))
+        return accept(_stiffened(model, newton, start, soft, mode))
     except Failed as failure:
         if touched and failure.cause is not Cause.SINGULAR:
             raise
         model.prepare()
-        return accept(_stiffened(model, newton, start, softest, manner))
+        return accept(_stiffened(model, newton, start, softest, mode))
 
 
 def _stiffened(
-    model: Model, newton: Newton, start: Callable[[], Converged], powers: int, manner: Manner | None
+    model: Model, newton: Newton, start: Callable[[], Converged], powers: int, mode: IterationMode | None
 ) -> Converged:
     """Equilibrium with 10^-powers of the penalty, then with ten times as much, up to the full one. eq. (4.39)"""
     with _own_penalties(model) as penalties:
@@ -83,7 +83,7 @@ def _stiffened(
             for contact, penalty in penalties.items():
                 contact.stiffen(evaluation.found[contact], 10.0**-power * penalty, parts[contact])
             change = changed_residual(model, evaluation, parts)
-            again = newton.go_on(converged, change, manner)
+            again = newton.go_on(converged, change, mode)
             converged = replace(again, iterations=converged.iterations + again.iterations)
     log.debug("    by way of softer penalties, %d iterations", len(converged.iterations))
     return converged

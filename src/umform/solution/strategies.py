@@ -13,15 +13,15 @@ from numpy.typing import NDArray
 
 from umform.model import Evaluation, Model
 from umform.model.control import Control
-from umform.solution.carried import came_round, carried
+from umform.solution.carried import carried, leaves_arc
 from umform.solution.criteria import SETTLED_INCREMENT, SETTLED_RESIDUAL
-from umform.solution.habits import Habits
 from umform.solution.newton import Newton
-from umform.solution.options import Wary
+from umform.solution.options import IndefiniteTangent
 from umform.solution.passage import same_side
 from umform.solution.records import Cause, Converged, Failed
 from umform.solution.rigid_start import rigid_start
 from umform.solution.softening import softened
+from umform.solution.strategy_statistics import StrategyStatistics
 from umform.solution.turning import follows
 
 Floats = NDArray[np.float64]
@@ -36,7 +36,7 @@ class Increment:
 
     Attributes
     ----------
-    model, newton, habits
+    model, newton, statistics
         System, method, and statistics of earlier increments.
     before : mapping of Control to float
         Values of the controls at the converged state.
@@ -54,7 +54,7 @@ class Increment:
 
     model: Model
     newton: Newton
-    habits: Habits
+    statistics: StrategyStatistics
     before: Mapping[Control, float]
     time: float
     guess: Floats | None
@@ -67,21 +67,21 @@ class Increment:
         return follows(self.model, self.last, same_side(self.model, self.last, converged))
 
     @property
-    def wary(self) -> Wary:
+    def indefinite(self) -> IndefiniteTangent:
         """An indefinite tangent far from equilibrium ends an attempt: softer penalties converge faster."""
-        if not (self.touches and self.habits.stable):
-            return Wary.NOT
-        return Wary.UNTIL_DOWNHILL if self.habits.last else Wary.OF_ANY
+        if not (self.touches and self.statistics.stable):
+            return IndefiniteTangent.IGNORED
+        return IndefiniteTangent.STOPS_BEFORE_JUMP if self.statistics.last else IndefiniteTangent.STOPS
 
     @property
-    def wary_with_soft_tools(self) -> Wary:
+    def indefinite_with_soft_tools(self) -> IndefiniteTangent:
         """With softer penalties a growing number of negative pivots indicates divergence."""
-        return Wary.OF_MORE if self.habits.stable else Wary.NOT
+        return IndefiniteTangent.STOPS_IF_MORE if self.statistics.stable else IndefiniteTangent.IGNORED
 
     @property
     def extrapolates(self) -> bool:
         """Whether there is a last increment to extrapolate, and the extrapolation is enabled."""
-        return self.guess is not None and self.newton.options.extrapolate > 0 and self.habits.extrapolates
+        return self.guess is not None and self.newton.options.extrapolate > 0 and self.statistics.extrapolates
 
     @property
     def touches(self) -> bool:
@@ -89,7 +89,7 @@ class Increment:
         return any(not pair.tool.open for pair in self.model.contacts)
 
     @property
-    def rubs(self) -> bool:
+    def has_friction(self) -> bool:
         """Whether there is friction with tools that are not open."""
         return any(pair.rubs and not pair.tool.open for pair in self.model.pairs_of_tools())
 
@@ -105,14 +105,14 @@ class Increment:
 
     def soft(self) -> Converged:
         """The equilibrium by continuation in the penalty."""
-        start, manner = self.tangent(), self.newton.manner(wary=self.wary_with_soft_tools)
-        go = lambda: self.newton.solve(start, manner, self.beyond(start))  # noqa: E731
-        return softened(self.model, self.newton, go, self.accept, manner, touched=self.touched)
+        start, mode = self.tangent(), self.newton.mode(indefinite=self.indefinite_with_soft_tools)
+        go = lambda: self.newton.solve(start, mode, self.beyond(start))  # noqa: E731
+        return softened(self.model, self.newton, go, self.accept, mode, touched=self.touched)
 
     def along_extrapolation(self) -> Converged:
         """The equilibrium from the last increment, scaled."""
-        manner = self.newton.manner(wary=self.wary, grows=self.grows)
-        return self.newton.solve(self.guess, manner, keep=self.keeps and self.newton.options.keep)
+        mode = self.newton.mode(indefinite=self.indefinite, grows=self.grows)
+        return self.newton.solve(self.guess, mode, keep=self.keeps and self.newton.options.keep)
 
     def rigid(self) -> Converged:
         """The equilibrium by continuation in the penalty from a rigid motion of the sheet. eq. (4.260)"""
@@ -124,18 +124,20 @@ class Increment:
     def along_tangent(self, *, consistent: bool = False) -> Converged:
         """The equilibrium from the increment along the tangent, corrected for rotation with a tool by friction."""
         start = self.tangent()
-        rubs, patient = self.rubs, self.undeformed
-        manner = self.newton.manner(consistent=consistent, wary=self.wary, rubs=rubs, patient=patient, grows=self.grows)
-        return self.newton.solve(start, manner, self.beyond(start))
+        friction, extended = self.has_friction, self.undeformed
+        mode = self.newton.mode(
+            consistent=consistent, indefinite=self.indefinite, friction=friction, extended=extended, grows=self.grows
+        )
+        return self.newton.solve(start, mode, self.beyond(start))
 
     def beyond(self, start: Floats | None) -> Floats | None:
         """Correction of the straight increment for a sheet that rotates with a tool. eq. (4.178)"""
-        return None if start is None or not self.rubs else carried(self.model, self.last, start)
+        return None if start is None or not self.has_friction else carried(self.model, self.last, start)
 
     @property
-    def came_round(self) -> bool:
+    def leaves_arc(self) -> bool:
         """Whether the last increment is that of a sheet that rotated with a tool: its extrapolation leaves the arc."""
-        return self.guess is not None and self.rubs and came_round(self.model, self.last, self.guess)
+        return self.guess is not None and self.has_friction and leaves_arc(self.model, self.last, self.guess)
 
     def tangent(self) -> Floats | None:
         """Increment along the tangent of the converged state: the sheet follows the tools that touch it. eq. (4.36)
@@ -188,7 +190,7 @@ STRATEGIES = (
     # The last increment, scaled: it needs no evaluation to begin with.
     Strategy(
         "extrapolation",
-        lambda at: at.extrapolates and not at.came_round,
+        lambda at: at.extrapolates and not at.leaves_arc,
         lambda at: at.along_extrapolation(),
     ),
     Strategy(
@@ -205,7 +207,7 @@ STRATEGIES = (
     # A stiff tool may reach a region without contact: a soft one gives the initial guess of the shape.
     Strategy(
         "softer penalties",
-        lambda at: at.touches and (at.habits.softens or not at.touched),
+        lambda at: at.touches and (at.statistics.softens or not at.touched),
         lambda at: at.soft(),
     ),
     # Tools may hold an undeformed sheet only in another position, where it has no tangent until it is there.
@@ -239,17 +241,17 @@ def equilibrium(increment: Increment) -> Converged:
             failures[strategy.name] = failure
             attempts.causes[_cause(strategy.name, failure, touched)] += 1
         else:
-            increment.habits.learn(
+            increment.statistics.record(
                 failed={name: failure.cause for name, failure in failures.items()},
                 won=strategy.name,
                 negative_pivots=converged.iterations[-1].negative_pivots,
             )
             return converged
-    if increment.habits.last and touched:
+    if increment.statistics.last and touched:
         settled = _settled(increment, failures)
         if settled is not None:
             return settled
-    increment.habits.learn_of_cut({name: failure.cause for name, failure in failures.items()})
+    increment.statistics.record_cut({name: failure.cause for name, failure in failures.items()})
     plain = [failure for name, failure in failures.items() if name not in _SOFT]
     for one in plain:
         if one.cause is Cause.SINGULAR:
@@ -280,7 +282,7 @@ def _settled(increment: Increment, failures: Mapping[str, Failed]) -> Converged 
     finally:
         newton.settled = 0.0
     last = converged.iterations[-1]
-    increment.habits.learn(failed={}, won=best.name, negative_pivots=last.negative_pivots)
+    increment.statistics.record(failed={}, won=best.name, negative_pivots=last.negative_pivots)
     return replace(converged, missed=last.residual)
 
 

@@ -55,7 +55,7 @@ def take_increment(
     try:
         starts = dict(zip(controls, before, strict=True))
         guess = None if extrapolation is None or run.trail is None else run.trail.guess(extrapolation)
-        increment = Increment(model, run.newton, run.habits, starts, time_before, guess, run.evaluation, keep)
+        increment = Increment(model, run.newton, run.statistics, starts, time_before, guess, run.evaluation, keep)
         converged, x_soft = _within_allowed(run, increment)
         try:
             with _counted(run):
@@ -67,7 +67,7 @@ def take_increment(
             converged = equilibrium(replace(increment, guess=converged.x - x_before, grows=False))
     except BaseException as error:  # no convergence, Ctrl-C, an error of a user's function: restore the previous state
         if isinstance(error, Failed):
-            run.habits.count(kept=False)
+            run.statistics.count_penetration(kept=False)
         for control, value in zip(controls, before, strict=True):
             control.value = value
         model.time = time_before
@@ -76,7 +76,7 @@ def take_increment(
         model.revert()
         raise
     if not model.too_deep(converged.evaluation):
-        run.habits.count(kept=True)
+        run.statistics.count_penetration(kept=True)
     model.commit(converged.evaluation)
     way = changes(model.controls, controls, np.subtract(values, before))
     earlier = run.trail if run.newton.options.extrapolate > 1 else None
@@ -88,7 +88,7 @@ def take_increment(
 
 def _within_allowed(run: Run, increment: Increment) -> tuple[Converged, Floats | None]:
     """Equilibrium with penalties that keep the allowed penetration; if they grew, the displacement before."""
-    model, yields = run.model, run.habits.yields
+    model, yields = run.model, run.statistics.yields
     try:
         converged = equilibrium(increment)
     except Failed:

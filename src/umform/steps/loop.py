@@ -16,9 +16,9 @@ from umform.model import Evaluation, Model
 from umform.model.control import Control
 from umform.progress import Tick, silent
 from umform.results.history import History
-from umform.solution.habits import Habits
 from umform.solution.newton import Newton
 from umform.solution.records import Converged
+from umform.solution.strategy_statistics import StrategyStatistics
 from umform.steps.lost import lost_tools
 from umform.steps.trail import Trail
 
@@ -60,7 +60,7 @@ class Run:
         The last increments of the present move or release and of preceding moves, for the extrapolation.
     evaluation : Evaluation
         Evaluation at the converged state.
-    habits : Habits
+    statistics : StrategyStatistics
         Statistics of earlier increments that select the first strategy.
     staged : int
         Number of return maps in stages up to the last increment.
@@ -72,7 +72,7 @@ class Run:
     newton: Newton
     result: History
     evaluation: Evaluation
-    habits: Habits = field(default_factory=Habits)
+    statistics: StrategyStatistics = field(default_factory=StrategyStatistics)
     frames: int = 60
     number: int = 1
     loop: Loop | None = None
@@ -87,7 +87,7 @@ class Run:
         """Add a converged increment to the result and show the progress of the step ``name``."""
         self.newton.timing.attempts.accepted += len(converged.iterations)
         self.result.add(converged.evaluation, converged.iterations + converged.passes, step=self.number, frame=frame)
-        self._tell_of_stages()
+        self._warn_of_stages()
         row = self.result.rows[-1]
         for as_planned, message in lost_tools(self.model, self.result.rows[-2], row):
             tell = self.result.note if as_planned else self.result.warn
@@ -95,7 +95,7 @@ class Run:
         forces = [f"{c.name} {row[c.name]:.5g}, force {row[f'{c.name}_force']:.5g}" for c in controls]
         self.tick(name, fraction, "; ".join([*forces, f"{row['iterations']} iterations"]))
 
-    def _tell_of_stages(self) -> None:
+    def _warn_of_stages(self) -> None:
         """Count the points with return maps in stages since the last increment; warn at the first ones."""
         before, self.staged = self.staged, staged_returns()
         points = int(self.model.ranks.sum(float(self.staged - before)))

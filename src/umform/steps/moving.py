@@ -95,7 +95,7 @@ class Moving:
         extrapolation = None if self.last_size is None else (target - self.fraction) / self.last_size
         x_before, active_before = model.x.copy(), run.evaluation.active
         if self._hopeless(step, 0.5 * (target - self.fraction)):
-            run.habits.last_chance()
+            run.statistics.begin_last_attempt()
         saved, trail, mark = self._saved(run), run.trail, run.newton.timing.attempts.mark()
         try:
             values = step.values(target, self.starts)

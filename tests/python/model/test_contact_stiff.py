@@ -174,7 +174,7 @@ def test_a_millionth_of_the_penalty_serves_first_touch_and_contact_that_is_lost(
     ram.value = 1.0
     penalties = []
 
-    def fail(self, extrapolation=None, manner=None, beyond=None):
+    def fail(self, extrapolation=None, mode=None, beyond=None):
         penalties.append(model.contacts[0].penalty)
         raise Failed("no", [], cause)
 

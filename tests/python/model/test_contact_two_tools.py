@@ -9,9 +9,9 @@ from umform import materials as mt
 from umform.mesh import strip
 from umform.model import Model
 from umform.run import resume, solve
-from umform.solution.habits import Habits
 from umform.solution.newton import Newton
 from umform.solution.strategies import Increment
+from umform.solution.strategy_statistics import StrategyStatistics
 from umform.steps import Move, Release
 from umform.steps.loop import Run
 from umform.surfaces import Cylinder, Punch, VDie
@@ -93,7 +93,7 @@ def test_the_tangent_follows_a_driven_tool():
         last = model.evaluate(model.u)
         newton = Newton(model)
         stroke.value = 2.0 - way
-        du = Increment(model, newton, Habits(), {stroke: 2.0}, model.time, None, last).tangent()
+        du = Increment(model, newton, StrategyStatistics(), {stroke: 2.0}, model.time, None, last).tangent()
         assert stroke.value == 2.0 - way  # to the last bit
         model.recover(du)
         norms.append(np.linalg.norm(model.restrict(model.evaluate(model.u + du).residual)))

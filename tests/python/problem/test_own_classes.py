@@ -84,6 +84,35 @@ def test_without_trust_no_code_runs(deck):
     assert "own_laws" not in sys.modules
 
 
+RAMP = '''
+from dataclasses import dataclass
+
+import umform as uf
+from umform.surfaces import ToolSpec
+
+
+@dataclass(frozen=True)
+class Ramp(ToolSpec):
+    """Half-space under a plane that rises along x."""
+
+    rise: float
+    """Rise per length."""
+
+    def kernel(self):
+        return uf.Plane(normal=(-self.rise, 0.0, 1.0)).kernel()
+'''
+
+
+def test_a_tool_of_the_user(deck, tmp_path):
+    (tmp_path / "own_laws.py").write_text(RAMP, encoding="utf-8")
+    path = deck('law = "SVK"\nE = 210e3\nnu = 0.3')
+    text = path.read_text() + '[tools.ramp]\nshape = "own_laws:Ramp"\nrise = 0.75\ntranslation = [0, 0, -2]\n'
+    path.write_text(text)
+    with pytest.raises(DeckError, match="not trusted"):
+        load(path)
+    assert load(path, trust=True).build().tools["ramp"].gap([(0.0, 0.0, 0.0)])[0] == pytest.approx(1.6)
+
+
 def test_a_curve_of_the_user(deck):
     law = load(deck(CURVE), trust=True).build().model.material
     own = sys.modules["own_laws"].Ludwik(160.0, 450.0)

@@ -211,6 +211,30 @@ def test_contacts_are_those_of_the_model(keys, strip):
         assert getattr(contact, name) == getattr(same, name)
 
 
+REGIONS = (
+    "{ mu = [[0, 0.14], [50, 0.1]], cap = 90.0, regions = [{ mu = 0.3, lower = [-inf, -1, -9], upper = [2, 1, inf] }] }"
+)
+
+
+def test_friction_of_a_contact_is_a_number_a_law_or_laws_in_regions(strip, errors):
+    def friction(text):
+        return (strip + CONTROLS).replace("penalty = 1e3", f"penalty = 1e3\nfriction = {text}")
+
+    def found(text):
+        problem = Problem.read(friction(text))
+        assert problem.build().contacts["floor"].rubs
+        return problem.contents.contacts["floor"].of_spec()["friction"]
+
+    assert found("0.2") == 0.2
+    law = uf.Friction(((0.0, 0.14), (50.0, 0.1)), cap=90.0)
+    box = uf.Region((-np.inf, -1.0, -9.0), (2.0, 1.0, np.inf), uf.Friction(0.3))
+    assert found(REGIONS) == uf.FrictionByRegion(law, (box,))
+    (told,) = errors(friction(REGIONS.replace("mu = 0.3", "mu = 3.0")))
+    assert told.where.endswith("contacts.floor.friction.regions[0].mu") and told.value == "3.0"
+    (told,) = errors(friction("{ mu = 0.1, kinetic = 0.05 }"))
+    assert "belong together" in told.what and told.where.endswith("contacts.floor.friction.kinetic")
+
+
 def test_points_and_cells_are_not_both_given(strip, errors):
     (told,) = errors((strip + CONTROLS).replace("penalty = 1e3", "penalty = 1e3\ncells = 3"))
     assert "points or cells, and not both" in told.what

@@ -85,7 +85,7 @@ def test_a_path_changes_a_number_and_the_mesh_follows():
     assert numbers["steps.0.cuts"].sentence == "How often an increment may be halved before the run fails."
     assert not [path for path in numbers if path.startswith("output.")]
     changed = problem.with_({"tools.die.shoulder_radius": 2.1, "steps.0.to.stroke": 0.4}, same_topology=True)
-    assert changed.contents.tools["die"].shoulder_radius == 2.1
+    assert changed.contents.tools["die"].tool.shoulder_radius == 2.1
     assert "stroke = 0.4" in changed.toml() and "stroke = 0.4" not in problem.toml()
     strip = Problem.read(template_file("cantilever").read_text())
     longer = strip.with_({"mesh.length": 11.0}, same_topology=True)

@@ -85,11 +85,11 @@ def test_what_was_learnt_on_a_branch_is_forgotten_on_the_way_back():
     model, punch = strip()
     run = OpenRun(model)
     run.take(uf.Move(punch, to=-0.4, steps=4))
-    mark, habits = run.mark(), replace(run._run.habits)
-    run._run.habits.learn(failed={"extrapolation": Cause.STALL}, won="tangent", negative_pivots=1)
-    run._run.habits.last_chance()
-    run._run.habits.count(kept=False)
-    run._run.habits.learn_of_cut({"softer penalties": Cause.STALL})
-    assert all(vars(run._run.habits)[name] != value for name, value in vars(habits).items())
+    mark, statistics = run.mark(), replace(run._run.statistics)
+    run._run.statistics.record(failed={"extrapolation": Cause.STALL}, won="tangent", negative_pivots=1)
+    run._run.statistics.begin_last_attempt()
+    run._run.statistics.count_penetration(kept=False)
+    run._run.statistics.record_cut({"softer penalties": Cause.STALL})
+    assert all(vars(run._run.statistics)[name] != value for name, value in vars(statistics).items())
     run.go_back(mark)
-    assert run._run.habits == habits
+    assert run._run.statistics == statistics

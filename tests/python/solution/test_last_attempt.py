@@ -23,9 +23,9 @@ def failing(reason, cause, motion=None):
 
 def increment():
     attempts = SimpleNamespace(trying=lambda name: nullcontext(), causes=Counter())
-    habits = SimpleNamespace(learn=lambda **what: None, learn_of_cut=lambda what: None, last=False)
+    statistics = SimpleNamespace(learn=lambda **what: None, record_cut=lambda what: None, last=False)
     newton = SimpleNamespace(timing=SimpleNamespace(attempts=attempts))
-    return SimpleNamespace(newton=newton, habits=habits, touched=True, accept=lambda found: found)
+    return SimpleNamespace(newton=newton, statistics=statistics, touched=True, accept=lambda found: found)
 
 
 @pytest.mark.parametrize("last", [None, np.array([0.0, 1.0])])

@@ -302,12 +302,12 @@ def test_no_state_converges_with_points_that_are_kept():
 
 def test_a_sheet_that_springs_back_is_solved_like_an_elastic_one():
     newton = Newton(arc_tangent(3.0))
-    assert (newton.manner().mixed, newton.manner().line_search) == (False, True)
+    assert (newton.mode().mixed, newton.mode().line_search) == (False, True)
     newton.springs_back = True
-    assert (newton.manner().mixed, newton.manner().line_search) == (True, False)
-    assert newton.manner(rubs=True).line_search
+    assert (newton.mode().mixed, newton.mode().line_search) == (True, False)
+    assert newton.mode(friction=True).line_search
     newton.options = NewtonOptions(mixed=False, line_search=True)
-    assert (newton.manner().mixed, newton.manner().line_search) == (False, True)
+    assert (newton.mode().mixed, newton.mode().line_search) == (False, True)
 
 
 def test_line_search_tames_a_step_that_diverges_without():
@@ -346,9 +346,9 @@ def test_an_increment_out_of_the_domain_of_a_law_is_shortened_to_a_quarter():
 def test_by_default_there_is_a_line_search_where_a_law_has_a_history():
     plastic, elastic = arc_tangent(3.0), arc_tangent(3.0)
     elastic.elastic = True
-    assert [Newton(system).manner().line_search for system in (plastic, elastic)] == [True, False]
-    assert not Newton(plastic, NewtonOptions(line_search=False)).manner().line_search
-    assert Newton(elastic, NewtonOptions(line_search=True)).manner().line_search
+    assert [Newton(system).mode().line_search for system in (plastic, elastic)] == [True, False]
+    assert not Newton(plastic, NewtonOptions(line_search=False)).mode().line_search
+    assert Newton(elastic, NewtonOptions(line_search=True)).mode().line_search
 
 
 # Giving up --------------------------------------------------------------------------------------------------

@@ -10,9 +10,9 @@ import pytest
 
 import umform as uf
 from umform.solution.bordered import Bordered
+from umform.solution.divergence_guard import DivergenceGuard
 from umform.solution.line_search import lengthened
-from umform.solution.options import Wary
-from umform.solution.prospects import Prospects
+from umform.solution.options import IndefiniteTangent
 from umform.solution.records import Failed
 from umform.solution.shift import Shift
 from umform.solution.timed_solver import TimedSolver
@@ -82,7 +82,7 @@ def test_increments_near_a_saddle_are_doubled_until_the_slope_has_fallen():
         restrict=lambda r: r,
         ranks=SimpleNamespace(dot=lambda a, b: float(a @ b)),
         shorten=shortened.append,
-        evaluate=lambda u: SimpleNamespace(residual=u**3 - u, failed=-1, x=u),
+        evaluate=lambda u: SimpleNamespace(residual=u**3 - u, failed=-1, x=u, force_scale=1.0),
     )
     u, du = np.array([0.01]), np.array([0.02])
     evaluation, length = lengthened(system, u, du, u**3 - u, system.evaluate(u + du), 1.0)
@@ -94,10 +94,11 @@ def test_increments_near_a_saddle_are_doubled_until_the_slope_has_fallen():
 @pytest.mark.parametrize("shifted", [False, True])
 def test_a_residual_that_grows_on_the_way_down_does_not_end_the_attempt(shifted):
     none = SimpleNamespace(status=np.zeros(0, dtype=np.uint8))
-    prospects = Prospects(SimpleNamespace(smooth=False, ranks=SimpleNamespace(any=bool)))
-    assert not prospects.shifts(0, Wary.OF_ANY)  # the tangent is positive
-    assert not prospects.shifts(1, Wary.NOT)  # nothing has gone in a cycle, and the last state was not stable
-    assert not shifted or prospects.shifts(1, Wary.OF_ANY)
+    system = SimpleNamespace(smooth=False, ranks=SimpleNamespace(any=bool))
+    assert not DivergenceGuard(system).shifts(1)  # nothing has gone in a cycle, and the last state was not stable
+    guard = DivergenceGuard(system, IndefiniteTangent.STOPS)
+    assert not guard.shifts(0)  # the tangent is positive
+    assert not shifted or guard.shifts(1)
     with nullcontext() if shifted else pytest.raises(Failed, match="has not fallen"):
         for k in range(20):
-            prospects.longest(none, none.status, 1.0 + k, [])
+            guard.longest_step(none, 1.0 + k, [])

@@ -176,6 +176,20 @@ def test_nothing_in_place_of_an_object_is_refused(name):
         BendSequence(length=80.0, bends=(Bend(position=40.0, angle=90.0),), **{name: None})
 
 
+@dataclass(frozen=True)
+class Holder:
+    """A holder."""
+
+    thing: object
+    """Thing that it holds."""
+
+
+def test_nothing_in_place_of_any_object_is_refused():
+    check_fields(Holder(1.0))
+    with pytest.raises(InvalidValue, match="the thing that it holds must be an object"):
+        check_fields(Holder(None))
+
+
 def test_a_signature_names_the_fields_of_its_options():
     """Of methods whose options are a Spec: names, order and defaults."""
     contact = signature(uf.Model.contact).parameters

@@ -84,7 +84,7 @@ def test_the_opening_is_solved_as_springback_and_the_next_step_is_not(monkeypatc
     solve_ = Newton.solve
 
     def watched(self, *arguments, **named):
-        seen.append((self.manner().mixed, self.manner().line_search))
+        seen.append((self.mode().mixed, self.mode().line_search))
         return solve_(self, *arguments, **named)
 
     monkeypatch.setattr(Newton, "solve", watched)

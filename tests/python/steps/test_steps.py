@@ -37,13 +37,13 @@ def failing(monkeypatch):
     def install(*numbers, max_iterations=2):
         calls = []
 
-        def solve_or_fail(self, extrapolation=None, manner=None, beyond=None, keep=False):
+        def solve_or_fail(self, extrapolation=None, mode=None, beyond=None, keep=False):
             calls.append(self.system.time)
             options = self.options
             if len(calls) in numbers:
                 self.options = replace(options, max_iterations=max_iterations, residual=1e-300, increment=1e-300)
             try:
-                return original(self, extrapolation, manner, beyond, keep)
+                return original(self, extrapolation, mode, beyond, keep)
             finally:
                 self.options = options
 
@@ -186,7 +186,7 @@ def test_softer_penalties_rest_after_a_miss_but_not_before_the_run_is_given_up(b
     case = build.free_bending((8, 1))
     solve(case.model, Move(case.punch, -1.0, steps=4), frames=0)
 
-    def fail(self, extrapolation=None, manner=None, beyond=None, keep=False):
+    def fail(self, extrapolation=None, mode=None, beyond=None, keep=False):
         raise Failed("no", [], Cause.STALL)
 
     monkeypatch.setattr(Newton, "solve", fail)
@@ -477,11 +477,11 @@ def test_chattering_is_a_warning_of_the_result(build, monkeypatch):
 
     original, calls = Newton.solve, []
 
-    def chatter_once(self, extrapolation=None, manner=None, beyond=None, keep=False):
+    def chatter_once(self, extrapolation=None, mode=None, beyond=None, keep=False):
         calls.append(1)
         if len(calls) <= 3:  # the tangent, two softer penalties
             raise Failed("contact comes and goes in a cycle", [], Cause.CYCLE)
-        return original(self, extrapolation, manner, beyond, keep)
+        return original(self, extrapolation, mode, beyond, keep)
 
     monkeypatch.setattr(Newton, "solve", chatter_once)
     case = build.free_bending((8, 1))

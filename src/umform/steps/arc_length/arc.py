@@ -162,13 +162,13 @@ class Following:
         path = self.path
         tried = path.shortened(self.length)
         try:
-            converged = path.advance(tried, run.habits.yields)
+            converged = path.advance(tried, run.statistics.yields)
         except Failed as failure:
-            run.habits.count(kept=False)
+            run.statistics.count_penetration(kept=False)
             self._cut(run, step, failure, tried)
             return
         if not run.model.too_deep(converged.evaluation):
-            run.habits.count(kept=True)
+            run.statistics.count_penetration(kept=True)
         run.evaluation = converged.evaluation
         self.count += 1
         fraction = path.state.fraction

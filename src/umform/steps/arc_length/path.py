@@ -17,7 +17,7 @@ from umform.errors import InvalidValue
 from umform.model import Model
 from umform.solution.keeping import within_allowed
 from umform.solution.newton import Newton
-from umform.solution.options import Manner
+from umform.solution.options import IterationMode
 from umform.solution.records import Converged, Failed
 from umform.solution.system import Evaluation
 from umform.solvers import Factorisation
@@ -153,7 +153,7 @@ class Path:
     def _correct(self, length: float, yields: bool) -> tuple[Converged, PathState]:
         """Correct on the arc, and at the end of the line if it was passed. eq. (5.23)"""
         x, state = self.model.x, self.state
-        keeping = partial(within_allowed, self.model, self.newton, yields=yields, manner=self._manner)
+        keeping = partial(within_allowed, self.model, self.newton, yields=yields, mode=self._mode)
         converged = keeping(self._on_arc(length), lambda: self._on_arc(length))
         if converged.x[-1] >= 1.0:
             converged = keeping(self._land(converged, length), lambda: self._land(self._on_arc(length), length))
@@ -171,7 +171,7 @@ class Path:
         self.equation.ask(length, self.model.u)
         ahead = np.append(state.tangent, state.slope)
         dx = self.model.extend(self.model.coefficients(length * ahead)) + self.newton.prescribed_increment(x)
-        converged = self.newton.correct(x, dx, self._manner)
+        converged = self.newton.correct(x, dx, self._mode)
         if self._product(converged.x - x, ahead) <= 0.0:
             raise Failed("the path turns back within one increment", converged.iterations)
         return converged
@@ -186,7 +186,7 @@ class Path:
         back[-1] = 1.0 - beyond.x[-1]
         back, at_end = self.model.extend(self.model.coefficients(back)), beyond.x.copy()
         at_end[-1], back[-1] = 1.0, 0.0  # to the last bit
-        landed = self.newton.correct(at_end, back, self._manner)
+        landed = self.newton.correct(at_end, back, self._mode)
         if float(np.linalg.norm((landed.x - x)[: self.model.u.size])) > 1.5 * length:
             raise Failed("the last increment jumps off the path", landed.iterations)
         return replace(landed, iterations=beyond.iterations + landed.iterations, passes=beyond.passes)
@@ -205,9 +205,9 @@ class Path:
         return float(one[:dofs] @ other[:dofs]) + self.equation.load_weight * float(one[-1] * other[-1])
 
     @property
-    def _manner(self) -> Manner:
+    def _mode(self) -> IterationMode:
         """Near a limit point the residual is no measure of an increment, and the tangent changes strongly."""
-        return Manner(line_search=False, reuses=False, mixed=self.newton.mixed)
+        return IterationMode(line_search=False, reuses=False, mixed=self.newton.mixed)
 
     def _set_time(self, arc: float) -> None:
         self.model.time = self.start_time + self.time * self.increment * arc / self.first

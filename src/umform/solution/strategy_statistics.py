@@ -16,7 +16,7 @@ _LONGEST_SOFT_REST = 3
 
 
 @dataclass
-class Habits:
+class StrategyStatistics:
     """Whether an increment begins with the extrapolation of the last one, and whether softer penalties are tried.
 
     If the extrapolation fails and another start converges, the next increment skips it; if it fails again then, the
@@ -66,7 +66,7 @@ class Habits:
         """Whether the next increment may exceed the allowed penetration, rather than fail."""
         return self.last or self.failures >= _YIELDING
 
-    def learn(self, failed: Mapping[str, Cause], won: str, negative_pivots: int | None) -> None:
+    def record(self, failed: Mapping[str, Cause], won: str, negative_pivots: int | None) -> None:
         """Record an increment: the strategies that failed and why, the one that converged, the pivots at the end."""
         self.stable, self.last = not negative_pivots, False
         if won == "extrapolation":
@@ -79,7 +79,7 @@ class Habits:
         if won == "softer penalties":
             self.soft_misses = 0
 
-    def learn_of_cut(self, failed: Mapping[str, Cause]) -> None:
+    def record_cut(self, failed: Mapping[str, Cause]) -> None:
         """Record an increment in which all strategies failed."""
         cause = failed.get("softer penalties")
         if cause is None:
@@ -88,10 +88,10 @@ class Habits:
             self.soft_misses += 1
             self.soft_rest = min(2**self.soft_misses - 1, _LONGEST_SOFT_REST)
 
-    def count(self, *, kept: bool) -> None:
+    def count_penetration(self, *, kept: bool) -> None:
         """Count an increment that kept the allowed penetration, or one that failed."""
         self.failures = max(self.failures - 1, 0) if kept else min(self.failures + 1, _YIELDING)
 
-    def last_chance(self) -> None:
+    def begin_last_attempt(self) -> None:
         """Try softer penalties, and a jump, in an increment that will not be cut."""
         self.soft_rest, self.last = 0, True

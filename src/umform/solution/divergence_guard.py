@@ -1,4 +1,7 @@
-"""Detect hopeless iterations: contact that cycles, a residual that stagnates. docs/theory, 4.9"""
+"""Safeguards against divergence: contact that cycles, a residual that stagnates, indefinite tangents.
+
+docs/theory, 4.9
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.solution.options import Wary
+from umform.solution.options import IndefiniteTangent
 from umform.solution.records import Cause, Failed, Iteration
 from umform.solution.system import Evaluation, System
 
@@ -19,14 +22,16 @@ _FAR = 0.1
 _LONG = 4
 
 
-class Prospects:
-    """Monitors the successive iterations of one increment.
+class DivergenceGuard:
+    """Watches the successive iterations of one increment: shortens, shifts, extends or ends them.
 
     Parameters
     ----------
     system : System
         What is iterated.
-    patient : bool
+    indefinite : IndefiniteTangent
+        Response to an indefinite tangent far from equilibrium.
+    extended : bool
         Whether more iterations are allowed from the beginning.
 
     Attributes
@@ -35,36 +40,39 @@ class Prospects:
         Whether the iterations go down to the next stable state, however far it is. eq. (5.102)
     """
 
-    def __init__(self, system: System, *, patient: bool = False) -> None:
-        self._cycle, self._patient = Cycle(system), patient
+    def __init__(
+        self,
+        system: System,
+        indefinite: IndefiniteTangent = IndefiniteTangent.IGNORED,
+        *,
+        extended: bool = False,
+    ) -> None:
+        self._cycle, self._indefinite, self._extended = Cycle(system), indefinite, extended
         self._stall = None if system.smooth else Stall()
+        self._status: NDArray[np.uint8] | None = None  # of the previous iteration
         self._pivots = 0
         self._downhill = self.jumps = False
 
-    def most(self, iterations: int) -> int:
+    def iteration_limit(self, iterations: int) -> int:
         """Largest number of iterations; parameter: that of a usual increment."""
-        return _LONG * iterations if self.jumps or self._patient else iterations
+        return _LONG * iterations if self.jumps or self._extended else iterations
 
-    def asks(self, residual: float, wary: Wary) -> bool:
+    def needs_symmetric_part(self, residual: float) -> bool:
         """Whether the stability of an unsymmetric tangent is worth the factors of its symmetric part. eq. (5.101)
 
-        It is after a cycle of contact, on the way down, and near equilibrium in the last attempt; parameters as of
-        `bear`.
+        It is after a cycle of contact, on the way down, and near equilibrium in the last attempt; parameter as of
+        `check_pivots`.
         """
-        last = wary is Wary.UNTIL_DOWNHILL and residual <= _FAR
+        last = self._indefinite is IndefiniteTangent.STOPS_BEFORE_JUMP and residual <= _FAR
         return self._cycle.met or self._downhill or last
 
-    def longest(
-        self, evaluation: Evaluation, before: NDArray[np.uint8], norm: float, iterations: list[Iteration]
-    ) -> float:
+    def longest_step(self, evaluation: Evaluation, norm: float, iterations: list[Iteration]) -> float:
         """Part of the next increment to apply; to be called once in each iteration.
 
         Parameters
         ----------
         evaluation : Evaluation
             Of this iteration.
-        before : ndarray of uint8
-            Status of the contact points in the previous iteration.
         norm : float
             Of the residual of the unknowns.
         iterations : list of Iteration
@@ -75,7 +83,8 @@ class Prospects:
         Failed
             If convergence is not expected.
         """
-        cycle, stall = self._cycle, self._stall
+        cycle, stall, before = self._cycle, self._stall, self._status
+        self._status = evaluation.status
         longest = 0.5 if cycle.seen(evaluation.status, [record.residual for record in iterations]) else 1.0
         if cycle.stays:
             where = evaluation.at_points(evaluation.status != before)
@@ -84,7 +93,7 @@ class Prospects:
             raise Failed(f"the residual has not fallen for {stall.patience} iterations", iterations, Cause.STALL)
         return longest
 
-    def bear(self, pivots: int | None, residual: float, wary: Wary, iterations: list[Iteration]) -> None:
+    def check_pivots(self, pivots: int | None, residual: float, iterations: list[Iteration]) -> None:
         """Check the negative pivots of a new tangent.
 
         Parameters
@@ -93,8 +102,6 @@ class Prospects:
             Their number, if the solver reports it.
         residual : float
             Relative to the force scale.
-        wary : Wary
-            The accepted response.
         iterations : list of Iteration
             The previous ones.
 
@@ -106,19 +113,19 @@ class Prospects:
         before, self._pivots = self._pivots, pivots or 0
         if residual <= _FAR or not pivots or self.jumps:
             return
-        if wary.of_any or (wary is Wary.OF_MORE and pivots > before > 0):
+        more = self._indefinite is IndefiniteTangent.STOPS_IF_MORE and pivots > before > 0
+        if self._indefinite.stops or more:
             reason = f"the tangent has {pivots} negative pivots far from equilibrium"
             raise Failed(reason, iterations, Cause.INDEFINITE)
 
-    def shifts(self, pivots: int | None, wary: Wary) -> bool:
-        """Whether an indefinite tangent is shifted, so that the increment is a descent direction; parameters as of
-        `bear`.
+    def shifts(self, pivots: int | None) -> bool:
+        """Whether an indefinite tangent is shifted, so that the increment is a descent direction.
 
-        It is if the last equilibrium was stable, and if contact has cycled.
+        It is if the last equilibrium was stable, and if contact has cycled; parameter as of `check_pivots`.
         """
-        wanted = bool(pivots) and (wary.of_any or self._cycle.met)
+        wanted = bool(pivots) and (self._indefinite.stops or self._cycle.met)
         self._downhill = self._downhill or wanted
-        self.jumps = self.jumps or (wanted and wary is Wary.UNTIL_DOWNHILL)
+        self.jumps = self.jumps or (wanted and self._indefinite is IndefiniteTangent.STOPS_BEFORE_JUMP)
         return wanted
 
 
