@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 from umform.errors import InvalidValue
 from umform.model.control import Control
+from umform.model.state import State
 from umform.model.term import Term
 
 #: Columns of every history.
@@ -42,6 +43,25 @@ class Controlled:
     def of_kind(self, kind: type[_T]) -> list[_T]:
         """Controls of a class, in the order of their creation."""
         return [control for control in self.controls if isinstance(control, kind)]
+
+    def values_at(self, state: State) -> dict[Control, float]:
+        """Values of the controls at a state.
+
+        Raises
+        ------
+        InvalidValue
+            If the state is that of a model with other controls.
+        """
+        try:
+            return {control: state.controls[control.name] for control in self.controls}
+        except KeyError as missing:
+            raise InvalidValue(
+                "a state has no value for a control of the model",
+                where="state",
+                value=missing.args[0],
+                cause="the state of a model with other controls, or one from before the control was made",
+                remedy="a state of a model with the same supports, loads and tools",
+            ) from None
 
     def _named(self) -> Iterable[Any]:
         """Controls and terms: all objects with columns in the history."""

@@ -15,6 +15,7 @@ from umform.mesh.numbers import common
 from umform.model.constraints import Groups, Rows
 from umform.model.control import Control, OnDofs, Prescribed
 from umform.model.controls import Controlled
+from umform.model.state import State
 from umform.model.support import Support
 from umform.model.ties import Tie, split_ties
 
@@ -106,9 +107,9 @@ class Held(Controlled):
         """
         return self._displacement(values, self.controls, self.groups)
 
-    def prescribed_displacement(self) -> Floats:
-        """Displacement that supports prescribe at the present values of the controls; zero elsewhere."""
-        values = {control: control.value for control in self.controls}
+    def prescribed_displacement(self, goal: State | None = None) -> Floats:
+        """Displacement that supports prescribe at a goal, by default at the present values of the controls."""
+        values = {c: c.value for c in self.controls} if goal is None else self.values_at(goal)
         return self._displacement(values, self.controls, self.groups, _acting(self._holders))
 
     def _displacement(

@@ -26,7 +26,8 @@ class Standing(Evaluated):
             unknown.value = float(value)
         for term in self.terms:
             term.commit(evaluation.found[term])
-        self.u, self._began, self._converged_time = evaluation.u.copy(), self._converged_time, evaluation.time
+        self.u, self.time = evaluation.u.copy(), evaluation.time
+        self._began, self._converged_time = self._converged_time, evaluation.time
         for term in self.others:
             term.settled(self, evaluation)
 

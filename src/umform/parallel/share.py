@@ -23,6 +23,7 @@ from umform.model.control import Control
 from umform.model.evaluation import Evaluation
 from umform.model.forces import rigid_body_modes
 from umform.model.frame import Frame
+from umform.model.state import State
 from umform.model.support import Support
 from umform.model.ties import Tie
 from umform.parallel.cutting import Parcel
@@ -181,7 +182,7 @@ class Share(Model):
 
     def evaluate(
         self,
-        x: Floats,
+        state: State | Floats,
         du: Floats | None = None,
         rates: Mapping[Control, float] | None = None,
         until: float | None = None,
@@ -192,7 +193,7 @@ class Share(Model):
         """Local parts of residual and tangent; scale, round-off, failed cell and errors are global."""
         problem, found = None, None
         try:
-            found = super().evaluate(x, du, rates, until, tangent=tangent, keep=keep)
+            found = super().evaluate(state, du, rates, until, tangent=tangent, keep=keep)
         except UmformError as error:
             problem = error
         self.ranks.agree(problem)

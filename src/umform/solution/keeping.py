@@ -64,7 +64,7 @@ def within_allowed(
                 contact.use_penalty(penalty)
             if not yields:  # a smaller increment is nearer to its pressures
                 raise
-            model.prepare()
+            model.prepare(converged.goal)
             converged = again()
     return converged
 

@@ -10,8 +10,10 @@ import logging
 import math
 import time as clock
 from collections.abc import Callable
+from copy import copy
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TypeVar
+from typing import Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +28,7 @@ from umform.solution.prospects import Prospects
 from umform.solution.recorder import Recorder
 from umform.solution.records import Cause, Converged, Failed, First, Iteration
 from umform.solution.shift import Shift
-from umform.solution.system import Evaluation, System
+from umform.solution.system import Evaluation, State, System
 from umform.solution.timed_solver import TimedSolver
 from umform.solvers import Pattern, make_solver
 from umform.timing import Timing
@@ -40,6 +42,14 @@ _T = TypeVar("_T")
 _FLIGHT = 1e4
 #: Residual, relative to the forces, at which iterations end where a penalty will grow. docs/theory, 4.11
 _NEAR = 1e-2
+
+
+@dataclass
+class _Analysed:
+    """A solver, and the pattern that it has analysed; methods with other tolerances share it."""
+
+    solver: Bordered | None = None
+    pattern: Pattern | None = None
 
 
 class Newton:
@@ -56,13 +66,31 @@ class Newton:
         self.timing = timing or Timing()
         self.options = options or NewtonOptions()
         self.solver_name = solver
-        self._solver: Bordered | None = None
-        self._pattern: Pattern | None = None
+        self._analysed = _Analysed()
         self.callbacks: list[Callable[[Iteration], None]] = []
         #: Whether the sheet springs back, nearly elastic, even if its laws have a history. docs/theory, 5.13
         self.springs_back = False
         #: Relative residual at which iterations end, above the tolerance; zero: none. eq. (5.131)
         self.settled = 0.0
+
+    def but(
+        self, *, residual: float | None = None, settled: float | None = None, springs_back: bool | None = None
+    ) -> Self:
+        """The same method with other tolerances, or for a sheet that springs back; it shares the sparse solver.
+
+        Parameters
+        ----------
+        residual : float, optional
+            Tolerance of the residual.
+        settled, springs_back : optional
+            The attributes.
+        """
+        other = copy(self)
+        if residual is not None:
+            other.options = replace(self.options, residual=residual)
+        other.settled = self.settled if settled is None else settled
+        other.springs_back = self.springs_back if springs_back is None else springs_back
+        return other
 
     @property
     def solver(self) -> str:
@@ -114,18 +142,21 @@ class Newton:
 
     def solve(
         self,
+        goal: State | None = None,
         extrapolation: Floats | None = None,
         manner: Manner | None = None,
         beyond: Floats | None = None,
         keep: bool = False,
     ) -> Converged:
-        """Find the equilibrium at the present loads, supports and tools, starting from the converged state.
+        """Find the equilibrium at the loads, supports and tools of a goal, starting from the converged state.
 
         Parameters
         ----------
+        goal : State, optional
+            The converged state with the time and the controls of the increment; default: without a change of them.
         extrapolation : ndarray, shape (3 n,), optional
             Predicted increment; prescribed entries are overwritten. Without it the first increment is that of the
-            tangent. It is recovered with the blocks of the last evaluation, which must be at ``system.u``.
+            tangent. It is recovered with the blocks of the last evaluation, which must be at the converged state.
         manner : Manner, optional
             Mode of the iterations; default: from the options.
         beyond : ndarray, shape (3 n + k,), optional
@@ -138,7 +169,8 @@ class Newton:
         Failed
             If it does not converge; the system is reverted.
         """
-        return self.guarded(lambda: self._solve(extrapolation, manner or self.manner(), beyond, keep))
+        goal = self.system.state if goal is None else goal
+        return self.guarded(lambda: self._solve(goal, extrapolation, manner or self.manner(), beyond, keep))
 
     def go_on(self, converged: Converged, change: Floats, manner: Manner | None = None) -> Converged:
         """Find the equilibrium again after a change of forces in the system at fixed loads, supports and tools.
@@ -162,7 +194,7 @@ class Newton:
             solver = self.ready_solver()
             solver.factor(converged.evaluation)
             du = self.system.extend(solver.solve(-self.system.restrict(change)))
-            return self.correct(converged.x, du, manner or self.manner())
+            return self.correct(converged.goal, converged.x, du, manner or self.manner())
 
         return self.guarded(work)
 
@@ -183,38 +215,42 @@ class Newton:
             raise Failed(what, [], cause, getattr(error, "motion", None)) from error
         except BaseException as error:  # errors of a user's function and interrupts also leave the system unchanged
             self.system.revert()
-            if isinstance(error, Failed) and error.motion is None and self._solver is not None:
-                error.motion = self._solver.weak
+            solver = self._analysed.solver
+            if isinstance(error, Failed) and error.motion is None and solver is not None:
+                error.motion = solver.weak
             raise
 
-    def _solve(self, extrapolation: Floats | None, manner: Manner, beyond: Floats | None, keep: bool) -> Converged:
+    def _solve(
+        self, goal: State, extrapolation: Floats | None, manner: Manner, beyond: Floats | None, keep: bool
+    ) -> Converged:
         """First increment from the extrapolation, or from the tangent by eq. (5.6); then corrections."""
         system = self.system
         solver = self.ready_solver()
         start = clock.perf_counter()
-        u = system.x.copy()
-        du, of_tangent = self.prescribed_increment(u), None
+        u = goal.x.copy()
+        du, of_tangent = self.prescribed_increment(goal, u), None
         if extrapolation is not None:
             du += system.extend(system.coefficients(extrapolation))
         else:
-            first = system.evaluate(u, du)
+            first = system.evaluate(system.state_at(u, goal), du)
             self.check_domain(first, [])
             factors = solver.factor(first)
             if not first.border.unknowns:
                 of_tangent = First(factors, system.largest_entry(first.values))
             du += system.extend(solver.solve(-system.restrict(first.residual + first.predictor)))
             del first  # with its tangent
-        return self.correct(u, du, manner, start, of_tangent, beyond, keep)
+        return self.correct(goal, u, du, manner, start, of_tangent, beyond, keep)
 
-    def prescribed_increment(self, u: Floats) -> Floats:
-        """Increment of the supports from ``u`` to their prescribed values; zero at the unknowns."""
+    def prescribed_increment(self, goal: State, u: Floats) -> Floats:
+        """Increment of the supports from ``u`` to their values at a goal; zero at the unknowns."""
         gap = np.zeros_like(u)
-        prescribed = self.system.prescribed_displacement()
+        prescribed = self.system.prescribed_displacement(goal)
         gap[: prescribed.size] = prescribed - u[: prescribed.size]
         return gap - self.system.extend(self.system.coefficients(gap))
 
     def correct(
         self,
+        goal: State,
         u: Floats,
         du: Floats,
         manner: Manner,
@@ -230,7 +266,7 @@ class Newton:
         recorder = Recorder(self.callbacks, system.ranks, start)
         iterations = recorder.iterations
         if system.ranks.max(float(np.abs(du).max(initial=0.0))) <= EPS * system.extent:
-            du = self.prescribed_increment(u)  # the rest would shake a sheet without forces off its tools
+            du = self.prescribed_increment(goal, u)  # the rest would shake a sheet without forces off its tools
         system.recover(du, manner.mixed)
         u = u + du if beyond is None else u + du + beyond
         criteria, shift = Criteria(system, options.residual, options.increment), Shift(system)
@@ -240,7 +276,8 @@ class Newton:
         pivots = reuse.remember(first.factors) if first is not None else None
         criteria.entry = first.entry if first is not None else None
         lean = first is not None and self._lean(reuse, manner)
-        evaluation = system.evaluate(u, keep=True) if keep else system.evaluate(u, tangent=not lean)
+        state = system.state_at(u, goal)
+        evaluation = system.evaluate(state, keep=True) if keep else system.evaluate(state, tangent=not lean)
         increment, step_length, shifted = self._relative(du, evaluation), 1.0, False
         status = previous = evaluation.status
 
@@ -261,11 +298,11 @@ class Newton:
                 self._check_flight(evaluation, iterations)
                 if lean:
                     system.follow()
-                return Converged(evaluation, iterations, jumped=prospects.jumps)
+                return Converged(evaluation, iterations, goal, jumped=prospects.jumps)
             longest = prospects.longest(evaluation, previous, norm, iterations)
             if not reuse.factors_will_do(norm / scale, increment, settled=manner.reuses and not moved):
                 if lean:
-                    evaluation = system.evaluate(u)
+                    evaluation = system.evaluate(system.state_at(u, goal))
                 pivots = reuse.remember(solver.factor(evaluation))
                 prospects.bear(pivots, norm / scale, manner.wary, iterations)
                 pivots = shift.negative_pivots(evaluation, pivots, asked=prospects.asks(norm / scale, manner.wary))
@@ -281,7 +318,7 @@ class Newton:
             recorder.add(evaluation.flowing, norm / scale, increment, energy, entered, left, step_length, pivots)
             lean = self._lean(reuse, manner) and not evaluation.border.unknowns
             evaluation = evaluation.without_tangent()  # factors exist: release the memory of the tangent
-            u, evaluation, step_length = self._advance(u, du, r, manner, longest, lean, shifted)
+            u, evaluation, step_length = self._advance(goal, u, du, r, manner, longest, lean, shifted)
             criteria.entry = criteria.entry if lean else None
             increment = step_length * self._relative(du, evaluation)
             previous, status = status, evaluation.status
@@ -292,29 +329,29 @@ class Newton:
         return reuse.dear and not manner.line_search and self.system.smooth
 
     def _advance(
-        self, u: Floats, du: Floats, r: Floats, manner: Manner, longest: float, lean: bool, shifted: bool
+        self, goal: State, u: Floats, du: Floats, r: Floats, manner: Manner, longest: float, lean: bool, shifted: bool
     ) -> tuple[Floats, Evaluation, float]:
         """Apply the increment, or a part of it if it is too long. eq. (5.12)"""
         system, length = self.system, longest
         system.recover(du, manner.mixed)
         if length < 1.0:
             system.shorten(length)
-        evaluation = system.evaluate(u + length * du, tangent=not lean)
+        evaluation = system.evaluate(system.state_at(u + length * du, goal), tangent=not lean)
         if shifted:
-            evaluation, length = lengthened(system, u, du, r, evaluation, length)
+            evaluation, length = lengthened(system, goal, u, du, r, evaluation, length)
         elif manner.line_search:
-            evaluation, length = shortened(system, u, du, r, evaluation, length)
+            evaluation, length = shortened(system, goal, u, du, r, evaluation, length)
         return evaluation.x, evaluation, length
 
     def ready_solver(self) -> Bordered:
         """Return the solver that has analysed the present pattern."""
-        pattern = self.system.pattern
-        if self._solver is None or self._pattern is not pattern:
+        pattern, analysed = self.system.pattern, self._analysed
+        if analysed.solver is None or analysed.pattern is not pattern:
             with self.timing.analysis:
                 solver = TimedSolver(make_solver(pattern, self.solver_name), self.timing)
-                self._solver = Bordered(self.system, solver)
-            self._pattern = pattern
-        return self._solver
+                analysed.solver = Bordered(self.system, solver)
+            analysed.pattern = pattern
+        return analysed.solver
 
     @staticmethod
     def check_domain(evaluation: Evaluation, iterations: list[Iteration]) -> None:

@@ -12,6 +12,7 @@ import numpy as np
 from umform.model import Model
 from umform.model.changed_forces import changed_residual
 from umform.model.contact import Contact
+from umform.model.state import State
 from umform.solution.newton import Newton
 from umform.solution.options import Manner
 from umform.solution.records import Cause, Converged, Failed
@@ -25,6 +26,7 @@ _SOFTER = (3, 6)
 def softened(
     model: Model,
     newton: Newton,
+    goal: State,
     start: Callable[[], Converged],
     accept: Callable[[Converged], Converged],
     manner: Manner | None = None,
@@ -36,9 +38,11 @@ def softened(
     Parameters
     ----------
     model : Model
-        With contacts, and with the controls and the time of the increment.
+        With contacts.
     newton : Newton
         Method.
+    goal : State
+        The goal of the increment.
     start : callable
         Finds the equilibrium with the present penalties of the contacts.
     accept : callable
@@ -65,7 +69,7 @@ def softened(
     except Failed as failure:
         if touched and failure.cause is not Cause.SINGULAR:
             raise
-        model.prepare()
+        model.prepare(goal)
         return accept(_stiffened(model, newton, start, softest, manner))
 
 

@@ -193,15 +193,13 @@ class Closing:
         mark = attempts.mark()
         extrapolation = None if self.taken is None else way / self.taken
         travelled = abs(value + way - self.start_way) / self.limit
-        press.held = True
         try:
-            time = self.start_time + 0.99 * step.time * travelled
-            converged = take_increment(run, [value + way], [press.way], time, extrapolation)
+            with press.driven():
+                time = self.start_time + 0.99 * step.time * travelled
+                converged = take_increment(run, [value + way], [press.way], time, extrapolation)
         except Failed as failure:
             self._shorten(run, step, 0.25, touched, failure)
             return
-        finally:
-            press.held = False
         found = _takes(run, press)
         if (found - step.force) * (step.force - self.start_force) > 0.0:
             attempts.take_back(mark, "closed beyond the force")
@@ -222,9 +220,8 @@ class Closing:
         run.trail = None
         step.control.value = _takes(run, press)
         try:
-            with tightened(run, _EXACT * abs(step.force)):
-                end = self.start_time + step.time
-                converged = take_increment(run, [step.force], [step.control], end, None)
+            newton, end = tightened(run, _EXACT * abs(step.force)), self.start_time + step.time
+            converged = take_increment(run, [step.force], [step.control], end, None, newton=newton)
         except Failed as failure:
             self._shorten(run, step, 0.25, _touches(run, press), failure)
             return

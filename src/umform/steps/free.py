@@ -14,6 +14,7 @@ from umform.model.opening import fading_tool, open_tool
 from umform.model.removal import fading, put_back, put_supports, remove, states_of_supports
 from umform.model.support import Support
 from umform.model.term import Tree
+from umform.solution.newton import Newton
 from umform.steps.loop import Run
 from umform.steps.move import Move
 from umform.steps.moving import Marching
@@ -117,16 +118,17 @@ class Freeing(Marching):
         """The restored loop."""
         return super().recall(run, step.move(), memory)
 
+    def _newton(self, run: Run) -> Newton:
+        return run.newton.but(springs_back=True)
+
     def advance(self, run: Run, step: Free) -> None:  # type: ignore[override]
         """Try one increment; until one has converged, supports and tools are active between attempts."""
         before = _Before(run, step) if self.fraction == 0.0 else None
-        run.newton.springs_back = True
         try:
             if before is not None:
                 _let_go(run, step)
             super().advance(run, step.move())
         finally:
-            run.newton.springs_back = False
             if before is not None and self.fraction == 0.0:
                 before.restore(run)
 

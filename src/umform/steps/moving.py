@@ -13,6 +13,7 @@ import numpy as np
 
 from umform.model.control import OnDofs
 from umform.model.tool_controls import ToolWay
+from umform.solution.newton import Newton
 from umform.solution.records import Cause, Converged, Failed
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
@@ -100,7 +101,7 @@ class Moving:
         try:
             values = step.values(target, self.starts)
             time = self.start_time + target * step.time
-            converged = take_increment(run, values, step.moved(), time, extrapolation)
+            converged = take_increment(run, values, step.moved(), time, extrapolation, newton=self._newton(run))
         except Failed as failure:
             self._cut(run, step, failure, target)
             return
@@ -131,6 +132,10 @@ class Moving:
             self._adapt(step, converged, lambda: Happened.between(model, x_before, active_before, converged))
         frame = run.frames > 0 and (self.done or self._pictured(step, run.frames, before))
         run.keep(converged, step.moved(), name=f"step {run.number}", fraction=self.fraction, frame=frame)
+
+    def _newton(self, run: Run) -> Newton:
+        """The method of the increments."""
+        return run.newton
 
     def _saved(self, run: Run) -> Saved | None:
         """The state before the increment, if it may be repeated although it converges."""

@@ -110,7 +110,9 @@ class Releasing:
     @classmethod
     def begin(cls, run: Run, step: Release) -> Self:
         """The loop at the beginning of the step; done if there is nothing to release."""
-        model, control = run.model, _moved(run, step)
+        if isinstance(step.control, ToolForce):
+            run.model.press_of(step.control).held = True
+        model, control = run.model, _retracted(run, step)
         evaluation, value = run.evaluation, control.value
         force = control.force(evaluation, model.ranks)
         size = -math.copysign(step.increment or abs(value) / 1000.0, value)
@@ -131,7 +133,7 @@ class Releasing:
 
     def advance(self, run: Run, step: Release) -> None:
         """Try one increment."""
-        model, control = run.model, _moved(run, step)
+        model, control = run.model, _retracted(run, step)
         before, value = run.evaluation, control.value
         saved, touching = Saved.of(model, before), before.touching(model.ranks)
         attempts = run.newton.timing.attempts
@@ -147,8 +149,8 @@ class Releasing:
         time = self.start_time + step.time * (1.0 - target / self.start_value)
         extrapolation = None if self.taken is None else (target - value) / self.taken
         try:
-            with tightened(run, _PART * step.tolerance * self.scale):
-                converged = take_increment(run, [target], [control], time, extrapolation, keep=False)
+            newton = tightened(run, _PART * step.tolerance * self.scale)
+            converged = take_increment(run, [target], [control], time, extrapolation, keep=False, newton=newton)
         except Failed as failure:
             self.size, self.taken, self.failures = 0.25 * self.size, None, self.failures + 1
             if self.failures > 20:
@@ -186,13 +188,10 @@ class Releasing:
         self.taken = None
 
 
-def _moved(run: Run, step: Release) -> Control:
-    """The control to retract: for a force-driven tool its travel, which is then prescribed."""
-    if not isinstance(step.control, ToolForce):
-        return step.control
-    press = run.model.press_of(step.control)
-    press.held = True
-    return press.way
+def _retracted(run: Run, step: Release) -> Control:
+    """The control to retract: for a force-driven tool its travel, which the step prescribes."""
+    control = step.control
+    return run.model.press_of(control).way if isinstance(control, ToolForce) else control
 
 
 def _hidden(run: Run, before: Evaluation, converged: Converged, way: float) -> float:

@@ -144,10 +144,10 @@ def test_a_release_with_a_penalty_of_100_E_over_h_ends_where_that_of_a_soft_one_
 
 def test_softer_penalties_lead_to_the_equilibrium_of_the_penalty_itself():
     model, ram = three_points(1e5, 10)
-    ram.value = 1.0
-    model.stand(model.evaluate(model.u))
+    goal = model.state.toward({ram.name: 1.0})
+    model.stand(model.evaluate(goal))
     newton = Newton(model)
-    converged = softened(model, newton, lambda: newton.solve(), lambda found: found)
+    converged = softened(model, newton, goal, lambda: newton.solve(goal), lambda found: found)
     assert model.contacts[0].penalty == 1e5
     model.commit(converged.evaluation)
     again, other = three_points(1e5, 10)
@@ -157,11 +157,11 @@ def test_softer_penalties_lead_to_the_equilibrium_of_the_penalty_itself():
 
 def test_penalties_are_those_of_before_when_softer_ones_lead_nowhere():
     model, ram = three_points(1e5, 10)
-    ram.value = 1.0
-    model.stand(model.evaluate(model.u))
+    goal = model.state.toward({ram.name: 1.0})
+    model.stand(model.evaluate(goal))
     newton = Newton(model, NewtonOptions(max_iterations=1))
     with pytest.raises(Failed):
-        softened(model, newton, lambda: newton.solve(), lambda found: found)
+        softened(model, newton, goal, lambda: newton.solve(goal), lambda found: found)
     assert model.contacts[0].penalty == 1e5
 
 
@@ -171,17 +171,17 @@ def test_penalties_are_those_of_before_when_softer_ones_lead_nowhere():
 )
 def test_a_millionth_of_the_penalty_serves_first_touch_and_contact_that_is_lost(monkeypatch, touched, cause, tries):
     model, ram = three_points(1e5, 10)
-    ram.value = 1.0
+    goal = model.state.toward({ram.name: 1.0})
     penalties = []
 
-    def fail(self, extrapolation=None, manner=None, beyond=None):
+    def fail(self, goal, extrapolation=None, manner=None, beyond=None):
         penalties.append(model.contacts[0].penalty)
         raise Failed("no", [], cause)
 
     monkeypatch.setattr(Newton, "solve", fail)
     newton = Newton(model)
     with pytest.raises(Failed, match="no"):
-        softened(model, newton, lambda: newton.solve(), lambda found: found, touched=touched)
+        softened(model, newton, goal, lambda: newton.solve(goal), lambda found: found, touched=touched)
     assert penalties == pytest.approx([1e2, 1e-1][:tries])
 
 

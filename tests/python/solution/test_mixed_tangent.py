@@ -164,11 +164,11 @@ def test_by_default_elastic_sheets_take_it():
 def test_an_increment_that_fails_with_it_is_tried_with_the_consistent_tangent(monkeypatch):
     original, tried = Newton.solve, []
 
-    def solve_with(self, extrapolation=None, manner=None, beyond=None, keep=False):
+    def solve_with(self, goal, extrapolation=None, manner=None, beyond=None, keep=False):
         tried.append((extrapolation is not None, not manner.mixed))
         if manner.mixed:
             raise Failed("not with this one", [])
-        return original(self, extrapolation, manner, beyond, keep)
+        return original(self, goal, extrapolation, manner, beyond, keep)
 
     monkeypatch.setattr(Newton, "solve", solve_with)
     _, result = rolled(True)

@@ -82,10 +82,11 @@ def test_increments_near_a_saddle_are_doubled_until_the_slope_has_fallen():
         restrict=lambda r: r,
         ranks=SimpleNamespace(dot=lambda a, b: float(a @ b)),
         shorten=shortened.append,
+        state_at=lambda u, goal: u,
         evaluate=lambda u: SimpleNamespace(residual=u**3 - u, failed=-1, x=u),
     )
     u, du = np.array([0.01]), np.array([0.02])
-    evaluation, length = lengthened(system, u, du, u**3 - u, system.evaluate(u + du), 1.0)
+    evaluation, length = lengthened(system, None, u, du, u**3 - u, system.evaluate(u + du), 1.0)
     assert shortened[:6] == [2.0] * 6
     assert length == np.prod(shortened)
     assert 0.3 < evaluation.x[0] < 1.5

@@ -36,13 +36,13 @@ def failing(monkeypatch):
     def install(*numbers, max_iterations=2):
         calls = []
 
-        def solve_or_fail(self, extrapolation=None, manner=None, beyond=None, keep=False):
-            calls.append(self.system.time)
+        def solve_or_fail(self, goal, extrapolation=None, manner=None, beyond=None, keep=False):
+            calls.append(goal.time)
             options = self.options
             if len(calls) in numbers:
                 self.options = replace(options, max_iterations=max_iterations, residual=1e-300, increment=1e-300)
             try:
-                return original(self, extrapolation, manner, beyond, keep)
+                return original(self, goal, extrapolation, manner, beyond, keep)
             finally:
                 self.options = options
 
@@ -185,7 +185,7 @@ def test_softer_penalties_rest_after_a_miss_but_not_before_the_run_is_given_up(b
     case = build.free_bending((8, 1))
     solve(case.model, Move(case.punch, -1.0, steps=4), frames=0)
 
-    def fail(self, extrapolation=None, manner=None, beyond=None, keep=False):
+    def fail(self, goal, extrapolation=None, manner=None, beyond=None, keep=False):
         raise Failed("no", [], Cause.STALL)
 
     monkeypatch.setattr(Newton, "solve", fail)
@@ -424,11 +424,11 @@ def test_an_interrupt_carries_the_result_and_leaves_the_last_converged_state(mon
                 raise interrupt
 
     def law(E, state):
-        hook("law", model.time)
+        hook("law", model.time + 0.25)  # the end of the increment
         return mt.NeoHooke(E=210e3, nu=0.3).law().respond(E, state)
 
     def tool(x):
-        hook("tool", model.time)
+        hook("tool", model.time + 0.25)
         return x[:, 2] + 0.25, np.tile([0.0, 0.0, 1.0], (len(x), 1)), np.zeros((len(x), 3, 3))
 
     def motion(time):
@@ -448,7 +448,7 @@ def test_an_interrupt_carries_the_result_and_leaves_the_last_converged_state(mon
 
     def with_callback(self, *arguments):
         start(self, *arguments)
-        self.callbacks.append(lambda record: hook("callback", model.time))
+        self.callbacks.append(lambda record: hook("callback", model.time + 0.25))
 
     monkeypatch.setattr(Newton, "__init__", with_callback)
     with pytest.raises(KeyboardInterrupt) as caught:
@@ -476,11 +476,11 @@ def test_chattering_is_a_warning_of_the_result(build, monkeypatch):
 
     original, calls = Newton.solve, []
 
-    def chatter_once(self, extrapolation=None, manner=None, beyond=None, keep=False):
+    def chatter_once(self, goal, extrapolation=None, manner=None, beyond=None, keep=False):
         calls.append(1)
         if len(calls) <= 3:  # the tangent, two softer penalties
             raise Failed("contact comes and goes in a cycle", [], Cause.CYCLE)
-        return original(self, extrapolation, manner, beyond, keep)
+        return original(self, goal, extrapolation, manner, beyond, keep)
 
     monkeypatch.setattr(Newton, "solve", chatter_once)
     case = build.free_bending((8, 1))

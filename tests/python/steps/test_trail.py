@@ -53,9 +53,9 @@ def starts(monkeypatch):
 
     original, seen = Newton.solve, []
 
-    def watched(self, extrapolation=None, manner=None, beyond=None, keep=False):
+    def watched(self, goal, extrapolation=None, manner=None, beyond=None, keep=False):
         seen.append(extrapolation)
-        return original(self, extrapolation, manner, beyond, keep)
+        return original(self, goal, extrapolation, manner, beyond, keep)
 
     monkeypatch.setattr(Newton, "solve", watched)
     return seen

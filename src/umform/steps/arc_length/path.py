@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
 from umform.model import Model
+from umform.model.state import State
 from umform.solution.keeping import within_allowed
 from umform.solution.newton import Newton
 from umform.solution.options import Manner
@@ -133,7 +134,7 @@ class Path:
 
         ``yields``: whether it may exceed the allowed penetration rather than fail.
         """
-        model, time_before = self.model, self.model.time
+        model = self.model
         penalties = {contact: contact.penalty for contact in model.contacts}
         try:
             with model.with_term(self.equation):
@@ -141,7 +142,6 @@ class Path:
                     converged, state = self.newton.guarded(lambda: self._correct(length, yields))
                 model.commit(converged.evaluation)
         except BaseException:  # no convergence, Ctrl-C, an error of a user's function: restore the last converged state
-            model.time = time_before
             for contact, penalty in penalties.items():
                 contact.use_penalty(penalty)
             model.revert()
@@ -167,11 +167,11 @@ class Path:
     def _on_arc(self, length: float) -> Converged:
         """Predict along the tangent (5.25), and correct on the arc."""
         x, state = self.model.x, self.state
-        self._set_time(state.arc + length)
+        goal = self._goal(state.arc + length)
         self.equation.ask(length, self.model.u)
         ahead = np.append(state.tangent, state.slope)
-        dx = self.model.extend(self.model.coefficients(length * ahead)) + self.newton.prescribed_increment(x)
-        converged = self.newton.correct(x, dx, self._manner)
+        dx = self.model.extend(self.model.coefficients(length * ahead)) + self.newton.prescribed_increment(goal, x)
+        converged = self.newton.correct(goal, x, dx, self._manner)
         if self._product(converged.x - x, ahead) <= 0.0:
             raise Failed("the path turns back within one increment", converged.iterations)
         return converged
@@ -180,13 +180,13 @@ class Path:
         """Go back from a state beyond the end of the line to the end, at a fixed load."""
         x, state = self.model.x, self.state
         part = (1.0 - state.fraction) / float(beyond.x[-1] - state.fraction)
-        self._set_time(state.arc + part * length)
+        goal = self._goal(state.arc + part * length)
         self.equation.hold(1.0)
         back = (part - 1.0) * (beyond.x - x)
         back[-1] = 1.0 - beyond.x[-1]
         back, at_end = self.model.extend(self.model.coefficients(back)), beyond.x.copy()
         at_end[-1], back[-1] = 1.0, 0.0  # to the last bit
-        landed = self.newton.correct(at_end, back, self._manner)
+        landed = self.newton.correct(goal, at_end, back, self._manner)
         if float(np.linalg.norm((landed.x - x)[: self.model.u.size])) > 1.5 * length:
             raise Failed("the last increment jumps off the path", landed.iterations)
         return replace(landed, iterations=beyond.iterations + landed.iterations, passes=beyond.passes)
@@ -209,5 +209,6 @@ class Path:
         """Near a limit point the residual is no measure of an increment, and the tangent changes strongly."""
         return Manner(line_search=False, reuses=False, mixed=self.newton.mixed)
 
-    def _set_time(self, arc: float) -> None:
-        self.model.time = self.start_time + self.time * self.increment * arc / self.first
+    def _goal(self, arc: float) -> State:
+        """The converged state at the time of another length of the path."""
+        return self.model.state.toward({}, self.start_time + self.time * self.increment * arc / self.first)
