@@ -26,6 +26,7 @@ STRICT := $(if $(CI),--config-settings=cmake.define.UMFORM_STRICT=ON)
 
 export CMAKE_BUILD_PARALLEL_LEVEL := $(JOBS)
 unexport PYTHONPATH PYTHONHOME
+export OMP_WAIT_POLICY ?= passive
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:

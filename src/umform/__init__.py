@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 import importlib
-import os
 from typing import TYPE_CHECKING
 
 from umform import errors
-
-# Before the kernels are loaded: threads that wait actively take the processors from other programs and from each other.
-os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 
 if TYPE_CHECKING:
     from umform import elements, mesh, processes, sheet_metals, surfaces

@@ -11,7 +11,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-from umform._core import staged_returns
 from umform.model import Evaluation, Model
 from umform.model.control import Control
 from umform.progress import Tick, silent
@@ -63,7 +62,7 @@ class Run:
     habits : Habits
         Statistics of earlier increments that select the first strategy.
     staged : int
-        Number of return maps in stages up to the last increment.
+        Number of return maps of the model in stages up to the last increment.
     tick, pause : callable
         Shows progress; writes checkpoints and stops the run, between increments.
     """
@@ -77,9 +76,12 @@ class Run:
     number: int = 1
     loop: Loop | None = None
     trail: Trail | None = None
-    staged: int = field(default_factory=lambda: staged_returns())
+    staged: int = field(init=False)
     tick: Tick = silent
     pause: Callable[[], None] = field(default=lambda: None)
+
+    def __post_init__(self) -> None:
+        self.staged = self._staged()
 
     def keep(
         self, converged: Converged, controls: Sequence[Control], *, name: str, fraction: float, frame: bool
@@ -95,9 +97,12 @@ class Run:
         forces = [f"{c.name} {row[c.name]:.5g}, force {row[f'{c.name}_force']:.5g}" for c in controls]
         self.tick(name, fraction, "; ".join([*forces, f"{row['iterations']} iterations"]))
 
+    def _staged(self) -> int:
+        return sum(body.block.staged_returns for body in self.model.bodies)
+
     def _tell_of_stages(self) -> None:
         """Count the points with return maps in stages since the last increment; warn at the first ones."""
-        before, self.staged = self.staged, staged_returns()
+        before, self.staged = self.staged, self._staged()
         points = int(self.model.ranks.sum(float(self.staged - before)))
         if points == 0:
             return

@@ -38,7 +38,9 @@ def increment(last: bool, touched: bool):
     attempts = SimpleNamespace(trying=lambda name: nullcontext(), causes=Counter())
     habits = SimpleNamespace(learn=lambda **what: None, learn_of_cut=lambda what: None, last=last)
     timing = SimpleNamespace(attempts=attempts)
-    newton = SimpleNamespace(timing=timing, settled=0.0, but=lambda settled: SimpleNamespace(timing=timing, settled=settled))
+    newton = SimpleNamespace(
+        timing=timing, settled=0.0, but=lambda settled: SimpleNamespace(timing=timing, settled=settled)
+    )
     return At(SimpleNamespace(prepare=lambda goal: None), newton, habits, touched)
 
 

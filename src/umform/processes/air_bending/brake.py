@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from umform.model import Model
 from umform.model.contact import ContactPoints
+from umform.model.contact.settings import ContactSettings, contact_settings
 from umform.model.control import Control
 from umform.processes.air_bending.sheet import half_sheet
 from umform.processes.air_bending.spec import AirBending
@@ -51,6 +53,16 @@ def build(case: AirBending) -> tuple[Model, Control]:
     punch = model.contact("upper", case.punch, penalty=penalty, penetration=depth, points=points, name="punch")
     punch.tool.may_bottom = case.bottoming
     return model, model.drive(punch, "-z", name="stroke")
+
+
+def touching(case: AirBending) -> dict[str, ContactSettings]:
+    """Penalty, allowed penetration and points of die and punch, without a model of the case."""
+    mesh, faces = half_sheet(case), {"die": ("lower", case.die), "punch": ("upper", case.punch)}
+    given: dict[str, Any] = {"penalty": case.penalty, "penetration": case.penetration, "points": case.contact_points}
+    return {
+        name: contact_settings(mesh, face, tool, case.material, **given, where=f"contact {name}")
+        for name, (face, tool) in faces.items()
+    }
 
 
 def loading(case: AirBending, stroke: float) -> list[tuple[float, int]]:

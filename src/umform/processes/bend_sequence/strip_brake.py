@@ -11,7 +11,7 @@ from umform.mesh import Mesh
 from umform.model import Model, Snapshot
 from umform.model.control import Control
 from umform.processes.air_bending.bend import Loaded
-from umform.processes.air_bending.brake import build
+from umform.processes.air_bending.brake import touching
 from umform.processes.air_bending.branches import Brake, Floats
 from umform.processes.air_bending.measures import Measures, measure
 from umform.processes.air_bending.section import Section
@@ -77,9 +77,9 @@ class StripBrake(Brake):
 
     def _settings(self) -> list[dict[str, Any]]:
         """Penalty and points of die and punch: those of a single bend with undeformed sheet."""
-        single = build(self.case)[0].contacts
-        self.allowed = {contact.name: contact.allowed for contact in single}
-        return [{"penalty": contact.penalty, "points": contact.points} for contact in single]
+        single = touching(self.case)
+        self.allowed = {name: settings.allowed for name, settings in single.items()}
+        return [{"penalty": settings.penalty, "points": settings.points} for settings in single.values()]
 
     def _faces(self, name: str) -> Any:
         """Faces of the strip about the bend line."""

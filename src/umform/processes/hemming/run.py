@@ -11,7 +11,7 @@ from umform.errors import InvalidValue
 from umform.model import Model
 from umform.model.control import Control
 from umform.model.rigid_motion import RigidMotion
-from umform.processes.air_bending.brake import OPTIONS, build, unloading_keys
+from umform.processes.air_bending.brake import OPTIONS, touching, unloading_keys
 from umform.processes.bend_sequence.part import Part
 from umform.processes.bend_sequence.run import FRAMES, bend_sequence
 from umform.processes.bend_sequence.sides import Strip
@@ -88,7 +88,7 @@ def in_press(case: Hemming, first: Part) -> tuple[Model, Control, float]:
     x = mesh.points + model.u.reshape(-1, 3)
     model.fix(np.arange(len(x)), "y", here=True)
     model.fix("x1", "x", here=True, name="stop")
-    single = build(sheet)[0].contacts
+    single = touching(sheet).values()
     how: dict[str, Any] = {"penalty": max(contact.penalty for contact in single), "points": _POINTS}
     top = float(x[:, 2].max())
     model.contact("lower", Plane((0.0, 0.0, 0.0), (0.0, 0.0, 1.0)), name="table", **how)
