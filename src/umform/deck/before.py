@@ -79,7 +79,7 @@ class Before(Part):
                 cause="the deck before has been changed since its run, or the file is that of another one",
                 remedy=f"run {self.deck} again",
             )
-        model.restore(Snapshot(tree["u"], tree["time"], terms=tree["bodies"], began=tree["began"]))
+        model.system.restore(Snapshot(tree["u"], tree["time"], terms=tree["bodies"], began=tree["began"]))
 
     def kept(self, folder: File) -> dict[str, KeptContact]:
         """The friction of the contacts that keep it.
@@ -121,7 +121,7 @@ class Before(Part):
                     value=name,
                     remedy="one of " + (", ".join(contacts) or "none: there is no contact"),
                 )
-            model.evaluate(model.x)
+            model.evaluate(model.system.x)
             contacts[name].begin()
             friction.put(contacts[name])
 
@@ -147,9 +147,9 @@ class Cut(Part):
 
 def write_state(model: Model, path: File, tables: Mapping[str, Any]) -> None:
     """Write displacements, the history of all bodies, and the data of this deck, for the next operation."""
-    state = model.snapshot()
+    state = model.system.snapshot()
     bodies = {body.key: state.terms[body.key] for body in model.bodies}
-    rubbed = {pair.name: KeptContact.of(pair) for pair in model.pairs_of_tools() if pair.rubs}
+    rubbed = {pair.name: KeptContact.of(pair) for pair in model.system.pairs_of_tools() if pair.rubs}
     contacts = {
         name: {
             "faces": kept.faces,

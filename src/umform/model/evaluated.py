@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import UmformError
-from umform.mesh import Mesh
-from umform.model.assembled import Assembled
+from umform.model.assembled import Assembled, Parts
 from umform.model.contact.pair import Contact
 from umform.model.control import Control
 from umform.model.evaluation import Evaluation, first_failure
@@ -21,17 +20,17 @@ Floats = NDArray[np.float64]
 
 
 class Evaluated(Assembled):
-    """Something with terms that can be evaluated.
+    """Terms that can be evaluated.
 
     Parameters
     ----------
-    mesh : Mesh
-        Points and cells.
+    parts : Parts
+        Mesh, bodies, controls, supports, tools and contacts.
     """
 
-    def __init__(self, mesh: Mesh) -> None:
-        super().__init__(mesh)
-        self._evaluations, self._converged_time, self._began = 0, 0.0, 0.0
+    def __init__(self, parts: Parts) -> None:
+        super().__init__(parts)
+        self._evaluations = 0
 
     def too_deep(self, evaluation: Evaluation) -> dict[Contact, float]:
         """Contacts beyond their allowed penetration that may become stiffer, and their share of it. eq. (4.200)"""
@@ -46,7 +45,7 @@ class Evaluated(Assembled):
     def state(self) -> State:
         """The present state."""
         controls = {control.name: control.value for control in self.controls}
-        return State(self.x, self.time, controls, self._converged_time)
+        return State(self.x, self.time, controls, self.now.converged)
 
     def state_at(self, x: Floats, goal: State | None = None) -> State:
         """A goal, or the present state, with other unknowns: scalar ones move their controls.
@@ -61,7 +60,7 @@ class Evaluated(Assembled):
         goal, dofs = goal or self.state, self.u.size
         if x.size == dofs:
             return replace(goal, x=x)
-        values = self.values_at(goal)
+        values = self.controls.values_at(goal)
         for unknown, before, value in zip(self.unknowns, goal.x[dofs:].tolist(), x[dofs:].tolist(), strict=True):
             unknown.move(values, before, value)
         return replace(goal, x=x, controls={control.name: value for control, value in values.items()})
@@ -100,10 +99,10 @@ class Evaluated(Assembled):
         assembly, unknowns, dofs, x = self._assembly(), self.unknowns, self.u.size, state.x
         u, rates = x[:dofs], rates or {}
         if rates or until is not None:
-            du = self.displacement_of_supports(rates)
+            du = self.supports.displacement(rates)
         scalars, step = dict(zip(unknowns, x[dofs:].tolist(), strict=True)), state.time - state.since
         du = None if du is None else du[:dofs]
-        at = At(u, state.time, self.values_at(state), step, du, rates, until, scalars, keep)
+        at = At(u, state.time, self.controls.values_at(state), step, du, rates, until, scalars, keep)
         values = np.zeros(assembly.entries) if tangent else None
         border = Border.of(unknowns, dofs)
         into = Into(np.zeros(dofs), values, np.zeros(dofs), assembly.scatters, self._positions, self.ranks, border)
@@ -111,7 +110,7 @@ class Evaluated(Assembled):
             self._evaluate_terms(self.terms, at, into)
         else:
             self._evaluate_with_scalars(at, into)
-        if (self.ties or self.rows) and values is not None:
+        if (self.supports.ties or self.supports.rows) and values is not None:
             with self.timing.ties:
                 values = assembly.reduce(values)
         return self._evaluation(state, at, into, values)
@@ -172,10 +171,10 @@ class Evaluated(Assembled):
         border = into.border
         if len(border.unknowns) == 1 and at.du is None and not any(tool.unknowns for tool in self.tools):
             rates, unused = border.unknowns[0].rates, replace(border, predictor=np.zeros(1))
-            along = self.displacement_of_supports(rates)
+            along = self.supports.displacement(rates)
             return replace(at, du=along, rates=rates), replace(into, predictor=border.columns[0], border=unused)
         for column, unknown in zip(into.border.columns, into.border.unknowns, strict=True):
-            along = self.displacement_of_supports(unknown.rates)
+            along = self.supports.displacement(unknown.rates)
             supports = bool(along.any())
             for term in self.terms:
                 moves = term.moves_with(unknown.rates)

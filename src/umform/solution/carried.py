@@ -97,8 +97,8 @@ def carried(model: Model, goal: State, last: Evaluation, increment: Floats) -> F
     if not found:
         return None
     whole = np.concatenate([beyond.ravel(), np.zeros(increment.size - n)])
-    taken = float(np.abs(model.extend(model.coefficients(whole)) - whole).max(initial=0.0))
-    held = model.ranks.max(taken) > _ROUND_OFF * model.ranks.max(float(np.abs(whole).max(initial=0.0)))
+    taken = float(np.abs(model.system.extend(model.system.coefficients(whole)) - whole).max(initial=0.0))
+    held = model.system.ranks.max(taken) > _ROUND_OFF * model.system.ranks.max(float(np.abs(whole).max(initial=0.0)))
     return None if held else whole
 
 
@@ -127,11 +127,11 @@ def _bodies(model: Model, x: Floats) -> list[Floats]:
 
 def _turning(model: Model, goal: State, last: Evaluation, increment: Floats) -> list[Screw]:
     """Motions of the rotating tools with friction that touch the sheet."""
-    values = model.values_at(model.state_at(goal.x + increment, goal))
+    values = model.controls.values_at(model.system.state_at(goal.x + increment, goal))
     screws = []
     for tool in model.tools:
         rubs = [pair for pair in tool.pairs if pair.rubs and not tool.open]
-        if not rubs or not model.ranks.any(any(bool(last.found[pair].active.any()) for pair in rubs)):
+        if not rubs or not model.system.ranks.any(any(bool(last.found[pair].active.any()) for pair in rubs)):
             continue
         Q, s = _motion(tool, last, values, goal.time)
         if np.trace(Q) < 3.0 - 1e-15:
@@ -148,7 +148,7 @@ def _motion(tool: Tool, last: Evaluation, values: dict[Control, float], time: fl
 
 def _goes_round(model: Model, screw: Screw, goes: Floats, x: Floats, way: Floats, weights: Floats) -> bool:
     """Whether the weighted displacement of points, those of the cells of a body, is that of a motion. eq. (4.179)"""
-    sums = model.ranks.sum(np.concatenate([[weights.sum()], weights @ x]))
+    sums = model.system.ranks.sum(np.concatenate([[weights.sum()], weights @ x]))
     turn, relative = np.cross(screw.w, x - sums[1:] / max(sums[0], 1.0)), way - goes
-    squares = model.ranks.sum(np.array([weights @ (relative**2).sum(axis=1), weights @ (turn**2).sum(axis=1)]))
+    squares = model.system.ranks.sum(np.array([weights @ (relative**2).sum(axis=1), weights @ (turn**2).sum(axis=1)]))
     return bool(squares[1] > 0.0 and squares[0] <= _DIFFERENT**2 * squares[1])

@@ -39,13 +39,13 @@ def rigid_start(model: Model, goal: State) -> Floats | None:
     from scipy.optimize import linprog  # a fifth of a second, and rarely needed
 
     size, start, depth = model.u.size, np.zeros_like(goal.x), 0.0
-    values = model.values_at(goal)
+    values = model.controls.values_at(goal)
     for _ in range(_PASSES):
         u = model.u + start[:size]
         points = model.mesh.points + u.reshape(-1, 3)
-        centre, extent = middle(model, points)
+        centre, extent = middle(model.system, points)
         modes = rigid_body_modes(points, centre, extent)
-        free = left_free(model, modes)
+        free = left_free(model.system, modes)
         found = [pair.locate(u, pair.tool.pose(values, goal.time)) for pair in model.contacts if not pair.tool.open]
         gap = np.concatenate([at.gap for at in found])
         rows = np.concatenate([motion_along(at.x, at.normal, centre, extent) for at in found]) @ free.T
@@ -53,7 +53,7 @@ def rigid_start(model: Model, goal: State) -> Floats | None:
         if len(free) == 0 or not known.any():
             return None
         rows, gap = rows[known], gap[known]
-        count, far = len(free), _FARTHEST * model.thickness
+        count, far = len(free), _FARTHEST * model.system.thickness
         answer = linprog(
             [_COST_OF_MOTION] * (2 * count) + [1.0],
             A_ub=np.column_stack([-rows, rows, -np.ones(len(rows))]),
@@ -65,6 +65,6 @@ def rigid_start(model: Model, goal: State) -> Floats | None:
             return None
         motion, depth = answer.x[:count] - answer.x[count:-1], float(answer.x[-1])
         start[:size] += motion @ free @ modes
-        if np.abs(motion).max() < _NONE * model.thickness:
+        if np.abs(motion).max() < _NONE * model.system.thickness:
             break
     return start if depth > 0.0 else None

@@ -69,7 +69,7 @@ def softened(
     except Failed as failure:
         if touched and failure.cause is not Cause.SINGULAR:
             raise
-        model.prepare(goal)
+        model.system.prepare(goal)
         return accept(_stiffened(model, newton, start, softest, manner))
 
 
@@ -86,7 +86,7 @@ def _stiffened(
             parts = {contact: np.zeros(model.u.size) for contact in penalties}
             for contact, penalty in penalties.items():
                 contact.stiffen(evaluation.found[contact], 10.0**-power * penalty, parts[contact])
-            change = changed_residual(model, evaluation, parts)
+            change = changed_residual(model.system, evaluation, parts)
             again = newton.go_on(converged, change, manner)
             converged = replace(again, iterations=converged.iterations + again.iterations)
     log.debug("    by way of softer penalties, %d iterations", len(converged.iterations))

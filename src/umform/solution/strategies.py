@@ -92,17 +92,17 @@ class Increment:
     @property
     def rubs(self) -> bool:
         """Whether there is friction with tools that are not open."""
-        return any(pair.rubs and not pair.tool.open for pair in self.model.pairs_of_tools())
+        return any(pair.rubs and not pair.tool.open for pair in self.model.system.pairs_of_tools())
 
     @property
     def undeformed(self) -> bool:
         """Whether tools touch a sheet without forces: which points stay is the same for any size of increment."""
-        return self.touched and not self.model.ranks.any(bool(self.model.u.any()))
+        return self.touched and not self.model.system.ranks.any(bool(self.model.u.any()))
 
     @property
     def touched(self) -> bool:
         """Whether the sheet touches a tool in the converged state."""
-        return self.last.touching(self.model.ranks)
+        return self.last.touching(self.model.system.ranks)
 
     def soft(self) -> Converged:
         """The equilibrium by continuation in the penalty."""
@@ -156,7 +156,7 @@ class Increment:
             newton.check_domain(evaluation, [])
             solver = newton.ready_solver()
             solver.factor(evaluation)
-            return model.extend(solver.solve(-model.restrict(evaluation.residual + evaluation.predictor)))
+            return model.system.extend(solver.solve(-model.system.restrict(evaluation.residual + evaluation.predictor)))
 
         try:
             return newton.guarded(increment)
@@ -210,7 +210,7 @@ STRATEGIES = (
     # Tools may hold an undeformed sheet only in another position, where it has no tangent until it is there.
     Strategy(
         "rigid motion",
-        lambda at: at.undeformed and at.model.ranks.size == 1,
+        lambda at: at.undeformed and at.model.system.ranks.size == 1,
         lambda at: at.rigid(),
     ),
 )
@@ -269,7 +269,7 @@ def _settled(increment: Increment, failures: Mapping[str, Failed]) -> Converged 
     if best is None:
         return None
     again = replace(increment, newton=increment.newton.but(settled=_AGAIN * least))
-    increment.model.prepare(increment.goal)
+    increment.model.system.prepare(increment.goal)
     try:
         with again.newton.timing.attempts.trying("settled contact"):
             converged = again.accept(best.attempt(again))

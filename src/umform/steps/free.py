@@ -91,9 +91,9 @@ class Free:
         """Make the loads that replace the removed objects, so that the history has their columns."""
         for thing in self.things:
             if isinstance(thing, Tool):
-                fading_tool(model, thing)
+                fading_tool(model.system, thing)
             else:
-                fading(model, thing)
+                fading(model.system, thing)
 
     def moved(self) -> list[Control]:
         """The loads that replace supports and tools."""
@@ -111,7 +111,7 @@ class Freeing(Marching):
     @classmethod
     def begin(cls, run: Run, step: Free) -> Self:  # type: ignore[override]
         """The loop at the beginning of the step."""
-        return cls([1.0] * len(step.things), run.model.time, 1.0 / step.steps)
+        return cls([1.0] * len(step.things), run.model.system.time, 1.0 / step.steps)
 
     @classmethod
     def recall(cls, run: Run, step: Free, memory: dict[str, object]) -> Self:  # type: ignore[override]
@@ -137,13 +137,13 @@ def _let_go(run: Run, step: Free) -> None:
     """Remove all; loads of factor 1 hold the sheet in equilibrium."""
     model = run.model
     for support in (thing for thing in step.things if isinstance(thing, Support)):
-        remove(model, support)
+        remove(model.system, support)
     if step.on is not None:  # it may hold nodes of the removed supports
-        put_back(model, step.on)
+        put_back(model.system, step.on)
     for tool in (thing for thing in step.things if isinstance(thing, Tool)):
-        open_tool(model, tool)
+        open_tool(model.system, tool)
     if any(isinstance(thing, Tool) for thing in step.things):
-        run.evaluation = model.evaluate(model.x, tangent=False)
+        run.evaluation = model.evaluate(model.system.x, tangent=False)
         run.result.begin_anew(run.evaluation)
 
 
@@ -152,14 +152,14 @@ class _Before:
 
     def __init__(self, run: Run, step: Free) -> None:
         self._tools = [thing for thing in step.things if isinstance(thing, Tool)]
-        self._supports = states_of_supports(run.model)
+        self._supports = states_of_supports(run.model.system)
         self._states: list[Tree] = [tool.state() for tool in self._tools]
         self._forces = {press.force: press.force.value for tool in self._tools for press in tool.presses}
         self._loads, self._evaluation, self._mark = step.moved(), run.evaluation, run.result.mark()
 
     def restore(self, run: Run) -> None:
         """Restore supports and tools."""
-        put_supports(run.model, self._supports)
+        put_supports(run.model.system, self._supports)
         for tool, state in zip(self._tools, self._states, strict=True):
             tool.restore(state)
         for force, value in self._forces.items():
@@ -169,4 +169,4 @@ class _Before:
         run.evaluation, warnings = self._evaluation, list(run.result.warnings)
         run.result.go_back(self._mark)
         run.result.warnings = warnings
-        run.model.stand(run.evaluation)
+        run.model.system.stand(run.evaluation)

@@ -64,22 +64,22 @@ def take_increment(
             _multipliers_stay(run, goal, None)
         except Failed as failure:  # a smaller increment would fail in the same pass: accept the penalty solution
             _multipliers_stay(run, goal, failure)
-            model.prepare(goal)
+            model.system.prepare(goal)
             converged = equilibrium(replace(increment, guess=converged.x - x_before, grows=False))
     except BaseException as error:  # no convergence, Ctrl-C, an error of a user's function: restore the previous state
         if isinstance(error, Failed):
             run.habits.count(kept=False)
         for contact, penalty in penalties.items():
             contact.use_penalty(penalty)
-        model.revert()
+        model.system.revert()
         raise
-    if not model.too_deep(converged.evaluation):
+    if not model.system.too_deep(converged.evaluation):
         run.habits.count(kept=True)
-    model.commit(converged.evaluation)
+    model.system.commit(converged.evaluation)
     before = [start.controls[control.name] for control in controls]
     way = changes(model.controls, controls, np.subtract(values, before))
     earlier = run.trail if run.newton.options.extrapolate > 1 else None
-    reached = model.x if x_soft is None else x_soft
+    reached = model.system.x if x_soft is None else x_soft
     run.trail = Trail.of(reached - x_before, way, earlier, extrapolation)
     run.evaluation = converged.evaluation.without_tangent()
     return converged
@@ -93,12 +93,12 @@ def _within_allowed(increment: Increment) -> tuple[Converged, Floats | None]:
     except Failed:
         if not (yields and relaxed(model)):
             raise
-        model.prepare(goal)  # perhaps grown penalties are too stiff for this increment
+        model.system.prepare(goal)  # perhaps grown penalties are too stiff for this increment
         converged = equilibrium(increment)
-    if not model.too_deep(converged.evaluation):
+    if not model.system.too_deep(converged.evaluation):
         return converged, None
     x_soft = converged.x.copy()
-    again = lambda: equilibrium(replace(increment, guess=x_soft - model.x, grows=False))  # noqa: E731
+    again = lambda: equilibrium(replace(increment, guess=x_soft - model.system.x, grows=False))  # noqa: E731
     return within_allowed(model, increment.newton, converged, again, yields), x_soft
 
 
@@ -131,17 +131,17 @@ def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], value
             "else take more steps, fewer contact jumps (more contact points), or a softer penalty"
         ),
     )
-    loose = diagnosis(run.model) if failure.cause is Cause.SINGULAR else None
+    loose = diagnosis(run.model.system) if failure.cause is Cause.SINGULAR else None
     if loose is not None:
         cause, remedy = f"{cause}: {loose[0]}", loose[1]
     elif failure.motion is not None and failure.cause is Cause.SINGULAR:
-        cause = f"{cause}: {loose_part(run.model, failure.motion)}"
+        cause = f"{cause}: {loose_part(run.model.system, failure.motion)}"
         remedy = (
             "hold what moves with fix(), symmetry() or hinge(), or join its nodes to those of the rest; at a limit "
             "point prescribe displacements instead of forces"
         )
     elif failure.motion is not None:  # of a very thin sheet, eq. (5.99)
-        slenderness = float(f"{run.model.extent / run.model.thickness:.2g}")
+        slenderness = float(f"{run.model.system.extent / run.model.system.thickness:.2g}")
         cause = (
             f"{cause}; the sheet is {slenderness:.0f} times as long as thick, and bending resists less than round-off"
         )
@@ -186,7 +186,7 @@ def own_parts(model: Model) -> str:
 
 def pressed_tools(run: Run) -> list[str]:
     """Number of points in contact of each force-driven tool at the last converged state, as text."""
-    ranks, found, words = run.model.ranks, run.evaluation.found, []
+    ranks, found, words = run.model.system.ranks, run.evaluation.found, []
     for press in (press for tool in run.model.tools for press in tool.presses if not press.held):
         pairs = [found[pair].active for tool in press.way.tools for pair in tool.pairs]
         touching = int(ranks.sum(float(sum(active.sum() for active in pairs))))

@@ -93,7 +93,7 @@ class Run:
         row = self.result.rows[-1]
         for as_planned, message in lost_tools(self.model, self.result.rows[-2], row):
             tell = self.result.note if as_planned else self.result.warn
-            tell(f"step {self.number}, time {self.model.time:.4f}: {message}")
+            tell(f"step {self.number}, time {self.model.system.time:.4f}: {message}")
         forces = [f"{c.name} {row[c.name]:.5g}, force {row[f'{c.name}_force']:.5g}" for c in controls]
         self.tick(name, fraction, "; ".join([*forces, f"{row['iterations']} iterations"]))
 
@@ -103,11 +103,11 @@ class Run:
     def _tell_of_stages(self) -> None:
         """Count the points with return maps in stages since the last increment; warn at the first ones."""
         before, self.staged = self.staged, self._staged()
-        points = int(self.model.ranks.sum(float(self.staged - before)))
+        points = int(self.model.system.ranks.sum(float(self.staged - before)))
         if points == 0:
             return
         self.newton.timing.attempts.staged += points
-        when = f"step {self.number}, time {self.model.time:.4f}"
+        when = f"step {self.number}, time {self.model.system.time:.4f}"
         log.info("%s: return maps in stages at %d points, over all evaluations", when, points)
         if not any(_STAGES in warning for warning in self.result.warnings):
             self.result.warn(

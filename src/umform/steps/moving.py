@@ -78,7 +78,7 @@ class Moving:
     def begin(cls, run: Run, step: Move) -> Self:
         """The loop at the beginning of the step."""
         starts = [control.value for control in step.moved()]
-        return cls(starts, run.model.time, step.nominal, last_size=_size_of_last(run, step, starts))
+        return cls(starts, run.model.system.time, step.nominal, last_size=_size_of_last(run, step, starts))
 
     @classmethod
     def recall(cls, run: Run, step: Move, memory: dict[str, Any]) -> Self:
@@ -94,7 +94,7 @@ class Moving:
         target, model = self._leap(step) if self.leaps else self._target(step), run.model
         self.tried = max(self.tried, target - self.fraction)
         extrapolation = None if self.last_size is None else (target - self.fraction) / self.last_size
-        x_before, active_before = model.x.copy(), run.evaluation.active
+        x_before, active_before = model.system.x.copy(), run.evaluation.active
         if self._hopeless(step, 0.5 * (target - self.fraction)):
             run.habits.last_chance()
         saved, trail, mark = self._saved(run), run.trail, run.newton.timing.attempts.mark()

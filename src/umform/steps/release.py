@@ -111,12 +111,12 @@ class Releasing:
     def begin(cls, run: Run, step: Release) -> Self:
         """The loop at the beginning of the step; done if there is nothing to release."""
         if isinstance(step.control, ToolForce):
-            run.model.press_of(step.control).held = True
+            run.model.tools.press_of(step.control).held = True
         model, control = run.model, _retracted(run, step)
         evaluation, value = run.evaluation, control.value
-        force = control.force(evaluation, model.ranks)
+        force = control.force(evaluation, model.system.ranks)
         size = -math.copysign(step.increment or abs(value) / 1000.0, value)
-        loop = cls(model.time, value, abs(force), force, size, finest=1e-6 * abs(value))
+        loop = cls(model.system.time, value, abs(force), force, size, finest=1e-6 * abs(value))
         if value == 0.0 or loop.scale <= 1e-9 * evaluation.force_scale:
             run.result.note(f"step {run.number}: nothing to release, the force of {control.name} is zero")
             loop.done = True
@@ -135,7 +135,7 @@ class Releasing:
         """Try one increment."""
         model, control = run.model, _retracted(run, step)
         before, value = run.evaluation, control.value
-        saved, touching = Saved.of(model, before), before.touching(model.ranks)
+        saved, touching = Saved.of(model, before), before.touching(model.system.ranks)
         attempts = run.newton.timing.attempts
         mark = attempts.mark()
         target = _next_release(value, self.force, self.before, self.bound, self.size, self.finest)
@@ -156,9 +156,9 @@ class Releasing:
             if self.failures > 20:
                 raise no_convergence(run, failure, [control], [target]) from None
             return
-        force = control.force(converged.evaluation, model.ranks)
+        force = control.force(converged.evaluation, model.system.ranks)
         zero = abs(force) <= step.tolerance * self.scale
-        lifted = touching and not converged.evaluation.touching(model.ranks)
+        lifted = touching and not converged.evaluation.touching(model.system.ranks)
         if lifted:
             lifted = zero = zero or abs(force) <= _hidden(run, before, converged, target - value)
         resolution = 1e-6 * abs(self.start_value)
@@ -170,7 +170,7 @@ class Releasing:
             return
         self.before, self.taken, self.force = (value, self.force), target - value, force
         if isinstance(step.control, ToolForce):
-            step.control.value = model.press_of(step.control).takes(target, -force)[0]
+            step.control.value = model.tools.press_of(step.control).takes(target, -force)[0]
         self.done = zero or target == 0.0
         if self.bound is None and abs(2.0 * self.size) <= abs(self.start_value) / 20.0 and _at_ease(converged):
             self.size *= 2.0
@@ -191,7 +191,7 @@ class Releasing:
 def _retracted(run: Run, step: Release) -> Control:
     """The control to retract: for a force-driven tool its travel, which the step prescribes."""
     control = step.control
-    return run.model.press_of(control).way if isinstance(control, ToolForce) else control
+    return run.model.tools.press_of(control).way if isinstance(control, ToolForce) else control
 
 
 def _hidden(run: Run, before: Evaluation, converged: Converged, way: float) -> float:
@@ -209,8 +209,8 @@ def _hidden(run: Run, before: Evaluation, converged: Converged, way: float) -> f
         Change of the control in the increment.
     """
     model = run.model
-    r, dx = model.restrict(converged.residual), model.coefficients(converged.x - before.x)
-    return math.sqrt(model.ranks.dot(r, r) * model.ranks.dot(dx, dx)) / abs(way)
+    r, dx = model.system.restrict(converged.residual), model.system.coefficients(converged.x - before.x)
+    return math.sqrt(model.system.ranks.dot(r, r) * model.system.ranks.dot(dx, dx)) / abs(way)
 
 
 def _short_of_zero(value: float, force: float, before: Sequence[float] | None, target: float) -> float:

@@ -25,12 +25,12 @@ class Saved:
     @classmethod
     def of(cls, model: Model, evaluation: Evaluation) -> Self:
         """State of the model."""
-        return cls(model.snapshot(), evaluation, [(term, term.before) for term in model.terms])
+        return cls(model.system.snapshot(), evaluation, [(term, term.before) for term in model.system.terms])
 
     def restore(self, run: Run) -> None:
         """Restore the run, so that a checkpoint can repeat the evaluation to the last bit."""
-        run.model.restore(self.snapshot)
-        run.model.stand(self.evaluation)
+        run.model.system.restore(self.snapshot)
+        run.model.system.stand(self.evaluation)
         for term, before in self.before:
             term.before = before
         run.evaluation, run.trail = self.evaluation, None

@@ -61,7 +61,7 @@ class StripBrake(Brake):
         u = np.zeros(3 * len(self.mesh.points)) if self.before is None else self.before.model.u
         lying = Strip.of(self.mesh, u).at(bend.position, over=bend.over).laid(case.reach)
         if self.before is None:
-            model.restore(Snapshot(lying.displacement(self.mesh.points, u)))
+            model.system.restore(Snapshot(lying.displacement(self.mesh.points, u)))
         else:
             continued(model, self.before, lying)
         model.fix(np.arange(len(self.mesh.points)), "y", here=True)

@@ -11,23 +11,21 @@ from umform.errors import InvalidBead
 from umform.mesh import Selector
 from umform.model.contact.bead import Bead, bead_line
 from umform.model.contact.pair import Contact
-from umform.model.term import Term
+from umform.model.evaluated import Evaluated
 from umform.model.tool import Tool
-from umform.model.touched import Touched
 
 
-class Beaded(Touched):
-    """Tools with draw beads."""
+class Beads:
+    """Equivalent draw beads on the tools of a model.
 
-    others: list[Term]
+    Parameters
+    ----------
+    system : System
+        The equations of the model, to which beads are added.
+    """
 
-    def add(self, term: Term) -> Term:
-        """Add a term of another kind to the residual."""
-        raise NotImplementedError
-
-    def pairs_of_tools(self) -> list[Contact]:
-        """All terms that involve tools: contacts, and beads."""
-        return [*self.contacts, *(term for term in self.others if isinstance(term, Bead))]
+    def __init__(self, system: Evaluated) -> None:
+        self.system = system
 
     def bead(
         self,
@@ -88,7 +86,7 @@ class Beaded(Touched):
         name = name or self._free_bead_name()
         where = f"bead {name}"
         tool = tool.tool if isinstance(tool, Contact) else tool
-        if not isinstance(tool, Tool) or tool not in self.tools:
+        if not isinstance(tool, Tool) or tool not in self.system.tools:
             raise InvalidBead(
                 "a bead lies on a tool of the model",
                 where=where,
@@ -97,7 +95,7 @@ class Beaded(Touched):
                 remedy="what contact() or tool() of this model returned",
             )
         line = bead_line(
-            self.mesh,
+            self.system.mesh,
             tool,
             curve,
             restraint=restraint,
@@ -107,11 +105,11 @@ class Beaded(Touched):
             closed=closed,
             where=where,
         )
-        bead = Bead(self.mesh, faces, tool, line, points, name)
-        self.add(bead)
+        bead = Bead(self.system.mesh, faces, tool, line, points, name)
+        self.system.add(bead)
         tool.pairs.append(bead)
         return bead
 
     def _free_bead_name(self) -> str:
-        taken = {term.name for term in self.others} | {pair.name for pair in self.contacts}
+        taken = {term.name for term in self.system.others} | {pair.name for pair in self.system.contacts}
         return next(name for name in chain(["bead"], (f"bead{k}" for k in count(2))) if name not in taken)
