@@ -16,7 +16,13 @@ _PARTS = {
     "others pairs_of_tools pattern prepare ranks recover repeat restore restrict resultants revert shorten smooth "
     "snapshot stand state_at terms thickness time timing too_deep unknowns with_term x",
 }
-_RENAMED = {"body": "bodies.only", "add_load": "controls.add", "all_supports": "supports.all"}
+_RENAMED = {
+    "body": "bodies.only",
+    "add_load": "controls.add",
+    "all_supports": "supports.all",
+    "displacement_of_supports": "supports.displacement",
+    "prescribed_displacement": "supports.prescribed",
+}
 
 #: The new name of each old one.
 MOVED = {name: f"{part}.{name}" for part, names in _PARTS.items() for name in names.split()} | _RENAMED

@@ -288,7 +288,7 @@ def test_points_through_the_thickness_that_a_plastic_law_gets(name, given, throu
     cell = element(name).cell
     steel = uf.J2(kappa=175e3, mu=80e3, hardening=uf.Perfect(160.0))
     model = uf.Model(uf.mesh.strip(2, 1, 1, (2, 1), cell=cell), name, material=steel, **given)
-    assert (model.thickness_points, model.thickness_rule) == through
+    assert (model.bodies.only.thickness_points, model.bodies.only.thickness_rule) == through
 
 
 @pytest.mark.parametrize(
@@ -306,9 +306,9 @@ def test_points_through_the_thickness_that_a_plastic_law_gets(name, given, throu
 def test_a_plastic_law_gets_the_complete_order(name, given, order):
     steel = uf.J2(kappa=175e3, mu=80e3, hardening=uf.Perfect(160.0))
     model = uf.Model(uf.mesh.strip(2, 1, 1, (2, 1), cell=element(name).cell), name, material=steel, **given)
-    orders = {term.c for mode in model.element.modes for term in mode if term.component == "33"}
+    orders = {term.c for mode in model.bodies.only.element.modes for term in mode if term.component == "33"}
     assert orders == set(range(1, order + 1))
-    assert model.element.thickness_order == order
+    assert model.bodies.only.element.thickness_order == order
 
 
 @pytest.mark.parametrize("name", ["ANS3DEAS", "MINE"])
@@ -324,7 +324,7 @@ def test_modes_of_ones_own_are_completed_unless_the_element_says_no(name):
 
 def test_elastic_laws_need_no_more_points_than_the_order_asks_for():
     model = uf.Model(uf.mesh.strip(2, 1, 1, (2, 1)), "BEND8", material=uf.SVK(E=1.0, nu=0.3))
-    assert (model.thickness_points, model.thickness_rule) == (5, "gauss")
+    assert (model.bodies.only.thickness_points, model.bodies.only.thickness_rule) == (5, "gauss")
 
 
 @pytest.mark.parametrize(("name", "linear"), [("ANS3DEAS", 4), ("MI9K3DEAS", 9), ("DISP9K3DEAS", 9)])

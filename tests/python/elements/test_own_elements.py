@@ -39,12 +39,12 @@ def layered(made):
 def test_own_elements_have_the_complete_order_with_a_plastic_law(made, modes):
     model = model_of(made)
     complete = modes >= 44
-    assert model.thickness_points == (5 if made.name == "none" else 12)
-    assert model.block.modes == modes
-    assert model.body.element.thickness_order == (11 if complete else made.thickness_order)
-    assert model.body.element.tying == made.tying
+    assert model.bodies.only.thickness_points == (5 if made.name == "none" else 12)
+    assert model.bodies.only.block.modes == modes
+    assert model.bodies.only.element.thickness_order == (11 if complete else made.thickness_order)
+    assert model.bodies.only.element.tying == made.tying
     others = {mode for mode in made.modes if mode[0].component != "33"}
-    assert others <= set(model.body.element.modes)
+    assert others <= set(model.bodies.only.element.modes)
     graded = model_of(made, thickness_points=18, thickness_rule="graded")
     assert set(made.modes) <= set(graded.body.element.modes)
     assert not complete or graded.block.modes == 20 + len(others)
@@ -142,7 +142,7 @@ STIFF = 1000.0 * np.eye(6)
 )
 def test_a_history_makes_a_law_plastic_and_its_points_are_honoured(law, points, modes):
     model = model_of("ANS3DEAS", UserLaw(linear, **law))
-    assert (model.thickness_points, model.block.modes) == (points, modes)
+    assert (model.bodies.only.thickness_points, model.bodies.only.block.modes) == (points, modes)
 
 
 @pytest.mark.parametrize(

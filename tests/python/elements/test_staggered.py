@@ -135,7 +135,7 @@ def test_fields_are_read_by_height():
     u = np.zeros_like(mesh.points)
     x, _, z = mesh.points.T
     u[:, 0] = 1e-7 * x * (z - z.mean())
-    at = uf.fields.body_fields(model.body, u.ravel())
+    at = uf.fields.body_fields(model.bodies.only, u.ravel())
     for height, strain in (("top", 0.25), ("bottom", -0.25), (0.0, 0.0), (0.5, 0.125), (-0.999, -0.24975)):
         found = at.at_height(at.E, height)
         assert found.shape == (2, 4, 6)

@@ -23,7 +23,7 @@ def stretched(law):
     model = Model(strip(2.0, 1.0, 0.2, (2, 1)), "DISP3D", material=law)
     model.fix("x0")
     u = (0.02 * model.mesh.points * (1, 0, 0)).ravel()
-    model.commit(model.evaluate(u))
+    model.system.commit(model.evaluate(u))
     return model
 
 
@@ -48,9 +48,9 @@ def test_each_law_names_its_history_in_order(law, names):
 def test_named_history_of_a_users_law():
     model = stretched(UserLaw(grown, state={"strain": 6, "eqps": 1}))
     at = point_fields(model)
-    np.testing.assert_array_equal(at.history["strain"], model.block.state[..., :6])
+    np.testing.assert_array_equal(at.history["strain"], model.bodies.only.block.state[..., :6])
     np.testing.assert_allclose(at.history["strain"], at.E, atol=1e-15)
-    np.testing.assert_array_equal(at.eqps, model.block.state[..., 6])
+    np.testing.assert_array_equal(at.eqps, model.bodies.only.block.state[..., 6])
     assert at.eqps.min() > 0.01
 
 
@@ -60,17 +60,17 @@ def test_the_plastic_strain_goes_by_its_name_not_by_its_place():
         return S, CC, np.roll(new, 1, axis=1)
 
     model = stretched(UserLaw(first, state={"eqps": 1, "strain": 6}))
-    np.testing.assert_array_equal(point_fields(model).eqps, model.block.state[..., 0])
+    np.testing.assert_array_equal(point_fields(model).eqps, model.bodies.only.block.state[..., 0])
     assert point_fields(stretched(UserLaw(first, state={"size": 1, "strain": 6}))).eqps is None
 
 
 def test_j2_has_its_metric_and_its_plastic_strain():
     model = stretched(mt.J2(E=210e3, nu=0.3, hardening=mt.Linear(160.0, 500.0)))
-    parts = named_history(model.body)
+    parts = named_history(model.bodies.only)
     assert list(parts) == ["Cp_inv", "eqps"]
-    assert parts["Cp_inv"].shape == (2, model.block.points, 6)
+    assert parts["Cp_inv"].shape == (2, model.bodies.only.block.points, 6)
     assert parts["eqps"].min() > 0.01
-    assert model.block.state_names == {"Cp_inv": 6, "eqps": 1}
+    assert model.bodies.only.block.state_names == {"Cp_inv": 6, "eqps": 1}
 
 
 def test_initial_values_go_with_the_names():

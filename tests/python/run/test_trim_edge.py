@@ -71,14 +71,14 @@ def stretched(material, **options):
 
 def stresses(model):
     """Second Piola-Kirchhoff stresses in global axes at all points."""
-    return _core.point_stresses(*(a.reshape(-1, *a.shape[2:]) for a in model.block.point_fields(model.u)[:4]))[2]
+    return _core.point_stresses(*(a.reshape(-1, *a.shape[2:]) for a in model.bodies.only.block.point_fields(model.u)[:4]))[2]
 
 
 def back_stress(model):
     """The back stress in global axes at all points."""
-    names, frame = list(model.block.state_names), model.block.point_fields(model.u)[2].reshape(-1, 3, 3)
-    at = sum(model.block.state_names[name] for name in names[: names.index("back_stress_1")])
-    parts = model.block.state[..., at : at + 6].reshape(-1, 6)
+    names, frame = list(model.bodies.only.block.state_names), model.bodies.only.block.point_fields(model.u)[2].reshape(-1, 3, 3)
+    at = sum(model.bodies.only.block.state_names[name] for name in names[: names.index("back_stress_1")])
+    parts = model.bodies.only.block.state[..., at : at + 6].reshape(-1, 6)
     local = parts[:, [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]
     return np.einsum("pki,pkl,plj->pij", frame, local, frame)
 
@@ -95,9 +95,9 @@ def test_a_uniform_state_is_moved_without_error(metal, options):
     expected, found = stresses(whole), stresses(part.model)
     assert np.abs(expected - expected[0]).max() < 1e-5 * np.abs(expected).max()
     assert np.abs(found - expected[0]).max() < 1e-5 * np.abs(expected).max()
-    names = list(whole.block.state_names)
-    eqps = sum(size for name, size in whole.block.state_names.items() if names.index(name) < names.index("eqps"))
-    np.testing.assert_allclose(part.model.block.state[..., eqps], whole.block.state[0, 0, eqps], rtol=1e-6)
+    names = list(whole.bodies.only.block.state_names)
+    eqps = sum(size for name, size in whole.bodies.only.block.state_names.items() if names.index(name) < names.index("eqps"))
+    np.testing.assert_allclose(part.model.bodies.only.block.state[..., eqps], whole.bodies.only.block.state[0, 0, eqps], rtol=1e-6)
     if metal is ISOTROPIC:
         backs = [back_stress(whole), back_stress(part.model)]
         assert np.abs(backs[1] - backs[0][0]).max() < 1e-4 * np.abs(backs[0]).max() > 1e-3
@@ -139,12 +139,12 @@ def test_springback_is_that_of_a_mesh_with_an_edge_on_the_line(bent):
 def test_plastic_strain_stays_between_its_extremes_and_releases_nothing_new(bent):
     whole = bent[20].model
     part = uf.Trim(across(2.6), formed=False).of(whole)  # through metal that has yielded
-    eqps = part.model.block.state[~part.same][..., 6]
-    around = whole.block.state[1:5, :, 6]
+    eqps = part.model.bodies.only.block.state[~part.same][..., 6]
+    around = whole.bodies.only.block.state[1:5, :, 6]
     assert around.max() >= eqps.max() > 0.01 and eqps.min() >= 0.0
-    work = part.model.block.energy(part.model.u)[1]
+    work = part.model.bodies.only.block.energy(part.model.u)[1]
     springback(part)
-    assert part.model.block.energy(part.model.u)[1] == pytest.approx(work, rel=1e-6)
+    assert part.model.bodies.only.block.energy(part.model.u)[1] == pytest.approx(work, rel=1e-6)
 
 
 def test_a_line_on_the_formed_part_is_met_where_the_part_is(bent):
@@ -165,8 +165,8 @@ def test_a_strip_in_plane_strain_has_one_point_across():
     result = uf.solve(model, [uf.Move(press, 1.2, steps=3), uf.Move(press, 0.5, steps=1)], frames=0)
     part = uf.Trim(across(13.3), formed=False).of(result)
     assert part.edge_distance < 1e-12 and part.remark == "" and part.model.bodies[0].element.surface_rule == (2, 1)
-    eqps = model.block.state[11:15, :, 6]
-    assert eqps.min() <= part.model.block.state[~part.same][..., 6].max() <= eqps.max()
+    eqps = model.bodies.only.block.state[11:15, :, 6]
+    assert eqps.min() <= part.model.bodies.only.block.state[~part.same][..., 6].max() <= eqps.max()
 
 
 def test_what_cannot_be_fitted_follows_elements_and_says_why():
@@ -197,7 +197,7 @@ def test_contact_points_keep_their_friction_through_a_cut():
     part.model.fix("upper", here=True)
     plane = part.model.contact("lower", uf.Plane((0.05, 0, -0.5)), name="die", friction=0.3, penalty=1e4)
     assert part.keep_friction(plane) == 6  # the seventh element is fitted to the line
-    found, points = part.model.evaluate(part.model.x).found[plane], 6 * plane.block.per_facet
+    found, points = part.model.evaluate(part.model.system.x).found[plane], 6 * plane.block.per_facet
     np.testing.assert_allclose(found.friction[:points], die.found.friction[:points], rtol=1e-12, atol=1e-12)
     np.testing.assert_allclose(found.slip[:points], die.found.slip[:points], rtol=1e-12)
     assert die.found.slip[:points].min() > 0.06

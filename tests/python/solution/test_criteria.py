@@ -136,7 +136,7 @@ def test_an_increment_below_the_round_off_of_positions_is_none(size, moves):
     """A sheet that lies on a tool without forces would be shaken off it."""
     model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (4, 1)), material=uf.SVK(E=210e3, nu=0.3))
     model.fix("x0")
-    started, evaluate = [], model.evaluate
-    model.evaluate = lambda at, *given, **more: started.append(at.x.copy()) or evaluate(at, *given, **more)
-    Newton(model).solve(None, np.full(model.x.size, size))
+    started, evaluate = [], model.system.evaluate
+    model.system.evaluate = lambda at, *given, **more: started.append(at.x.copy()) or evaluate(at, *given, **more)
+    Newton(model.system).solve(None, np.full(model.system.x.size, size))
     assert started[0].any() == moves

@@ -41,7 +41,7 @@ def increment(last: bool, touched: bool):
     newton = SimpleNamespace(
         timing=timing, settled=0.0, but=lambda settled: SimpleNamespace(timing=timing, settled=settled)
     )
-    return At(SimpleNamespace(prepare=lambda goal: None), newton, habits, touched)
+    return At(SimpleNamespace(system=SimpleNamespace(prepare=lambda goal: None)), newton, habits, touched)
 
 
 def attempt(*records: Iteration):

@@ -47,7 +47,7 @@ def test_a_strip_that_loses_its_hold_on_a_shoulder_jumps_to_the_next_stable_stat
 def test_so_does_one_with_an_unsymmetric_tangent():
     model, stroke = bent(24, friction=0.001)
     result = uf.solve(model, stroke, progress=False, frames=0)
-    assert not model.pattern.symmetric
+    assert not model.system.pattern.symmetric
     assert result["stroke"][-1] == STROKE
     assert np.abs(result.balance().drift).max() < 0.02
 
