@@ -315,11 +315,11 @@ def test_a_plastic_law_gets_the_complete_order(name, given, order):
 def test_modes_of_ones_own_are_completed_unless_the_element_says_no(name):
     mine = replace(element("ANS3DEAS"), name=name, modes=elements.thickness_modes(1, 1))
     steel, sheet = uf.J2(kappa=175e3, mu=80e3, hardening=uf.Perfect(160.0)), uf.mesh.strip(2, 1, 1, (2, 1))
-    assert uf.Model(sheet, mine, material=steel).element.modes == elements.column_modes((2, 2), 11)
+    assert uf.Model(sheet, mine, material=steel).bodies.only.element.modes == elements.column_modes((2, 2), 11)
     graded = uf.Model(sheet, mine, material=steel, thickness_rule="graded")
-    assert graded.element.modes == elements.thickness_modes(1, 17)
+    assert graded.bodies.only.element.modes == elements.thickness_modes(1, 17)
     as_given = replace(mine, complete=False)
-    assert uf.Model(sheet, as_given, material=steel).element == as_given
+    assert uf.Model(sheet, as_given, material=steel).bodies.only.element == as_given
 
 
 def test_elastic_laws_need_no_more_points_than_the_order_asks_for():

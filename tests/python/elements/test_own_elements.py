@@ -46,9 +46,9 @@ def test_own_elements_have_the_complete_order_with_a_plastic_law(made, modes):
     others = {mode for mode in made.modes if mode[0].component != "33"}
     assert others <= set(model.bodies.only.element.modes)
     graded = model_of(made, thickness_points=18, thickness_rule="graded")
-    assert set(made.modes) <= set(graded.body.element.modes)
-    assert not complete or graded.block.modes == 20 + len(others)
-    assert model_of(made, SVK(E=206e3, nu=0.3)).block.modes == len(made.modes)
+    assert set(made.modes) <= set(graded.bodies.only.element.modes)
+    assert not complete or graded.bodies.only.block.modes == 20 + len(others)
+    assert model_of(made, SVK(E=206e3, nu=0.3)).bodies.only.block.modes == len(made.modes)
 
 
 @pytest.mark.parametrize("name", ["ANS3DEAS", "EAS3DEAS", "MI9K3DEAS", "BEND18"])
@@ -98,7 +98,7 @@ def test_modes_are_checked_under_the_rule_in_use(modes, words):
         with pytest.raises(InvalidValue, match=words):
             build()
     else:
-        assert build().thickness_points == 5  # as the order needs
+        assert build().bodies.only.thickness_points == 5  # as the order needs
         with pytest.raises(InvalidValue, match="order 4 needs at least 5"):
             build(thickness_points=2)
 

@@ -53,8 +53,8 @@ def test_an_orthotropic_law_does_not_see_the_numbering(build, rng, element, roll
         model.fix("x0")
     f, g = one.evaluate(u).residual, other.evaluate(u).residual
     np.testing.assert_allclose(g, f, atol=1e-11 * np.abs(f).max())
-    E, S = (values.mean(axis=1) for values in one.block.point_fields(u)[:2])
-    E2, S2 = (values.mean(axis=1)[::-1] for values in other.block.point_fields(u)[:2])
+    E, S = (values.mean(axis=1) for values in one.bodies.only.block.point_fields(u)[:2])
+    E2, S2 = (values.mean(axis=1)[::-1] for values in other.bodies.only.block.point_fields(u)[:2])
     np.testing.assert_allclose(E2, E, atol=1e-9 * np.abs(E).max())
     np.testing.assert_allclose(S2, S, atol=1e-9 * np.abs(S).max())
     without = Model(meshes[1], element, material=law)
@@ -105,7 +105,7 @@ def test_the_frame_is_the_projection_of_the_rolling_direction(build, rng):
     model = Model(mesh, "ANS3DEAS", material=mt.SVK(E=1.0, nu=0.3), rolling=rolling)
     frame = model.bodies.only.block.point_fields(model.u)[2]
     np.testing.assert_allclose(frame @ np.swapaxes(frame, -1, -2), np.broadcast_to(np.eye(3), frame.shape), atol=1e-13)
-    bare = Model(mesh, "ANS3DEAS", material=model.bodies.only.material).block.point_fields(model.u)[2]
+    bare = Model(mesh, "ANS3DEAS", material=model.bodies.only.material).bodies.only.block.point_fields(model.u)[2]
     np.testing.assert_allclose(frame[:, :, 2], bare[:, :, 2], atol=1e-14)
     for cell, direction in enumerate(rolling):
         normal = frame[cell, :, 2]

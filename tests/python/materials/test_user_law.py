@@ -152,7 +152,7 @@ def test_a_law_cannot_change_strain_or_history(watched):
     np.testing.assert_array_equal(
         solve(other, Move(control, 0.2, steps=2), frames=0)["pull_force"], result["pull_force"]
     )
-    np.testing.assert_array_equal(other.block.state, model.bodies.only.block.state)
+    np.testing.assert_array_equal(other.bodies.only.block.state, model.bodies.only.block.state)
 
 
 # Errors -----------------------------------------------------------------------------------------------------
@@ -190,7 +190,7 @@ def test_a_single_nan_costs_a_cut_and_leaves_no_trace_in_the_history(watched):
     same = [Move(control, value, steps=1) for value in result["pull"][1:]]
     expected = solve(other, same, frames=0)
     np.testing.assert_allclose(result["pull_force"], expected["pull_force"], rtol=1e-7)
-    np.testing.assert_allclose(model.bodies.only.block.state, other.block.state, rtol=1e-7)
+    np.testing.assert_allclose(model.bodies.only.block.state, other.bodies.only.block.state, rtol=1e-7)
 
 
 @pytest.mark.parametrize(("threads", "cells"), [(1, (2, 1)), (1, (12, 8)), (2, (12, 8)), (5, (12, 8))])
@@ -224,7 +224,7 @@ def test_an_error_of_the_function_arrives_intact_at_the_last_converged_state(
             solve(m, Move(c, 0.1, steps=2), frames=0)
         solve(m, Move(c, 0.3, steps=2), frames=0)
     np.testing.assert_array_equal(model.u, other.u)
-    np.testing.assert_array_equal(model.bodies.only.block.state, other.block.state)
+    np.testing.assert_array_equal(model.bodies.only.block.state, other.bodies.only.block.state)
 
 
 @pytest.mark.parametrize("spoilt", [0, 5, 17])

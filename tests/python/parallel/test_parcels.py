@@ -102,7 +102,7 @@ def test_all_parcels_make_the_model():
         np.testing.assert_array_equal(one.nodes[one.connectivity], model.mesh.connectivity[one.cells])
         np.testing.assert_array_equal(one.points, model.mesh.points[one.nodes])
         dofs = (3 * one.nodes[:, None] + np.arange(3)).ravel()
-        np.testing.assert_array_equal(one.fixed, model._fixed[dofs])
+        np.testing.assert_array_equal(one.fixed, model.supports.fixed[dofs])
         np.testing.assert_array_equal(one.u, model.u[dofs])
         assert one.before == sum(other.own for other in cut[:rank])
     assert sum(one.own for one in cut) == cut[0].count == model.supports.unknown_count

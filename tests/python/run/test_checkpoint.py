@@ -189,7 +189,7 @@ def assert_the_same(same_state):
     """Bit by bit, but for the seconds."""
 
     def check(model, result, other, expected):
-        assert same_state(model.system.snapshot(), other.snapshot())
+        assert same_state(model.system.snapshot(), other.system.snapshot())
         assert_the_same_results(result, expected)
 
     return check
