@@ -20,9 +20,9 @@ import draws
 import record
 import umform as uf
 from umform.attempts import Attempts
-from umform.deck import load
-from umform.deck.templates import template_file
 from umform.model.evaluated import Evaluated
+from umform.problem import load
+from umform.problem.templates import template_file
 from umform.processes.draw import draw
 from umform.processes.draw.press import OPTIONS
 from umform.solution import newton

@@ -20,7 +20,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import record
-from umform.deck.templates import template_file
+from umform.problem.templates import template_file
 
 BEGIN, END = "<!-- commands -->\n", "<!-- /commands -->"
 BEND = "bend --thickness 2 --opening 16 --die-radius 2 --punch-radius 1.5 --material DC04 --angle 90"
@@ -49,7 +49,7 @@ WRITERS = {
     "--sequence": [("umform.processes.bend_sequence.files", "write_files")],
     "hem": [("umform.processes.hemming.files", "write_files")],
     "draw": [("umform.processes.draw.files", name) for name in ("draw_blank", "write_files")],
-    "run": [("umform.deck.running", "write")],
+    "run": [("umform.problem.running", "write")],
 }
 
 

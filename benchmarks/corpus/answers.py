@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 import umform as uf
-from umform.deck.findings import accept
-from umform.deck.plausible import of_model
+from umform.problem.findings import accept
+from umform.problem.plausible import of_model
 from umform.steps import Step
 
 Floats = NDArray[np.float64]

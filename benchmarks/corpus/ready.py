@@ -59,8 +59,8 @@ def bead(*, name: str = "swift", way: float = 6.0, **keys: Any) -> Answer:
 def draw(case: Cup | UBend, options: uf.NewtonOptions | None = None) -> Answer:
     """The closing, the stroke and the opening of a press; by default as tight as other jobs."""
     model, press = case.build()
-    result = uf.solve(model, press.closing(), options=options, frames=0, progress=False)
-    released = uf.solve(model, press.opening(model), options=options, frames=0, progress=False)
+    result = uf.solve(model, press.closing, options=options, frames=0, progress=False)
+    released = uf.solve(model, press.opening, options=options, frames=0, progress=False)
     return Answer([result, released], tools=[carried(result, [tool.name for tool in model.tools])])
 
 

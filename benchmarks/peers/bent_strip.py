@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from entries import Entry
 from meshes import grid, held
-from problem import Problem, Tool
 from ratios import Comparison, Found, as_good
 
+from problem import Problem, Tool
 from umform_book.references import table as stored
 from umform_book.sharp_bends.candidates import KAPPA, MU, YIELD_STRESS
 from umform_book.sharp_bends.over_cylinder import MARKS, PAPER

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 from entries import Entry, Outcome
 from measure import Crashed, measured
-from problem import Floats, Problem
 
+from problem import Floats, Problem
 from umform_book.calculix import FIRST, Ring, contact_with_ring, element, metal, node_set, totals
 
 

@@ -9,6 +9,7 @@ from typing import Any, Protocol
 
 import numpy as np
 from measure import Cost
+
 from problem import Floats, Problem
 
 #: Tolerances of Newton's method in umform that are nearer to those of the other codes than its own 1e-9 and 1e-6:

@@ -7,8 +7,9 @@ from typing import Any
 
 import felupe as fem
 import numpy as np
-from problem import Problem
 from worker import means, work
+
+from problem import Problem
 
 
 def solve(problem: Problem, options: Mapping[str, Any]) -> dict[str, Any]:

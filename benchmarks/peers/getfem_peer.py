@@ -7,8 +7,9 @@ from typing import Any
 
 import getfem as gf
 import numpy as np
-from problem import Problem
 from worker import means, work
+
+from problem import Problem
 
 #: Its nodes run along x first, then y, then z.
 _LEXICOGRAPHIC = [0, 1, 3, 2, 4, 5, 7, 6]

@@ -7,9 +7,9 @@ from functools import partial
 import numpy as np
 from entries import LOOSE, Entry
 from meshes import grid, held
-from problem import Problem
 from ratios import Comparison, Found, as_good
 
+from problem import Problem
 from umform_book.nonlinear.hemisphere import FORCE
 from umform_book.references import table as stored
 from umform_book.shells import onto_hemisphere

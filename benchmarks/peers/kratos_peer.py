@@ -9,8 +9,9 @@ import KratosMultiphysics as km  # noqa: N813
 import numpy as np
 from KratosMultiphysics import LinearSolversApplication, StructuralMechanicsApplication  # noqa: F401
 from KratosMultiphysics import python_linear_solver_factory as factory
-from problem import Problem
 from worker import means, work
+
+from problem import Problem
 
 LAW = {"solid": "LinearElastic3DLaw", "shell": "LinearElasticPlaneStress2DLaw"}
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike
-from problem import Floats, Ids
 
+from problem import Floats, Ids
 from umform import mesh
 from umform_book.calculix import EDGES
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 from entries import Entry, Outcome
 from measure import measured
+
 from problem import Problem
 
 HERE = Path(__file__).parent

@@ -7,8 +7,9 @@ from functools import partial
 import numpy as np
 from entries import Entry
 from meshes import grid, held
-from problem import Problem
 from ratios import Comparison, Found
+
+from problem import Problem
 
 TITLE = "(c) One linear step, 100 000 hexahedra"
 GOAL = 5.0

@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from problem import Problem
 from worker import means, work
 
+from problem import Problem
 from umform import J2, SVK, Cylinder, Linear, Mesh, Model, Move, NewtonOptions, Result, set_threads
 from umform.run import solve as solve_steps
 

@@ -52,6 +52,7 @@ if TYPE_CHECKING:
     from umform.run.stages import Stage, solve_stages
     from umform.solution.options import NewtonOptions
     from umform.steps import Arc, Close, Free, Move, Pace, Release
+    from umform.studies.sweep import Sweep, sweep
     from umform.surfaces import (
         Box,
         Cylinder,
@@ -72,7 +73,6 @@ if TYPE_CHECKING:
         read_tool,
         write_tool,
     )
-    from umform.sweeps import Sweep, sweep
 
 __version__ = "0.1.0"
 
@@ -139,7 +139,7 @@ _HOME = {
         "read_tool",
         "write_tool",
     ),
-    "umform.sweeps": ("Sweep", "sweep"),
+    "umform.studies.sweep": ("Sweep", "sweep"),
 }
 _MODULES = {
     "elements": "umform.elements",

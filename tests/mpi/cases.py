@@ -13,10 +13,10 @@ from pathlib import Path
 import numpy as np
 
 import umform as uf
-from umform.deck import load
-from umform.deck.templates import template_file
 from umform.mesh import strip
 from umform.model import Body, NodalTerm
+from umform.problem import load
+from umform.problem.templates import template_file
 from umform.solution.options import NewtonOptions
 
 STEEL = {"kappa": 175e3, "mu": 80.77e3}

@@ -15,8 +15,8 @@ import h5py
 import numpy as np
 import pytest
 
-from umform.deck.templates import template_file
 from umform.errors import FileProblem
+from umform.problem.templates import template_file
 from umform.run.checkpoint import read_checkpoint
 
 UMFORM = ("-m", "umform")

@@ -55,3 +55,9 @@ def test_each_dependency_has_a_reason_on_the_page(kind):
     for requirement in required:
         name = re.match(r"[\w-]+", requirement)[0]
         assert re.search(rf"^\|[^|]*\b{re.escape(name)}\b[^|]*\|", table, flags=re.M), name
+
+
+def test_processes_build_models_from_problems_only():
+    """`Problem.build` is the one builder."""
+    made = [path for path in (SOURCE / "processes").rglob("*.py") if re.search(r"\bModel\(", path.read_text("utf-8"))]
+    assert made == []

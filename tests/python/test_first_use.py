@@ -5,7 +5,14 @@ from pathlib import Path
 
 import pytest
 
-LAZY = ["umform.deck", "umform.io", "umform.materials", "umform.processes", "umform.results.forming", "umform.surfaces"]
+LAZY = [
+    "umform.problem",
+    "umform.io",
+    "umform.materials",
+    "umform.processes",
+    "umform.results.forming",
+    "umform.surfaces",
+]
 
 
 @pytest.mark.parametrize("package", LAZY)

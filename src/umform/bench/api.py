@@ -24,8 +24,8 @@ from umform.bench.look import look
 from umform.bench.refusals import said
 from umform.bench.strips import FILES as STRIP_FILES
 from umform.bench.wanted import Wanted, problems_of
-from umform.deck.results import FILES as DECK_FILES
 from umform.errors import InvalidValue, UmformError
+from umform.problem.results import FILES as DECK_FILES
 from umform.processes.air_bending.files import RESULTS as BEND_FILES
 from umform.processes.air_bending.measures import QUANTITIES
 

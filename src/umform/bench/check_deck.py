@@ -8,16 +8,16 @@ from dataclasses import asdict
 from pathlib import Path
 
 from umform.bench.limits import limit_memory
-from umform.deck.check import check
-from umform.deck.deck import Deck
-from umform.deck.errors import DeckError
 from umform.errors import UmformError
+from umform.problem.check import check
+from umform.problem.errors import DeckError
+from umform.problem.problem import Problem
 
 
 def findings(path: Path, folder: Path) -> list[dict[str, str]]:
     """What is found in a deck; what it cannot be read or built for is an error among the rest."""
     try:
-        deck = Deck.read(path.read_text(encoding="utf-8"), "deck.toml", folder)
+        deck = Problem.read(path.read_text(encoding="utf-8"), "deck.toml", folder)
         return [{**asdict(found), "level": found.level.value} for found in check(deck, deck.build())]
     except DeckError as error:
         return [_row(one) for one in error.errors[:50]]

@@ -10,8 +10,8 @@ from typing import Any
 
 from umform.bench.helpers import NoAnswer, answer_of
 from umform.bench.jobs import LONGEST_DECK
-from umform.deck import templates
 from umform.errors import InvalidValue
+from umform.problem import templates
 
 #: Seconds that a check may take.
 _LONGEST_CHECK = 60.0
@@ -30,7 +30,7 @@ def template_text(name: str) -> str:
 @cache
 def schema_text() -> str:
     """The JSON schema of decks."""
-    from umform.deck.contents import json_schema
+    from umform.problem.contents import json_schema
 
     return json_schema()
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from umform.deck.errors import DeckError
 from umform.errors import UmformError
+from umform.problem.errors import DeckError
 
 
 def said(error: UmformError) -> dict[str, Any]:

@@ -21,12 +21,12 @@ from umform.bench.refusals import said
 from umform.bench.shelf import Shelf
 from umform.bench.strips import run_strip
 from umform.bench.wanted import Wanted
-from umform.deck.findings import accept
-from umform.deck.plausible import of_model
 from umform.errors import UmformError
 from umform.io.atomic import PendingFile
 from umform.io.staging import staging
 from umform.io.tables import write_csv
+from umform.problem.findings import accept
+from umform.problem.plausible import of_model
 from umform.processes.air_bending.bottoming import press_to_force
 from umform.processes.air_bending.branches import FRAMES, Brake
 from umform.processes.air_bending.budget import Budget, error_budget
@@ -131,17 +131,17 @@ def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
 
 def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     """The work of `umform run`, or of `umform resume` where there is a checkpoint."""
-    from umform.deck import running
-    from umform.deck.deck import Deck
-    from umform.deck.kept import Kept
-    from umform.deck.results import CHECKPOINT
+    from umform.problem import running
+    from umform.problem.kept import Kept
+    from umform.problem.problem import Problem
+    from umform.problem.results import CHECKPOINT
 
     results = folder / RESULTS
     checkpoint = results / CHECKPOINT
     taken_up = checkpoint.is_file()
     kept = Kept.read(checkpoint) if taken_up else None
     files = folder.parent.parent  # of the bench: where the check looks for what a deck names
-    deck = kept.deck if kept else Deck.read((folder / DECK).read_text(encoding="utf-8"), DECK, files)
+    deck = kept.deck if kept else Problem.read((folder / DECK).read_text(encoding="utf-8"), DECK, files)
     steps = deck.contents.steps
     told = DeckTold(sum(step.expected for step in steps), len(steps))
     watch = Watch(folder, order["title"], told)

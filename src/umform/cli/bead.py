@@ -12,7 +12,19 @@ import typer
 
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
-from umform.cli.options import SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
+from umform.cli.options import (
+    SOLUTION,
+    FlowCurve,
+    Material,
+    Modulus,
+    Poisson,
+    PrintDeck,
+    SwiftCurve,
+    Yield,
+    Young,
+    option,
+    print_deck,
+)
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.run_checks import show_checks
 from umform.cli.timing import Timed, show_timing
@@ -47,6 +59,7 @@ def bead(
             "--extrapolate/--no-extrapolate",
         ),
     ] = True,
+    deck: PrintDeck = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
@@ -64,6 +77,9 @@ def bead(
     print_warnings_once()
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, given["thickness"])
     case = DrawBead(**given, material=law)
+    if deck:
+        print_deck(case)
+        return
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/bead"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     with staging(place, FILES):

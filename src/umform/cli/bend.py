@@ -16,7 +16,20 @@ from umform.cli.drawn_tools import drawn_tools
 from umform.cli.given import Given, given_by
 from umform.cli.goals import check_goal, check_length, check_no_goal, check_press, strokes_of
 from umform.cli.metal import law_of
-from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
+from umform.cli.options import (
+    SHEET,
+    SOLUTION,
+    FlowCurve,
+    Material,
+    Modulus,
+    Poisson,
+    PrintDeck,
+    SwiftCurve,
+    Yield,
+    Young,
+    option,
+    print_deck,
+)
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.sequence import run_sequence
 from umform.cli.timing import Timed, show_timing
@@ -66,9 +79,7 @@ def bend(
     swift: SwiftCurve = None,
     flow_curve: FlowCurve = None,
     processes: Annotated[int | None, option("Runs of the budget at a time.", SOLUTION)] = None,
-    print_deck: Annotated[
-        bool, typer.Option("--print-deck", help="Print the bend as a deck for `umform run`, and run nothing else.")
-    ] = False,
+    deck: PrintDeck = False,
     overwrite: Overwrite = False,
     force: Force = False,
     timing: Timed = False,
@@ -105,7 +116,7 @@ def bend(
     tools = drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer)
     case = AirBending(**{**given, "stroke": stroke}, **tools, material=law)
     if sequence is not None:
-        check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, print_deck)
+        check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, deck)
         run_sequence(sequence, case, note, out, length, tolerance=tolerance, overwrite=overwrite)
         return
     if bottoming:
@@ -114,7 +125,7 @@ def bend(
         check_value(Goal, "force_per_metre", force_per_metre)
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
-    if print_deck:
+    if deck:
         _print_deck(case, angle, force_per_metre, tolerance)
         return
     if angle is not None:
@@ -151,7 +162,6 @@ def bend(
 
 def _print_deck(case: AirBending, angle: float | None, force_per_metre: float | None, tolerance: float) -> None:
     """Print a bend as a deck, with the stroke that its angle or its force needs."""
-    from umform.deck import deck_of
     from umform.processes.air_bending.bottoming import press_to_force
     from umform.processes.air_bending.search import find_stroke
 
@@ -159,7 +169,7 @@ def _print_deck(case: AirBending, angle: float | None, force_per_metre: float | 
         case = press_to_force(case, force_per_metre, frames=1).case
     elif angle is not None:
         case = find_stroke(case, angle, tolerance=tolerance, frames=1).case
-    typer.echo(deck_of(case), nl=False)
+    print_deck(case)
 
 
 def _bent(
@@ -179,8 +189,8 @@ def _bent(
 
 def _refuse_implausible(model: Model, *, force: bool) -> None:
     """Refuse numbers that are certainly wrong, and warn of unusual ones, before the run."""
-    from umform.deck.findings import accept
-    from umform.deck.plausible import of_model
+    from umform.problem.findings import accept
+    from umform.problem.plausible import of_model
 
     for warning in accept(of_model(model, millimetres=True), force=force):
         typer.echo(f"umform: {warning}", err=True)

@@ -15,9 +15,9 @@ from umform.cli.root import Debug, Verbose, app, console, say_of
 from umform.errors import InvalidValue, UmformError
 
 if TYPE_CHECKING:
-    from umform.deck import Deck
-    from umform.deck.findings import Finding
-    from umform.deck.problem import Problem
+    from umform.problem import Problem
+    from umform.problem.findings import Finding
+    from umform.problem.prepared import Prepared
 
 DeckFile = Annotated[Path, typer.Argument(metavar="DECK", help="Deck, a TOML file.")]
 Changes = Annotated[
@@ -51,8 +51,8 @@ def check_deck(
 
     An error ends with exit code 1; warnings do not.
     """
-    from umform.deck.check import check
-    from umform.deck.findings import Level
+    from umform.problem.check import check
+    from umform.problem.findings import Level
 
     with deck_errors():
         loaded = read(deck, changes or ())
@@ -67,9 +67,9 @@ def check_deck(
         raise typer.Exit(1)
 
 
-def read(path: Path, changes: Sequence[str]) -> Deck:
+def read(path: Path, changes: Sequence[str]) -> Problem:
     """The deck of a file with some changed values."""
-    from umform.deck import load
+    from umform.problem import load
 
     return load(path, dict(_change(text) for text in changes))
 
@@ -101,7 +101,7 @@ def _change(text: str) -> tuple[str, Any]:
         ) from None
 
 
-def _draw_blank(problem: Problem, path: Path) -> None:
+def _draw_blank(problem: Prepared, path: Path) -> None:
     if problem.sizes is None:
         raise InvalidValue(
             "the sizes of this mesh do not follow the tools",
@@ -115,7 +115,7 @@ def _draw_blank(problem: Problem, path: Path) -> None:
     typer.echo(f"Written to {path}")
 
 
-def _write_tools(problem: Problem, folder: Path) -> None:
+def _write_tools(problem: Prepared, folder: Path) -> None:
     """The tools in a box around the sheet, where they stand at first."""
     import numpy as np
 
@@ -135,7 +135,7 @@ def _show(findings: Sequence[Finding]) -> None:
     from rich.table import Table
     from rich.text import Text
 
-    from umform.deck.findings import Level
+    from umform.problem.findings import Level
 
     colours = {Level.OK: "green", Level.WARNING: "yellow", Level.ERROR: "red"}
     table = Table("", "about", "found", box=box.SIMPLE_HEAD)

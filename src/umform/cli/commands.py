@@ -21,6 +21,7 @@ FILES = {
     "hem": "hem",
     "metal": "metals",
     "new": "new",
+    "paths": "paths",
     "plot": "plot",
     "resume": "resume",
     "run": "run",

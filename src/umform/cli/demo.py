@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from umform.cli.given import Given, given_by
-from umform.cli.options import SOLUTION, option
+from umform.cli.options import SOLUTION, PrintDeck, option, print_deck
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.timing import Timed, show_timing
 from umform.cli.typed import as_typed, options_of
@@ -49,9 +49,7 @@ def free_bending(
         list[str] | None, option("Contact points per direction and facet, or nodes; may be repeated.", _RUNS)
     ] = None,
     processes: Annotated[int | None, option("Runs at a time; default: the processors.", SOLUTION)] = None,
-    print_deck: Annotated[
-        bool, typer.Option("--print-deck", help="Print the first run as a deck, and run none.")
-    ] = False,
+    deck: PrintDeck = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
@@ -76,10 +74,8 @@ def free_bending(
     )
     base = FreeBending(**{name: value for name, value in given.items() if value is not None})
     runs = selection.runs(base, sharp=all(given[name] is None for name in _THROUGH))
-    if print_deck:
-        from umform.deck import deck_of
-
-        typer.echo(deck_of(runs[0]), nl=False)
+    if deck:  # that of the first run
+        print_deck(runs[0])
         return
     say = partial(typer.echo, err=True)
     place = folder_for(

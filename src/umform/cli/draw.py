@@ -12,7 +12,20 @@ import typer
 
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
-from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
+from umform.cli.options import (
+    SHEET,
+    SOLUTION,
+    FlowCurve,
+    Material,
+    Modulus,
+    Poisson,
+    PrintDeck,
+    SwiftCurve,
+    Yield,
+    Young,
+    option,
+    print_deck,
+)
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.run_checks import show_checks
 from umform.cli.timing import Timed, show_timing
@@ -89,6 +102,7 @@ def cup(
     swift: SwiftCurve = None,
     flow_curve: FlowCurve = None,
     limit_curve: LimitCurve = None,
+    deck: PrintDeck = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
@@ -104,6 +118,9 @@ def cup(
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, given["thickness"])
     given |= {"punch_radius": 0.5 * punch, "blank_radius": 0.5 * blank, "holder_force": given["holder_force"] or None}
     case = Cup(**given, die_radius=None if opening is None else 0.5 * opening, material=law)
+    if deck:
+        print_deck(case)
+        return
     _run(case, draw, out, "cup", note, limit_curve, overwrite=overwrite, timing=timing)
 
 
@@ -130,6 +147,7 @@ def u(
             "--extrapolate/--no-extrapolate",
         ),
     ] = None,
+    deck: PrintDeck = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
@@ -145,6 +163,9 @@ def u(
     given = _on_mesh(UBend, given, coarse, fine)
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, given["thickness"])
     case = UBend(**given, material=law)
+    if deck:
+        print_deck(case)
+        return
     three = not coarse if extrapolate is None else extrapolate
     how = extrapolated if three else draw
     _run(case, how, out, "u-bend", note, limit_curve, overwrite=overwrite, timing=timing)

@@ -12,8 +12,8 @@ from umform.cli.metal import by_name
 from umform.cli.root import Debug, Overwrite, app, console, printing
 
 if TYPE_CHECKING:
-    from umform.calibration import Calibration
     from umform.sheet_metals import SheetMetal
+    from umform.studies.calibration import Calibration
 
 metals = typer.Typer(
     no_args_is_help=True, rich_markup_mode="markdown", help="Sheet metals with sources, and laws from measurements."
@@ -75,8 +75,8 @@ def _curve(hardening: object) -> str:
 def show(name: Annotated[str, typer.Argument(help="Name of a sheet metal: see `umform metal list`.")]) -> None:
     """Show a sheet metal: numbers, source, deck and Python."""
     from umform import sheet_metals
-    from umform.calibration.code import deck_block, python_code
     from umform.materials import Metal
+    from umform.studies.calibration.code import deck_block, python_code
 
     with by_name("umform metal show"):
         metal = sheet_metals.get(name)
@@ -154,9 +154,9 @@ def fit(
 
     The files and the law are described in docs/materials.md.
     """
-    from umform.calibration import Measurements, calibrate, read_cycles, read_directions, read_tension
-    from umform.calibration.files import FILES, write_files
     from umform.io.folders import folder_for
+    from umform.studies.calibration import Measurements, calibrate, read_cycles, read_directions, read_tension
+    from umform.studies.calibration.files import FILES, write_files
 
     measured = Measurements(
         None if angles is None else read_directions(angles),
@@ -188,8 +188,8 @@ def _show(found: Calibration) -> None:
     from rich import box
     from rich.table import Table
 
-    from umform.calibration.files import texts
-    from umform.calibration.words import HEADER, remarks, rows
+    from umform.studies.calibration.files import texts
+    from umform.studies.calibration.words import HEADER, remarks, rows
 
     table = Table(*HEADER, box=box.SIMPLE_HEAD)
     for row in rows(found):

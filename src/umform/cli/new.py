@@ -20,10 +20,10 @@ def new(
     debug: Debug = False,
 ) -> None:
     """Print a template deck: `umform new air-bending > deck.toml`."""
-    from umform.deck import templates
+    from umform.problem import templates
 
     if schema:
-        from umform.deck.contents import json_schema  # without the rest of umform, which the list does not need
+        from umform.problem.contents import json_schema  # without the rest of umform, which the list does not need
 
         typer.echo(json_schema(), nl=False)
     elif template is None:
@@ -40,7 +40,7 @@ def _list_templates() -> None:
     from rich import box
     from rich.table import Table
 
-    from umform.deck.templates import templates
+    from umform.problem.templates import templates
 
     table = Table("name", "deck", box=box.SIMPLE_HEAD)
     for name, title in templates().items():

@@ -23,3 +23,13 @@ Yield = Annotated[float | None, option("Yield stress in MPa, for linear hardenin
 Modulus = Annotated[float | None, option("Hardening modulus in MPa; default 0.", SHEET)]
 SwiftCurve = Annotated[str | None, option("Swift hardening K,e0,n, such as 520,0.004,0.22, in MPa.", SHEET)]
 FlowCurve = Annotated[Path | None, option("Measured hardening: a CSV file of plastic strain and true stress.", SHEET)]
+PrintDeck = Annotated[
+    bool, typer.Option("--print-deck", help="Print the problem as a deck for `umform run`, and run nothing else.")
+]
+
+
+def print_deck(case: Any) -> None:
+    """Print the problem of a case as a deck."""
+    from umform.processes.problems import problem_of
+
+    typer.echo(problem_of(case).toml(), nl=False)

@@ -34,8 +34,8 @@ def resume(
     The checkpoint contains the deck. Mesh files of the deck must exist unchanged. With `mpiexec`, a run on many ranks
     continues on any number of ranks.
     """
-    from umform.deck import running
-    from umform.deck.kept import Kept
+    from umform.problem import running
+    from umform.problem.kept import Kept
 
     let_the_first_talk()
     print_warnings_once()
@@ -49,7 +49,7 @@ def resume(
 
 def _file_of(path: Path) -> Path:
     """The checkpoint, or that in the folder of a run."""
-    from umform.deck.results import CHECKPOINT, FILES, STATE
+    from umform.problem.results import CHECKPOINT, FILES, STATE
 
     if not path.is_dir() or (path / CHECKPOINT).is_file():
         return path / CHECKPOINT if path.is_dir() else path

@@ -22,8 +22,8 @@ from umform.errors import FileProblem, UmformError
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from umform.deck.measured import Taken
-    from umform.deck.running import Outcome
+    from umform.problem.measured import Taken
+    from umform.problem.running import Outcome
 
 Every = Annotated[float, typer.Option(metavar="SECONDS", help="Seconds between checkpoints; 0: after each increment.")]
 
@@ -57,7 +57,7 @@ def run(
     On many ranks: `mpiexec -n 4 umform run deck.toml --solver petsc`. Options of PETSc take the prefix `-umform_`, such
     as `-umform_ksp_type cg -umform_pc_type gamg` (docs/parallel.md).
     """
-    from umform.deck import running
+    from umform.problem import running
 
     let_the_first_talk()
     print_warnings_once()

@@ -16,8 +16,8 @@ from umform.cli.warnings import print_warnings_once
 from umform.errors import FileProblem, InvalidValue
 
 if TYPE_CHECKING:
-    from umform.sweeps import Sweep
-    from umform.sweeps.values import Written
+    from umform.studies.sweep import Sweep
+    from umform.studies.sweep.values import Written
 
 
 @app.command()
@@ -55,7 +55,7 @@ def sweep(
     Name keys as in `--set`, or by their last part if that is unique. The same command continues a stopped sweep; with
     more values it runs only the new jobs. A failure is a row with its reason.
     """
-    from umform.sweeps import sweep as run_sweep
+    from umform.studies.sweep import sweep as run_sweep
 
     print_warnings_once()
     with deck_errors():
@@ -95,7 +95,7 @@ def _axes(texts: list[str]) -> dict[str, str]:
 
 def _jobs(path: Path) -> list[dict[str, Written]]:
     """Jobs of a CSV file."""
-    from umform.sweeps.values import Written
+    from umform.studies.sweep.values import Written
 
     remedy = "a CSV file with commas: keys in the first line, the values of a job in each other line"
     try:
@@ -120,7 +120,7 @@ def _show(found: Sweep) -> None:
     from rich import box
     from rich.table import Table
 
-    from umform.sweeps.table import telling
+    from umform.studies.sweep.table import telling
 
     screen, measures = console(), telling(found.rows, found.measures)
     counts = Counter(row["outcome"] for row in found.rows)

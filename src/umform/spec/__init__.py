@@ -12,7 +12,19 @@ mistake to a type, and `umform.spec.types` has the usual types:
 the help of a command starts quickly.
 """
 
-from umform.spec.parameter import About, Parameter, parameters
+from umform.spec.parameter import About, Parameter, parameters, sentences
+from umform.spec.paths import Scalar, changed, scalars
 from umform.spec.rule import Rule, check_fields, check_value
 
-__all__ = ["About", "Parameter", "Rule", "check_fields", "check_value", "parameters"]
+__all__ = [
+    "About",
+    "Parameter",
+    "Rule",
+    "Scalar",
+    "changed",
+    "check_fields",
+    "check_value",
+    "parameters",
+    "scalars",
+    "sentences",
+]

@@ -170,8 +170,8 @@ class Parameter:
 @cache
 def parameters(spec: type) -> Mapping[str, Parameter]:
     """The parameters of a Spec by name, in the order of its fields."""
-    sentences = _sentences(spec)
-    return {one.name: _parameter(spec, one, sentences.get(one.name, "")) for one in fields(spec)}
+    written = sentences(spec)
+    return {one.name: _parameter(spec, one, written.get(one.name, "")) for one in fields(spec)}
 
 
 def _parameter(spec: type, one: Field[Any], sentence: str) -> Parameter:
@@ -225,7 +225,7 @@ def _kind(hint: Any, extras: tuple[Any, ...]) -> Kind:
     return Kind(known, (), tuple(extra for extra in extras if type(extra) in _BOUNDS))
 
 
-def _sentences(spec: type) -> dict[str, str]:
+def sentences(spec: type) -> dict[str, str]:
     """The strings below the fields of a class and its bases."""
     found: dict[str, str] = {}
     for base in reversed(spec.__mro__):

@@ -106,9 +106,9 @@ def make(page: Page, label: str, case: Cup) -> Made | None:
     model, press = case.build()
     where = "the run ends before the end of the stroke"
     try:
-        drawn = page.solve(label, model, press.closing(), frames=50, options=NEWTON)
+        drawn = page.solve(label, model, press.closing, frames=50, options=NEWTON)
         where = "the press does not open"
-        page.solve(f"{label}: released", model, press.opening(model), options=NEWTON)
+        page.solve(f"{label}: released", model, press.opening, options=NEWTON)
     except NoConvergence as error:
         page.text(f"{label}: {where}. {error.where}; {error.cause}.")
         return None

@@ -80,8 +80,7 @@ def real(page: Page, elements: float, friction: float) -> Drawn:
 def equivalent(page: Page, drawn: Drawn) -> tuple[np.ndarray, np.ndarray]:
     """Draw the same strip over a flat with the equivalent bead: way and force."""
     case = drawn.case
-    X = case.sheet().points[:, 0]
-    left, right = float(X.min()), float(X.max())
+    left, right = case.ends
     cells = round((right - left) / THICKNESS)
     strip = mesh.strip(right - left, 1.0, case.thickness, (cells, 1)).transformed(
         lambda x: x + np.array([left, 0.0, 0.5 * case.thickness])

@@ -48,7 +48,7 @@ ELSEWHERE = (
     "sheet_metals/flow_curve.py",
     "sheet_metals/least_squares.py",
     "sheet_metals/directional_fit.py",
-    "processes/air_bending/deck.py",
+    "processes/air_bending/problem.py",
     "processes/bend_sequence/form.py",
     "bench/server.py",
 )

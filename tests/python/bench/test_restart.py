@@ -18,8 +18,8 @@ from umform.bench import jobs
 from umform.bench.index import UNFINISHED
 from umform.bench.jobs import MOST_STARTS, Queue
 from umform.bench.server import owned
-from umform.deck.deck import Deck
 from umform.errors import FileProblem
+from umform.problem.problem import Problem
 
 QUICK = {"mesh": "quick", "angle": None, "stroke": 0.6}
 #: A strip that is bent elastically in many increments: it is stopped on its way.
@@ -184,7 +184,7 @@ def test_deck_that_is_stopped_and_handed_on_ends_with_the_same_bits(tmp_path):
     assert job.summary["balance"]["run"]["force_imbalance"] < 1e-6
     with (results / "history.csv").open(newline="") as text:
         column = [float(row["tip_force"]) for row in csv.DictReader(text)]
-    assert column == Deck.read(DECK).build().solve(progress=False)["tip_force"].tolist()
+    assert column == Problem.read(DECK).build().solve(progress=False)["tip_force"].tolist()
 
 
 def test_process_that_dies_without_a_word_is_started_again_but_not_for_ever(tmp_path):

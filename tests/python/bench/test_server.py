@@ -10,7 +10,7 @@ from starlette.testclient import TestClient
 from umform.bench.check_deck import findings
 from umform.bench.guard import LONGEST_BODY
 from umform.bench.wanted import Wanted
-from umform.deck.templates import template
+from umform.problem.templates import template
 from umform.processes.air_bending import air_bending, find_stroke
 from umform.processes.air_bending.files import FILES, record
 from umform.processes.bend_sequence import bend_sequence

@@ -11,8 +11,8 @@ from typer.testing import CliRunner
 
 import umform
 from umform import cli
-from umform.deck.templates import template_file, write_template
 from umform.errors import InvalidValue, NoConvergence
+from umform.problem.templates import template_file, write_template
 from umform.processes.bending import case as case_module
 from umform.processes.bending import showcase
 from umform.processors import available
@@ -52,7 +52,7 @@ def test_what_needs_no_numbers_loads_nothing_heavy(code):
 def test_a_public_name_loads_its_own_home_only():
     loaded = loaded_by("import umform as uf; uf.Model")
     assert "umform.model" in loaded
-    assert not loaded & {"scipy", "matplotlib", "h5py", "meshio", "pydantic", "rich", "umform.report", "umform.deck"}
+    assert not loaded & {"scipy", "matplotlib", "h5py", "meshio", "pydantic", "rich", "umform.report", "umform.problem"}
 
 
 def test_all_public_names_together_load_numpy_and_the_kernels_only():
@@ -91,7 +91,7 @@ def test_a_run_loads_nothing_of_scipy_but_blas(tmp_path, cells, width):
 @pytest.mark.parametrize("words", [["new", "cantilever"], ["new"]])
 def test_a_template_is_printed_without_loading_what_computes(words):
     loaded = loaded_by(f"from umform.cli import main; sys.argv = ['umform', *{words}]; main()")
-    assert "umform.deck.templates" in loaded
+    assert "umform.problem.templates" in loaded
     assert not loaded & (HEAVY - {"pydantic", "rich"})  # which typer loads for its own, and the list is a table
 
 

@@ -13,8 +13,8 @@ import pytest
 from typer.testing import CliRunner
 
 from umform import cli
-from umform.deck.templates import write_template
 from umform.io.tables import write_csv
+from umform.problem.templates import write_template
 from umform.run import Result
 
 SOURCE = Path(cli.__file__).parents[2]

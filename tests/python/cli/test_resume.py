@@ -17,8 +17,8 @@ import pytest
 from typer.testing import CliRunner
 
 from umform import cli
-from umform.deck.templates import write_template
 from umform.errors import FileProblem
+from umform.problem.templates import write_template
 from umform.run import solve
 from umform.run.checkpoint import read_checkpoint
 from umform.solution.newton import Newton

@@ -14,7 +14,7 @@ import pytest
 from typer.testing import CliRunner
 
 from umform import cli
-from umform.deck.templates import write_template
+from umform.problem.templates import write_template
 from umform.processes.air_bending.branches import Brake
 
 SOURCE = Path(cli.__file__).parents[2]
@@ -119,7 +119,7 @@ sys.meta_path.insert(0, Slow())
 """
 
 
-@pytest.mark.parametrize("name", ["typer", "umform.cli.check", "umform.deck", "numpy"])
+@pytest.mark.parametrize("name", ["typer", "umform.cli.check", "umform.problem", "numpy"])
 @pytest.mark.parametrize("number", ["SIGINT", "SIGTERM"])
 def test_a_signal_during_the_imports_is_one_line(name, number, deck):
     run = started("check", deck, code=SLOW_IMPORT.format(name=name, signal=number))

@@ -6,7 +6,7 @@ import pytest
 from typer.testing import CliRunner
 
 from umform import cli
-from umform.deck.templates import write_template
+from umform.problem.templates import write_template
 
 SMALL = ("--set", "mesh.cells=[4,1]", "--set", "steps.0.increments=2", "--processes", "1")
 

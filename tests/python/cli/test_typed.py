@@ -7,7 +7,7 @@ from typer.testing import CliRunner
 
 from umform.cli import app
 from umform.cli.typed import as_typed
-from umform.deck.templates import template
+from umform.problem.templates import template
 
 TYPED = [
     ("bend --stroke 8.5", 1, ["or --bottoming"]),

@@ -16,9 +16,9 @@ import pytest
 
 import umform as uf
 from umform import materials as mt
-from umform.deck import Deck
-from umform.deck.errors import DeckError
 from umform.errors import FileProblem, InvalidValue, NoConvergence, NotFinite
+from umform.problem import Problem
+from umform.problem.errors import DeckError
 from umform.report.materials import material_text
 
 _SPEC = importlib.util.spec_from_file_location("cards", Path(__file__).with_name("cards.py"))
@@ -317,9 +317,9 @@ def test_a_compiled_law_in_a_run(elastic):
     seen = uf.Model(mesh, material=compiled(elastic, sees_points=True), rolling=(0.6, 0.8, 0))
     seen.fix("x0")
     seen.evaluate(seen.u)
-    seen.bodies.only.block.commit()
+    seen.block.commit()
     # e_1 along the rolling direction: 0.6 of it along x
-    assert seen.bodies.only.block.state[..., 0] == pytest.approx(1.0 + 60.0)
+    assert seen.block.state[..., 0] == pytest.approx(1.0 + 60.0)
 
 
 @needs_compiler
@@ -453,7 +453,7 @@ properties = [121e3, 80e3, 1e9, 1e9, 1e9]"""
 @needs_compiler
 def test_decks(kinematic, elastic):
     for text, law in ((UMAT, "Umat"), (COMPILED, "CompiledLaw")):
-        problem = Deck.read(DECK % text, "deck.toml", kinematic.parent).build()
+        problem = Problem.read(DECK % text, "deck.toml", kinematic.parent).build()
         assert type(problem.model.bodies.only.material).__name__ == law
         result = problem.solve(progress=False)
         assert result["time"][-1] == 0.5
@@ -473,4 +473,4 @@ def test_decks(kinematic, elastic):
 )
 def test_bad_decks(kinematic, old, new, text):
     with pytest.raises(DeckError, match=text):
-        Deck.read(DECK % UMAT.replace(old, new), "deck.toml", kinematic.parent).build()
+        Problem.read(DECK % UMAT.replace(old, new), "deck.toml", kinematic.parent).build()

@@ -10,10 +10,10 @@ import pytest
 from pydantic import TypeAdapter
 
 import umform as uf
-from umform.deck.mesh import MeshPart
 from umform.errors import InvalidValue, WrongCellType
 from umform.mesh import disc, ring
 from umform.mesh.quality import jacobians
+from umform.problem.mesh import MeshPart
 
 PARTS = {"whole": 1.0, "half": 0.5, "quarter": 0.25}
 

@@ -9,8 +9,6 @@ import numpy as np
 import pytest
 
 import umform as uf
-from umform.deck import load
-from umform.deck.templates import template_file
 from umform.errors import InvalidValue
 from umform.mesh import strip
 from umform.model import Body, NodalTerm
@@ -20,6 +18,8 @@ from umform.model.pressure import Pressure
 from umform.model.ties import MidLine
 from umform.parallel.cutting import Cutting
 from umform.parallel.outline import Outline
+from umform.problem import load
+from umform.problem.templates import template_file
 
 SIZE = 3
 
@@ -84,10 +84,11 @@ def size_of(value):
 
 def pieces(cut, model, kind):
     """Of the parcels the pieces of some things of the model, by kind: a list over the ranks for each of them."""
-    kinds = ("bodies", "controls", "tools", "contacts", "others", "holders")
-    first = sum(len(getattr(model, before)) for before in kinds[: kinds.index(kind)])
-    assert len(cut[0].pieces) == sum(len(getattr(model, name)) for name in kinds)
-    return [[one.pieces[first + k] for one in cut] for k in range(len(getattr(model, kind)))]
+    kinds = {name: len(getattr(model, name)) for name in ("bodies", "controls", "tools", "contacts")}
+    kinds |= {"others": len(model.system.others), "holders": len(model.supports.holders)}
+    first = sum(list(kinds.values())[: list(kinds).index(kind)])
+    assert len(cut[0].pieces) == sum(kinds.values())
+    return [[one.pieces[first + k] for one in cut] for k in range(kinds[kind])]
 
 
 def test_all_parcels_make_the_model():

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from umform.deck import Deck
 from umform.errors import InvalidValue, NotFinite
+from umform.problem import Problem
 from umform.processes.air_bending import (
     AirBending,
     Measures,
@@ -20,11 +20,11 @@ from umform.processes.air_bending import (
     branches,
     find_stroke,
 )
-from umform.processes.air_bending.brake import INCREMENTS, build, loading
+from umform.processes.air_bending.brake import INCREMENTS, loading
 from umform.processes.air_bending.branches import Brake
-from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.formulas import shop_forces, tensile_strength
 from umform.processes.air_bending.measures import QUANTITIES
+from umform.processes.air_bending.problem import build, problem_of
 from umform.processes.air_bending.sheet import lines_along
 from umform.run.open_run import OpenRun
 
@@ -145,7 +145,7 @@ def test_the_bend_that_is_found_is_that_of_its_stroke_and_of_its_deck():
     """To the last bit, with what the trials before it have left; no part of the loading is gone twice."""
     found = find_stroke(COARSE, 150.0, progress=False).bend
     straight = air_bending(found.case, progress=False)
-    deck = Deck.read(deck_of(found.case)).build().solve(progress=False)
+    deck = Problem.read(problem_of(found.case).toml()).build().solve(progress=False)
     assert found.measures == straight.measures
     np.testing.assert_array_equal(found.path, straight.path)
     for name in deck.columns():

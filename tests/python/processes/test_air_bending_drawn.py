@@ -9,12 +9,12 @@ import pytest
 from typer.testing import CliRunner
 
 from umform.cli import app
-from umform.deck import Deck
 from umform.errors import InvalidValue, OpenSection, UmformError
+from umform.problem import Problem
 from umform.processes.air_bending import AirBending, air_bending
-from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.drawn_tools import DrawnDie, DrawnPunch, read_die, read_punch
 from umform.processes.air_bending.files import record
+from umform.processes.air_bending.problem import problem_of
 from umform.surfaces import Profile, Punch, VDie
 
 COARSE = AirBending(stroke=3.0, elements_per_thickness=1.0, layers=1, increment=0.02)
@@ -66,7 +66,7 @@ def test_bend_with_drawn_tools_is_that_of_their_numbers():
     assert bend.measures.force == pytest.approx(numbers.force, rel=1e-6)
     written = json.loads(json.dumps(record(bend)))["parameters"]
     assert written["opening"] == pytest.approx(16.0) and "lines and arcs" in written["die_section"]
-    again = Deck.read(deck_of(drawn)).build().solve(progress=False)
+    again = Problem.read(problem_of(drawn).toml()).build().solve(progress=False)
     assert again["stroke_force"].tolist() == bend.result["stroke_force"].tolist()
 
 

@@ -19,11 +19,10 @@ from umform.errors import InvalidValue
 from umform.materials import J2, Perfect
 from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.air_bending import budget as budget_module
-from umform.processes.air_bending.brake import build
 from umform.processes.air_bending.budget import Budget, error_budget, refinements
-from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.files import parameters, write_files
 from umform.processes.air_bending.measures import QUANTITIES
+from umform.processes.air_bending.problem import build, problem_of
 from umform.processes.air_bending.words import summary, summary_header
 from umform.spec import parameters as parameters_of
 
@@ -148,7 +147,7 @@ def test_all_files_are_written(tmp_path, bend, errors):
     assert all(quantity.label in page for quantity in QUANTITIES.values())
     assert all(f'id="{part}"' in page for part in ("shape-canvas", "curves", "scene", "history-csv"))
     deck = (tmp_path / "out" / "bend.toml").read_text()
-    assert deck == deck_of(bend.case)
+    assert deck == problem_of(bend.case).toml()
     assert escape(deck) in page
 
 
@@ -171,7 +170,7 @@ class OwnCurve:
 def test_a_curve_of_the_user_leaves_out_the_deck(tmp_path, bend):
     case = replace(bend.case, material=J2(E=210e3, nu=0.3, hardening=OwnCurve(200.0)))
     with pytest.raises(InvalidValue, match="no words"):
-        deck_of(case)
+        problem_of(case).toml()
     files = write_files(tmp_path, replace(bend, case=case))
     assert "bend.toml" not in {file.name for file in files}
     assert "for umform run" not in (tmp_path / "report.html").read_text()

@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from umform.deck import Deck
 from umform.errors import InvalidValue
+from umform.problem import Problem
 from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.air_bending.bottoming import press_to_force, with_travel
-from umform.processes.air_bending.deck import deck_of
+from umform.processes.air_bending.problem import problem_of
 
 COARSE = AirBending(
     die_angle=88.0, punch_angle=88.0, elements_per_thickness=2.0, layers=1, increment=0.0125, bottoming=True
@@ -65,7 +65,7 @@ def test_more_force_brings_the_angle_to_that_of_the_die():
 
 
 def test_the_deck_is_the_bend(pressed):
-    deck = Deck.read(deck_of(pressed.case)).build().solve(progress=False)
+    deck = Problem.read(problem_of(pressed.case).toml()).build().solve(progress=False)
     np.testing.assert_array_equal(deck["stroke_force"], pressed.bend.result["stroke_force"])
 
 

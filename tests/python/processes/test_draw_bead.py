@@ -66,7 +66,7 @@ def test_the_equivalent_bead_has_its_forces(drawn):
     line = tomllib.loads(in_deck(drawn))["beads"]["NAME"]
     forces = {key: line[key] for key in ("restraint", "uplift", "width")}
     assert forces["restraint"] == pytest.approx(drawn.restraint, rel=1e-3)
-    model = uf.Model(drawn.case.sheet(), material=MILD)
+    model = uf.Model(drawn.result.model.mesh, material=MILD)
     model.fix(lambda x, y, z: y > -1.0, "y")
     pull = model.prescribe("x1", "x", "pull")
     bed = model.contact("lower", uf.Plane(), name="bed")

@@ -11,11 +11,11 @@ import pytest
 from typer.testing import CliRunner
 
 from umform.cli import app
-from umform.deck import Deck
 from umform.errors import InvalidValue
+from umform.problem import Problem
 from umform.processes.air_bending import AirBending, air_bending
-from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.formulas import shop_forces
+from umform.processes.air_bending.problem import problem_of
 from umform.processes.draw_bead.case import build
 from umform.processes.draw_bead.spec import DrawBead
 from umform.sheet_metals import get, uniaxial
@@ -55,9 +55,9 @@ def test_plus_and_minus_are_mirror_images(bends):
 
 
 def test_the_deck_gives_the_same_bits(bends):
-    text = deck_of(bends[45.0].case)
+    text = problem_of(bends[45.0].case).toml()
     assert "rolling = { angle = 45.0 }" in text
-    again = Deck.read(text).build().solve(progress=False)
+    again = Problem.read(text).build().solve(progress=False)
     assert np.array_equal(again["stroke_force"], bends[45.0].result["stroke_force"])
 
 

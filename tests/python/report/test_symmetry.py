@@ -5,7 +5,7 @@ import pytest
 
 import umform as uf
 from umform.processes.air_bending import AirBending
-from umform.processes.air_bending.brake import build
+from umform.processes.air_bending.problem import build
 from umform.report.symmetry import Mirror, is_symmetric, mirrors, whole
 from umform.results.shape import Shape
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import umform as uf
-from umform.deck.errors import DeckError
-from umform.deck.findings import accept
-from umform.deck.plausible import of_model
+from umform.problem.errors import DeckError
+from umform.problem.findings import accept
+from umform.problem.plausible import of_model
 from umform.run.tipping import tipping
 from umform.steps import Step
 

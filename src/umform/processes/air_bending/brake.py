@@ -1,19 +1,15 @@
-"""The press brake: a model of sheet, die and punch, the loading and unloading steps, forces and contact on flanks."""
+"""The press brake: the loading and unloading steps, forces and contact on flanks."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.model import Model
 from umform.model.contact import ContactPoints
-from umform.model.contact.settings import ContactSettings, contact_settings
 from umform.model.control import Control
-from umform.processes.air_bending.sheet import half_sheet
 from umform.processes.air_bending.spec import AirBending
 from umform.solution.options import NewtonOptions
 from umform.steps.release import Release
@@ -30,39 +26,6 @@ _FINER, _PRESSED = 4, 0.5
 _ZERO_FORCE = 2e-3
 #: First increment of unloading in thicknesses.
 _FIRST_BACK = 0.02
-
-
-def build(case: AirBending) -> tuple[Model, Control]:
-    """Model of a case, and the control that moves the punch down."""
-    mesh = half_sheet(case)
-    model = Model(
-        mesh,
-        case.element,
-        material=case.material,
-        thickness_points=case.thickness_points,
-        rolling=case.rolling_direction,
-        plane_strain=case.plane_strain,
-    )
-    model.symmetry("x0", normal="x")
-    if case.width is None:
-        model.fix(np.arange(len(mesh.points)), "y")
-    else:
-        model.symmetry("y0", normal="y")
-    penalty, depth, points = case.penalty, case.penetration, case.contact_points
-    model.contact("lower", case.die, penalty=penalty, penetration=depth, points=points, name="die")
-    punch = model.contact("upper", case.punch, penalty=penalty, penetration=depth, points=points, name="punch")
-    punch.tool.may_bottom = case.bottoming
-    return model, model.drive(punch, "-z", name="stroke")
-
-
-def touching(case: AirBending) -> dict[str, ContactSettings]:
-    """Penalty, allowed penetration and points of die and punch, without a model of the case."""
-    mesh, faces = half_sheet(case), {"die": ("lower", case.die), "punch": ("upper", case.punch)}
-    given: dict[str, Any] = {"penalty": case.penalty, "penetration": case.penetration, "points": case.contact_points}
-    return {
-        name: contact_settings(mesh, face, tool, case.material, **given, where=f"contact {name}")
-        for name, (face, tool) in faces.items()
-    }
 
 
 def loading(case: AirBending, stroke: float) -> list[tuple[float, int]]:

@@ -14,13 +14,13 @@ from umform.processes.air_bending.brake import (
     INCREMENTS,
     OPTIONS,
     against_flank,
-    build,
     force_per_width,
     loading,
     part_end,
     unloading,
 )
 from umform.processes.air_bending.measures import Measures
+from umform.processes.air_bending.problem import build
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.spec import AirBending
 from umform.progress import Tick, silent

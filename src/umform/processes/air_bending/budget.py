@@ -8,10 +8,10 @@ from typing import Any
 
 from umform.elements import element
 from umform.pool import run_all
-from umform.processes.air_bending.brake import touching
 from umform.processes.air_bending.branches import Brake
 from umform.processes.air_bending.goal import needed_stroke
 from umform.processes.air_bending.measures import Measures
+from umform.processes.air_bending.problem import build
 from umform.processes.air_bending.spec import AirBending
 from umform.progress import progress_bar
 from umform.spec import parameters
@@ -88,7 +88,7 @@ def _layers(case: AirBending) -> dict[str, AirBending]:
 
 def _contacts(case: AirBending) -> dict[str, AirBending]:
     """The case with other contact points, and with a larger penalty."""
-    contacts = list(touching(case).values())
+    contacts = build(case)[0].contacts
     points = [int(contact.points) for contact in contacts]
     most = parameters(AirBending)["contact_points"].most
     if min(points) < most:

@@ -14,9 +14,9 @@ from umform.errors import InvalidValue
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
 from umform.processes.air_bending.bend import AirBend
-from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.formulas import shop_forces, strength
 from umform.processes.air_bending.measures import Measures
+from umform.processes.air_bending.problem import problem_of
 from umform.processes.air_bending.remarks import coarse_mesh
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.air_bending.words import columns
@@ -78,7 +78,7 @@ def write_files(
         bend.result.write(here / "bend.vtkhdf")
         deck = ""
         with suppress(InvalidValue):  # a deck cannot express a curve or an element of the user
-            deck = deck_of(bend.case)
+            deck = problem_of(bend.case).toml()
             (here / "bend.toml").write_text(deck, encoding="utf-8")
         files = stage.commit(_DATA)  # a failure of a picture must not lose the numbers
         figures = {"curve": curves(bend, table), "shape": shapes(bend), "drawing": drawing(bend)}

@@ -43,12 +43,12 @@ class Section:
 
     @classmethod
     def of(cls, mesh: Mesh, u: Floats) -> Self:
-        """Section of a mesh of `half_sheet` under displacements u, shape (n, 3) or (3 n,)."""
+        """Section of a mesh of half of the sheet under displacements u, shape (n, 3) or (3 n,)."""
         return next(cls.each(mesh, [u]))
 
     @classmethod
     def each(cls, mesh: Mesh, states: Iterable[Floats]) -> Iterator[Self]:
-        """Sections of a mesh of `half_sheet` under several displacements, whose lines of nodes are found once."""
+        """Sections of a mesh of half of the sheet under several displacements, whose lines of nodes are found once."""
         middle = mesh.nodes("y0")
         X = mesh.points[middle][:, [0, 2]]
         lines = len(np.unique(X[:, 0]))

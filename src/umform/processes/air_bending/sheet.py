@@ -7,8 +7,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from umform import mesh
-from umform.elements import element as catalogue_element
-from umform.mesh import Mesh
 from umform.mesh.mesh import Floats
 from umform.processes.air_bending.spec import AirBending
 
@@ -16,16 +14,11 @@ from umform.processes.air_bending.spec import AirBending
 _GROWTH = 0.3
 
 
-def half_sheet(case: AirBending) -> Mesh:
-    """Half of the sheet on the die, x from the middle of the bend, z from 0 to the thickness.
+def lines_of(case: AirBending) -> tuple[Floats, Floats, Floats]:
+    """Element borders of half of the sheet on the die: x from the middle of the bend, z from 0 to the thickness.
 
     With a width, y goes from the middle of the sheet to its edge; in plane strain over one element.
     """
-    return mesh.grid(*lines_of(case), catalogue_element(case.element).cell)
-
-
-def lines_of(case: AirBending) -> tuple[Floats, Floats, Floats]:
-    """Element borders along the sheet, across it and through its thickness."""
     if case.width is None:
         across: Floats = np.array([0.0, case.thickness])
     else:  # finer towards the edge, where the sheet curls

@@ -15,14 +15,16 @@ from umform.io.tables import write_csv, write_json
 from umform.processes.air_bending.files import parameters
 from umform.processes.air_bending.remarks import coarse_mesh
 from umform.processes.bend_sequence.part import BendDone, Part
+from umform.processes.bend_sequence.spec import MOST_BENDS
 from umform.report.versions import versions
 from umform.results.run_record import run_record
 
 _DATA = ("sequence.json", "profile.csv", "curves.csv", "part.vtkhdf")
 _PICTURES = ("part.png", "part.svg")
 _PAGE = "report.html"
+_DECKS = tuple(f"bend{number}.toml" for number in range(1, MOST_BENDS + 1))
 #: Files of a part.
-FILES = (*_DATA, *_PICTURES, _PAGE)
+FILES = (*_DATA, *_DECKS, *_PICTURES, _PAGE)
 RESULTS = FILES
 
 
@@ -33,7 +35,7 @@ def write_files(out: str | Path, part: Part, note: str = "") -> list[Path]:
     ----------
     out : str or Path
         Folder for sequence.json, profile.csv, curves.csv, part.vtkhdf (the last bend), part.png, part.svg and
-        report.html.
+        report.html; bend1.toml, ... are decks of the bends.
     part : Part
         The part.
     note : str
@@ -51,7 +53,10 @@ def write_files(out: str | Path, part: Part, note: str = "") -> list[Path]:
         stroke, force = (np.concatenate([getattr(done, name) for done in part.bends]) for name in ("stroke", "force"))
         write_csv(here / "curves.csv", {"bend": number, "stroke": stroke, "force": force})
         part.bends[-1].result.write(here / "part.vtkhdf")
-        files = stage.commit(_DATA)
+        decks = part.decks()
+        for name, text in decks.items():
+            (here / name).write_text(text, encoding="utf-8")
+        files = stage.commit([*_DATA, *decks])
         figure = picture(part)
         for name in _PICTURES:
             save(figure, here / name)

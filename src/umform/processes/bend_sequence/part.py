@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.problem.problem import Problem
 from umform.processes.air_bending.measures import Measures
 from umform.processes.bend_sequence.collisions import Collision
 from umform.processes.bend_sequence.sides import Sides, Strip
@@ -25,6 +26,11 @@ def when_and_where(bend: Bend, hit: Collision) -> str:
     when = "before it is bent" if hit.stroke <= 0.0 else f"from a stroke of {hit.stroke:.4g} mm on"
     place = bend.position + (-hit.distance if bend.over else hit.distance)
     return f"{when}, at {abs(place):.3g} mm from the left end of the flat strip"
+
+
+def after(deck: str) -> dict[str, str]:
+    """Table of the operation before, whose deck was run in the folder of both."""
+    return {"deck": deck, "state": f"results/{deck.removesuffix('.toml')}/state.h5"}
 
 
 @dataclass(frozen=True)
@@ -49,6 +55,8 @@ class BendDone:
         Warnings.
     result : Result
         History, frames and iterations.
+    problem : Problem
+        The bend with the stroke that it took, as a problem of its own.
     """
 
     bend: Bend
@@ -60,6 +68,7 @@ class BendDone:
     trials: tuple[tuple[float, float], ...]
     warnings: tuple[str, ...]
     result: Result
+    problem: Problem
 
 
 @dataclass(frozen=True)
@@ -108,6 +117,12 @@ class Part:
 
     def _sides(self, bend: Bend) -> Sides:
         return self.strip.at(bend.position, over=bend.over).sides(self.sequence.zone(bend))
+
+    def decks(self) -> dict[str, str]:
+        """Decks of the bends by the names of their files: `umform run` of one after the other repeats the runs."""
+        names = [f"bend{number}.toml" for number in range(1, len(self.bends) + 1)]
+        befores = [None, *map(after, names)]
+        return {name: done.problem.toml(before) for name, done, before in zip(names, self.bends, befores)}
 
     @property
     def length_balance(self) -> float:

@@ -8,9 +8,9 @@ from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.search import bent_to_angle
 from umform.processes.bend_sequence.collisions import collisions
 from umform.processes.bend_sequence.part import BendDone, Part
+from umform.processes.bend_sequence.problem import flat_strip
 from umform.processes.bend_sequence.sides import Strip
 from umform.processes.bend_sequence.spec import BendSequence
-from umform.processes.bend_sequence.strip import flat_strip
 from umform.processes.bend_sequence.strip_brake import StripBrake
 from umform.progress import Show, Tick, progress_bar
 from umform.run import Result
@@ -95,6 +95,7 @@ def _bent(
         trials,
         _warnings(brake, state, measures),
         result,
+        brake.problem(measures.stroke),
     )
 
 

@@ -33,7 +33,7 @@ class Strip:
 
     @classmethod
     def of(cls, mesh: Mesh, u: Floats) -> Strip:
-        """Section of a mesh of `flat_strip` under displacements u, shape (n, 3) or (3 n,)."""
+        """Section of a mesh of a flat strip under displacements u, shape (n, 3) or (3 n,)."""
         section = Section.of(mesh, u)
         return cls(section.reference, section.current, section.order)
 

@@ -16,7 +16,7 @@ from umform.spec.types import Degrees, Length
 #: Parameters of the tools that may differ between bends.
 TOOLS = ("opening", "die_angle", "die_radius", "punch_angle", "punch_radius")
 #: Largest number of bends.
-_MOST_BENDS = 50
+MOST_BENDS = 50
 
 
 @dataclass(frozen=True)
@@ -136,8 +136,8 @@ def _check_sequence(sequence: BendSequence) -> None:
     ------
     InvalidValue
     """
-    if not 1 <= len(sequence.bends) <= _MOST_BENDS:
-        raise InvalidValue(f"a part has 1 to {_MOST_BENDS} bends", where="bends", value=len(sequence.bends))
+    if not 1 <= len(sequence.bends) <= MOST_BENDS:
+        raise InvalidValue(f"a part has 1 to {MOST_BENDS} bends", where="bends", value=len(sequence.bends))
     if sequence.sheet.width is not None:
         raise InvalidValue(
             "a sequence of bends is in plane strain",

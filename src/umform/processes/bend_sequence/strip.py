@@ -7,9 +7,6 @@ from itertools import pairwise
 
 import numpy as np
 
-from umform import mesh
-from umform.elements import element as catalogue_element
-from umform.mesh import Mesh
 from umform.mesh.mesh import Floats
 from umform.processes.air_bending.sheet import lines_along
 from umform.processes.air_bending.spec import AirBending
@@ -17,14 +14,6 @@ from umform.processes.bend_sequence.spec import BendSequence
 
 #: Smallest distance of two lines relative to the smaller adjacent element.
 _NEAR = 0.5
-
-
-def flat_strip(sequence: BendSequence) -> Mesh:
-    """Whole strip, x from its left end, z from 0 to the thickness; one element wide."""
-    sheet = sequence.sheet
-    across = np.array([0.0, sheet.thickness])
-    through = mesh.graded(sheet.thickness, sheet.layers)
-    return mesh.grid(strip_lines(sequence), across, through, catalogue_element(sheet.element).cell)
 
 
 def strip_lines(sequence: BendSequence) -> Floats:

@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import fields
-from typing import Any
 
 import numpy as np
 
 from umform.mesh import Mesh
-from umform.model import Model, Snapshot
+from umform.model import Model
 from umform.model.control import Control
+from umform.problem.problem import Problem
 from umform.processes.air_bending.bend import Loaded
-from umform.processes.air_bending.brake import touching
 from umform.processes.air_bending.branches import Brake, Floats
 from umform.processes.air_bending.measures import Measures, measure
+from umform.processes.air_bending.problem import build
 from umform.processes.air_bending.section import Section
+from umform.processes.bend_sequence.problem import problem_of_bend
 from umform.processes.bend_sequence.sides import Sides, Strip
 from umform.processes.bend_sequence.spec import Bend, BendSequence
 from umform.progress import Tick, silent
 from umform.run import Result
-from umform.run.stages import continued
 
 
 class StripBrake(Brake):
@@ -49,50 +49,15 @@ class StripBrake(Brake):
 
     def build(self) -> tuple[Model, Control]:
         """Model of the strip in the tools, and the control that moves the punch down."""
-        case, bend = self.case, self.bend_line
-        model = Model(
-            self.mesh,
-            case.element,
-            material=case.material,
-            thickness_points=case.thickness_points,
-            rolling=case.rolling_direction,
-            plane_strain=case.plane_strain,
-        )
+        made = self.problem(self.case.way).build()
+        self.allowed = {pair.name: pair.allowed for pair in build(self.case)[0].contacts}
+        return made.model, made.controls["stroke"]
+
+    def problem(self, stroke: float) -> Problem:
+        """The bend as a problem."""
         u = np.zeros(3 * len(self.mesh.points)) if self.before is None else self.before.model.u
-        lying = Strip.of(self.mesh, u).at(bend.position, over=bend.over).laid(case.reach)
-        if self.before is None:
-            model.system.restore(Snapshot(lying.displacement(self.mesh.points, u)))
-        else:
-            continued(model, self.before, lying)
-        model.fix(np.arange(len(self.mesh.points)), "y", here=True)
-        model.fix(self._under_the_tip(), "x", here=True, name="stop")
-        die, punch = self._settings()
-        lower, upper = ("upper", "lower") if bend.over else ("lower", "upper")
-        model.contact(self._faces(lower), case.die, name="die", **die)
-        pushed = model.contact(self._faces(upper), case.punch, name="punch", **punch)
-        stroke = model.drive(pushed, "-z", name="stroke")
-        if self.before is not None:  # a bent strip is not flat enough to touch both shoulders at first
-            model.rest()
-        return model, stroke
-
-    def _settings(self) -> list[dict[str, Any]]:
-        """Penalty and points of die and punch: those of a single bend with undeformed sheet."""
-        single = touching(self.case)
-        self.allowed = {name: settings.allowed for name, settings in single.items()}
-        return [{"penalty": settings.penalty, "points": settings.points} for settings in single.values()]
-
-    def _faces(self, name: str) -> Any:
-        """Faces of the strip about the bend line."""
-        rows = self.mesh.face_set(name)
-        centres = self.mesh.points[self.mesh.facets_of(rows)].mean(axis=1)
-        return rows[np.abs(centres[:, 0] - self.bend_line.position) <= self.sequence.zone(self.bend_line)]
-
-    def _under_the_tip(self) -> Any:
-        """Nodes of the bend line on the face that the punch touches: friction on its tip holds the strip."""
-        x = self.mesh.points
-        height = 0.0 if self.bend_line.over else self.case.thickness
-        close = 1e-6 * self.case.thickness
-        return (np.abs(x[:, 0] - self.bend_line.position) < close) & (np.abs(x[:, 2] - height) < close)
+        lying = Strip.of(self.mesh, u).at(self.bend_line.position, over=self.bend_line.over).laid(self.case.reach)
+        return problem_of_bend(self.sequence, self.bend_line, stroke, self.mesh, lying, self.before)
 
     def section(self) -> Section:
         """Right side of the bend, in a frame in which both legs have the same slope."""

@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from umform import mesh
 from umform.elements import element as catalogue_element
 from umform.errors import UmformError
-from umform.materials import J2, Linear, Perfect
 from umform.model import Model
 from umform.model.control import Prescribed
 from umform.processes.bending.measures import at_marks, jump, roughness
+from umform.processes.bending.problem import problem_of
 from umform.processes.bending.spec import FreeBending
 from umform.report.repeats import counted
 from umform.results.balanced import Balanced, balanced
@@ -25,7 +24,6 @@ from umform.run import Result, solve
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions
 from umform.steps import Move, Release
-from umform.surfaces import Cylinder
 from umform.timing import Timing
 
 if TYPE_CHECKING:
@@ -201,33 +199,15 @@ def check(case: FreeBending) -> None:
 
 def build(case: FreeBending) -> tuple[Model, Prescribed]:
     """Model of a case, and the control that pushes the strip down."""
-    cell = cell_of(case.element)
-    half_strip = mesh.strip(case.length, case.width, case.thickness, case.mesh, cell=cell)
+    cell_of(case.element)
     try:
-        model = Model(
-            half_strip,
-            case.element,
-            material=law_of(case),
-            thickness_points=case.thickness_points,
-            thickness_rule=case.thickness_rule,
-            thickness_order=case.thickness_order,
-            tie_E33=case.tie_E33,
-        )
+        made = problem_of(case).build()
     except UmformError as error:
         error.where = error.where or case.name
         raise
-    model.symmetry("x0", normal="x")
-    punch = model.prescribe("x0_lower", "z", name="punch")
-    model.fix(np.intersect1d(half_strip.nodes("x0_lower"), half_strip.nodes("y0_lower")), "y")
-    cylinder = Cylinder(case.centre, axis="y", radius=case.radius)
-    model.contact("lower", cylinder, penalty=case.penalty, points=case.contact, name="cylinder")
-    return model, punch
-
-
-def law_of(case: FreeBending) -> J2:
-    """Law of the strip."""
-    curve = Linear(case.yield_stress, case.hardening) if case.hardening else Perfect(case.yield_stress)
-    return J2(kappa=case.kappa, mu=case.mu, hardening=curve)
+    punch = made.controls["punch"]
+    assert isinstance(punch, Prescribed)
+    return made.model, punch
 
 
 def cell_of(name: str) -> str:

@@ -8,8 +8,8 @@ from pathlib import Path
 from umform.plotting import save
 from umform.processes.bending import table
 from umform.processes.bending.case import Bending
-from umform.processes.bending.deck import deck_of
 from umform.processes.bending.figure import curves, shapes
+from umform.processes.bending.problem import problem_of
 from umform.processes.bending.spec import RECONSTRUCTION
 from umform.report import parts
 from umform.report.live import style
@@ -75,7 +75,7 @@ def write_page(folder: Path, runs: Sequence[Bending], pictured: Bending) -> list
         parts.paragraph("Lengths in mm, forces in N, stresses in MPa."),
         parts.pairs(_settings(runs)),
         parts.heading("Deck"),
-        parts.folded(f"The input of {pictured.case.name}, for umform run", deck_of(pictured.case)),
+        parts.folded(f"The input of {pictured.case.name}, for umform run", problem_of(pictured.case).toml()),
         parts.heading("Versions"),
         parts.pairs(versions() | {"solver used": ", ".join(sorted({run.solver for run in runs} - {""}))}),
     ]

@@ -16,7 +16,7 @@ from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
 from umform.pool import check_processes, run_all
 from umform.processes.bending.case import Bending, cell_of, check, failed, failure_text, free_bending
-from umform.processes.bending.deck import deck_of
+from umform.processes.bending.problem import problem_of
 from umform.processes.bending.spec import RECONSTRUCTION, ContactRule, FreeBending
 from umform.progress import progress_bar
 from umform.report.versions import versions
@@ -149,7 +149,7 @@ def demo(
                 tick=partial(bar, name),
             )
         _write_tables(stage.waiting, finished)
-        (stage.waiting / "free_bending.toml").write_text(deck_of(cases[pictured]), encoding="utf-8")
+        (stage.waiting / "free_bending.toml").write_text(problem_of(cases[pictured]).toml(), encoding="utf-8")
         files = stage.commit(_DATA)  # a picture that fails does not take the numbers along
         write_page(stage.waiting, finished, finished[pictured])
         return Outcome(finished, [*files, *stage.commit(_PAGE)])

@@ -56,7 +56,7 @@ def draw(
     released: Result | None = None
     failure: NoConvergence | None = None
     try:
-        result = solve(model, press.closing(), options=case.newton, frames=frames, solver=solver, progress=progress)
+        result = solve(model, press.closing, options=case.newton, frames=frames, solver=solver, progress=progress)
     except NoConvergence as error:
         failure, result = error, _reached(error)
     add_forming_fields(result, limit)
@@ -64,9 +64,7 @@ def draw(
     ending: Ending | None = ending_of(case, result, limit, failure)
     if failure is None:
         try:
-            released = solve(
-                model, press.opening(model), options=case.newton, frames=2, solver=solver, progress=progress
-            )
+            released = solve(model, press.opening, options=case.newton, frames=2, solver=solver, progress=progress)
         except (SolveError, ModelError) as error:  # a wrinkled sheet may lie on the wrong side of a tool
             ending = ending or Ending("release", f"the part cannot be taken out of the tools: {error}")
         else:

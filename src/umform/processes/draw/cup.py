@@ -1,4 +1,4 @@
-"""A round cup: parameters, blank, tools, model and steps."""
+"""A round cup: parameters, blank, tools and steps."""
 
 from __future__ import annotations
 
@@ -16,8 +16,7 @@ from umform.spec.types import ContactPoints, Force, Friction, Length
 
 if TYPE_CHECKING:
     from umform.mesh import Mesh, Sizes
-    from umform.model import Model
-    from umform.processes.draw.press import Press
+    from umform.problem.problem import Problem
 
 #: Tools and blank of the ESAFORM benchmark 2021.
 ESAFORM: dict[str, Any] = {
@@ -174,60 +173,73 @@ class Cup(Draw):
         """Half of the side of the core of the blank, which stays on the flat of the punch."""
         return max(0.75 * (self.punch_radius - self.punch_edge), 0.1 * self.blank_radius)
 
-    def blank(self) -> Mesh:
-        """A quarter of a disc."""
-        from umform.elements import element
-        from umform.mesh import disc
-
-        return disc(
-            self.blank_radius,
-            self.thickness,
-            (self.around // 2, 1),
-            part="quarter",
-            cell=element(self.element).cell,
-            layers=self.stacked,
-            core=self._core / self.blank_radius,
-            radii=self.sizes.ends.tolist(),
-        )
-
-    def build(self) -> tuple[Model, Press]:
-        """Model of a quarter, and the press with its steps."""
-        from umform.model import Model
-        from umform.processes.draw.press import Press, held_by
-        from umform.surfaces import Plane, Profile, Revolved
+    def problem(self) -> Problem:
+        """A quarter of the blank in its tools: held, drawn, released."""
+        from umform.problem.problem import Problem
+        from umform.processes.draw.press import press_steps, pressed
 
         t, far = self.thickness, 2.0 * self.blank_radius
         deep = self.way + self.constant_thickness_height
-        points = {} if self.thickness_points is None else {"thickness_points": self.thickness_points}
-        model = Model(self.blank(), self.element, material=self.material, rolling=(1.0, 0.0, 0.0), **points)  # type: ignore[arg-type]
-        model.symmetry("x0", "x")
-        model.symmetry("y0", "y")
-        die = Profile.from_corners(
-            [(far, -t / 2), (self.throat, -t / 2), (self.throat, -deep)],
-            radii=[0, self.die_edge, 0],
-            closed=False,
-        )
-        punch = Profile.from_corners(
-            [(0, t / 2), (self.punch_radius, t / 2), (self.punch_radius, deep)],
-            radii=[0, self.punch_edge, 0],
-            closed=False,
-        )
-        rule: dict[str, Any] = {
-            "points": self.contact_points,
-            "penalty": self.penalty,
-            "friction": self.friction,
+        force = None if self.holder_force is None else 0.25 * self.holder_force
+        die = {
+            "corners": [(far, -t / 2), (self.throat, -t / 2), (self.throat, -deep)],
+            "radii": [0.0, self.die_edge, 0.0],
+            "closed": False,
         }
-        model.contact("lower", model.tool("die", Revolved(die)), name="on_die", **rule)
-        holder = model.tool("holder", Plane((0.0, 0.0, self.gap - t / 2), (0.0, 0.0, -1.0)))
-        hold = held_by(model, holder, None if self.holder_force is None else 0.25 * self.holder_force)
-        model.contact("upper", holder, name="under_holder", **rule)
-        ram = model.tool("punch", Revolved(punch))
-        model.contact("upper", ram, name="under_punch", **rule)
-        stroke = model.drive(ram, "-z", name="stroke")
-        # On the axis: while the punch still holds the part, the gauge may carry a force, and must keep the symmetry.
-        gauge = model.hold_rigid(lambda x, y, z: x**2 + y**2 < 1e-18, name="gauge")
-        # On the punch, an ironed wall cannot buckle while the forces of the die decrease, see theory 4.18.
-        return model, Press(hold, stroke, self.way, gauge, (("die", "holder"), ("punch",)), self.pace)
+        punch = {
+            "corners": [(0.0, t / 2), (self.punch_radius, t / 2), (self.punch_radius, deep)],
+            "radii": [0.0, self.punch_edge, 0.0],
+            "closed": False,
+        }
+        rule = {"points": self.contact_points, "penalty": self.penalty, "friction": self.friction}
+        axis = [0.0, 0.0]
+        tables = {
+            "title": "A round cup",
+            "mesh": {
+                "generator": "disc",
+                "radius": self.blank_radius,
+                "thickness": t,
+                "cells": (self.around // 2, 1),
+                "part": "quarter",
+                "layers": self.stacked,
+                "core": self._core / self.blank_radius,
+                "radii": self.sizes.ends.tolist(),
+            },
+            **self._sheet(),
+            "tools": {
+                "die": {"shape": "Revolved", "profile": die, "shared": True},
+                "holder": {
+                    "shape": "Plane",
+                    "point": (0.0, 0.0, self.gap - t / 2),
+                    "normal": "-z",
+                    "shared": True,
+                },
+                "punch": {"shape": "Revolved", "profile": punch, "shared": True},
+            },
+            "contacts": {
+                "on_die": {"tool": "die", "faces": "lower", **rule},
+                "under_holder": {"tool": "holder", "faces": "upper", **rule},
+                "under_punch": {"tool": "punch", "faces": "upper", **rule},
+            },
+            "supports": [
+                {"kind": "symmetry", "nodes": "x0", "normal": "x"},
+                {"kind": "symmetry", "nodes": "y0", "normal": "y"},
+                # On the axis: while the punch still holds the part, the gauge may carry a force, and must keep the
+                # symmetry.
+                {"kind": "rigid", "name": "gauge", "nodes": {"min": [*axis, -math.inf], "max": [*axis, math.inf]}},
+            ],
+            "controls": {
+                **pressed("under_holder", force),
+                "stroke": {"kind": "tool", "contact": "under_punch", "direction": "-z"},
+            },
+            # On the punch, an ironed wall cannot buckle while the forces of the die decrease, see theory 4.18.
+            "steps": press_steps(force, self.way, self.pace, (("on_die", "under_holder"), ("under_punch",))),
+        }
+        return Problem.of(tables, ["A quarter of a round cup: held, drawn, released. Units: mm, N, MPa."])
+
+    def blank(self) -> Mesh:
+        """A quarter of a disc."""
+        return self.problem().sheet().mesh
 
     #: Ratio of the whole cup to the computed part.
     parts: ClassVar[float] = 4.0

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
 
-from umform.errors import InvalidValue
-from umform.model import Model, Tool
-from umform.model.support import Support
-from umform.model.tool_controls import ToolForce, ToolMotion
 from umform.solution.options import NewtonOptions
-from umform.steps import Close, Free, Move, Pace, Step
+from umform.steps import Free, Pace, Step
 
 #: Tolerances of drawing: what one increment leaves over is a force of the next. Tighter ones change no number.
 OPTIONS = NewtonOptions(residual=1e-3, increment=1e-2, keep=True)
@@ -17,78 +15,70 @@ OPTIONS = NewtonOptions(residual=1e-3, increment=1e-2, keep=True)
 _BLOCKS = 200.0
 #: Travel of the holder at which the blocks begin to carry load, mm.
 _AT_ONCE = 1e-5
-
-
-@dataclass(frozen=True)
-class Hold:
-    """A holder under a force.
-
-    Attributes
-    ----------
-    control : ToolForce
-        Control of the force.
-    force : float
-        The force.
-    on_blocks : bool
-        Whether it rests on distance blocks at the start, or has to be closed.
-    """
-
-    control: ToolForce
-    force: float
-    on_blocks: bool
-
-    def step(self) -> Step:
-        """The step that applies the force."""
-        if self.on_blocks:
-            return Move(self.control, to=-self.force, steps=1)
-        return Close(self.control, force=-self.force)
+#: Increments in which tools open.
+_OPENING = 6
 
 
 @dataclass(frozen=True)
 class Press:
-    """The operations of a press: hold, draw, open.
+    """The steps of a press.
 
     Attributes
     ----------
-    hold : Hold, optional
-        Holder force; None for a holder at a fixed distance.
-    stroke : ToolMotion
-        Motion of the punch.
-    way : float
-        Its stroke.
-    gauge : Support
-        Support of the part after the tools have opened.
-    order : tuple of tuples of str
-        Names of the tools that open; those of one tuple open in one step.
-    pace : Pace
-        Increments of the stroke.
+    closing : tuple of Step
+        From the open tools to the end of the stroke.
+    opening : tuple of Step
+        The tools open, so that the part springs back; the gauge holds it from the first of them.
     """
 
-    hold: Hold | None
-    stroke: ToolMotion
-    way: float
-    gauge: Support
-    order: tuple[tuple[str, ...], ...] = (("die", "holder", "punch"),)
-    pace: Pace = Pace()
+    closing: tuple[Step, ...]
+    opening: tuple[Step, ...]
 
-    def closing(self) -> list[Step]:
-        """Steps from the open tools to the end of the stroke."""
-        return [*([] if self.hold is None else [self.hold.step()]), Move(self.stroke, to=self.way, steps=self.pace)]
-
-    def opening(self, model: Model) -> list[Step]:
-        """Steps that open the tools, so that the part springs back; the gauge holds it from the first of them."""
-        tools = {tool.name: tool for tool in model.tools}
-        first, *rest = ([tools[name] for name in names] for names in self.order)
-        return [Free(first, steps=6, on=self.gauge), *(Free(group, steps=6) for group in rest)]
+    @classmethod
+    def of(cls, steps: Sequence[Step]) -> Press:
+        """The steps of a problem, whose tools open from its first step of the kind free."""
+        opens = next(number for number, step in enumerate(steps) if isinstance(step, Free))
+        return cls(tuple(steps[:opens]), tuple(steps[opens:]))
 
 
-def held_by(model: Model, holder: Tool, force: float | None, *, blocks: bool = True) -> Hold | None:
-    """Press a holder with a force; distance blocks keep it from coming nearer than it is now."""
+def pressed(contact: str, force: float | None, *, blocks: bool = True) -> dict[str, Any]:
+    """Table of the control of a holder under a force; distance blocks keep it from coming nearer than it is at first.
+
+    Empty without a force: the holder keeps its distance.
+    """
     if force is None:
-        return None
-    if not force > 0.0:
-        raise InvalidValue("the force of the holder must be positive", where="holder_force", value=force)
-    control = model.press(holder, "z", name="hold")
-    if blocks:
-        model.stop(control, at=_AT_ONCE, stiffness=_BLOCKS * force, below=True)
-    return Hold(control, force, blocks)
+        return {}
+    stop = {"at": _AT_ONCE, "stiffness": _BLOCKS * force, "below": True}
+    return {"hold": {"kind": "press", "contact": contact, "direction": "z", "stops": [stop] if blocks else []}}
+
+
+def press_steps(
+    force: float | None, way: float, pace: Pace, opened: Sequence[Sequence[str]], *, blocks: bool = True
+) -> list[dict[str, Any]]:
+    """Tables of the steps: the holder presses, the punch draws, the tools open.
+
+    Parameters
+    ----------
+    force : float, optional
+        Force of the holder; None for one that keeps its distance.
+    way : float
+        Stroke of the punch.
+    pace : Pace
+        Increments of the stroke.
+    opened : sequence of sequences of str
+        Contacts whose tools open; those of one sequence open in one step.
+    blocks : bool
+        Whether the holder rests on distance blocks at the start, or has to be closed.
+    """
+    hold: list[dict[str, Any]] = []
+    if force is not None:
+        on_blocks = {"kind": "move", "to": {"hold": -force}, "increments": 1}
+        hold = [on_blocks if blocks else {"kind": "close", "control": "hold", "force": -force}]
+    draw = {"kind": "move", "to": {"stroke": way}, "pace": asdict(pace)}
+    first, *rest = ({"kind": "free", "contacts": list(names), "increments": _OPENING} for names in opened)
+    return [*hold, draw, first | {"on": "gauge"}, *rest]
+
+
+def solution(options: NewtonOptions) -> dict[str, Any]:
+    """Table of the options of Newton's method."""
+    return {name: value for name, value in asdict(options).items() if value is not None}

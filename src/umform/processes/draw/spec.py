@@ -14,8 +14,11 @@ from umform.spec import About, check_fields, parameters
 from umform.spec.types import ContactPoints, Friction, Length, Penalty
 
 if TYPE_CHECKING:
-    from umform.materials import Material
+    from umform.materials import Material, Metal
     from umform.materials.j2 import Plastic
+    from umform.model import Model
+    from umform.problem.problem import Problem
+    from umform.processes.draw.press import Press
     from umform.solution.options import NewtonOptions
     from umform.steps import Pace
 
@@ -98,6 +101,28 @@ class Draw:
     def record(self) -> dict[str, Any]:
         """All parameters by name."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    def problem(self) -> Problem:
+        """The computed part of the blank in its tools: held, drawn, released."""
+        raise NotImplementedError
+
+    def build(self) -> tuple[Model, Press]:
+        """Model of the computed part, and the steps of the press."""
+        from umform.processes.draw.press import Press
+
+        made = self.problem().build()
+        return made.model, Press.of(made.steps)
+
+    def _sheet(self) -> dict[str, Any]:
+        """Tables of the element, the law and the options of the solution."""
+        from umform.problem.material_keys import law_keys
+        from umform.processes.draw.press import solution
+
+        return {
+            "element": {"name": self.element, "thickness_points": self.thickness_points},
+            "material": law_keys(cast("Metal", self.material), "x"),
+            "solution": solution(self.newton),
+        }
 
     @cached_property
     def needed_layers(self) -> int:

@@ -1,4 +1,4 @@
-"""A U-bend in plane strain: parameters, strip, tools, model and steps."""
+"""A U-bend in plane strain: parameters, strip, tools and steps."""
 
 from __future__ import annotations
 
@@ -14,8 +14,7 @@ from umform.spec.types import ContactPoints, Force, Friction, Length, Penalty
 
 if TYPE_CHECKING:
     from umform.mesh import Mesh, Sizes
-    from umform.model import Model
-    from umform.processes.draw.press import Press
+    from umform.problem.problem import Problem
     from umform.solution.options import NewtonOptions
 
 #: Tools and blank of the NUMISHEET benchmark 93.
@@ -157,51 +156,71 @@ class UBend(Draw):
         spacing = math.radians(self.turn) * (radius + 0.5 * self.thickness) / chords
         return allowed_penetration(spacing, radius, self.thickness)
 
-    def blank(self) -> Mesh:
-        """Half of a strip of unit width, its lower face at z = 0."""
+    def problem(self) -> Problem:
+        """Half of the blank in its tools: held, drawn, released."""
         import numpy as np
 
-        from umform.elements import element
-        from umform.mesh import grid
-
-        heights = np.linspace(0.0, self.thickness, self.stacked + 1)
-        return grid(self.sizes.ends, (0.0, 1.0), heights, element(self.element).cell)
-
-    def build(self) -> tuple[Model, Press]:
-        """Model of half of the blank, and the press with its steps."""
-        import numpy as np
-
-        from umform.model import Model
-        from umform.processes.draw.press import Press, held_by
-        from umform.surfaces import Box, Plane, UDie
+        from umform.problem.problem import Problem
+        from umform.processes.draw.press import press_steps, pressed
 
         t = self.thickness
-        points = {} if self.thickness_points is None else {"thickness_points": self.thickness_points}
-        rolling = {"rolling": (1.0, 0.0, 0.0)} if getattr(self.material, "directional", False) else {}
-        model = Model(self.blank(), self.element, material=self.material, **points, **rolling)  # type: ignore[arg-type]
-        model.symmetry("x0", "x")
-        model.fix(np.arange(len(model.mesh.points)), "y")
         deep = 2.0 * self.way + 20.0 * t
-        edges, flat = self._contacts()
-        die = model.tool("die", UDie(self.throat, deep, self.die_edge, self.die_edge))
-        model.contact("lower", die, name="on_die", **edges)
-        holder = model.tool("holder", Plane((0.0, 0.0, t), (0.0, 0.0, -1.0)))
-        hold = held_by(model, holder, 0.5 * self.holder_force / self.width, blocks=False)
-        under = model.contact("upper", holder, name="under_holder", **flat)
-        under.allowed = None  # it does not grow, see _HOLDER
-        punch = Box((0.0, 0.0, t + deep), (self.punch_width, 10.0 * t + 100.0, 2.0 * deep), self.punch_edge)
-        ram = model.tool("punch", punch)
-        model.contact("upper", ram, name="under_punch", **edges)
-        stroke = model.drive(ram, "-z", name="stroke")
-        gauge = model.hold_rigid(lambda x, y, z: x < 1e-9, name="gauge")
-        return model, Press(hold, stroke, self.way, gauge, pace=self.pace)
+        force = 0.5 * self.holder_force / self.width
+        rule = {"points": self.contact_points, "friction": self.friction}
+        given = self.penalty is not None
+        edges = rule | ({"penalty": self.penalty} if given else {"penetration": self.allowed})
+        flat = rule | ({"penalty": _HOLDER * self.penalty} if given else {"penetration": _GIVEN_WAY * t})  # type: ignore[operator]
+        tables = {
+            "title": "A U-bend",
+            "mesh": {
+                "generator": "grid",
+                "x": self.sizes.ends.tolist(),
+                "y": (0.0, 1.0),
+                "z": np.linspace(0.0, t, self.stacked + 1).tolist(),
+            },
+            **self._sheet(),
+            "tools": {
+                "die": {
+                    "shape": "UDie",
+                    "opening": self.throat,
+                    "depth": deep,
+                    "shoulder_radius": self.die_edge,
+                    "bottom_radius": self.die_edge,
+                    "shared": True,
+                },
+                "holder": {"shape": "Plane", "point": (0.0, 0.0, t), "normal": "-z", "shared": True},
+                "punch": {
+                    "shape": "Box",
+                    "centre": (0.0, 0.0, t + deep),
+                    "size": (self.punch_width, 10.0 * t + 100.0, 2.0 * deep),
+                    "radius": self.punch_edge,
+                    "shared": True,
+                },
+            },
+            "contacts": {
+                "on_die": {"tool": "die", "faces": "lower", **edges},
+                "under_holder": {"tool": "holder", "faces": "upper", **flat, "allowed": "any"},  # see _HOLDER
+                "under_punch": {"tool": "punch", "faces": "upper", **edges},
+            },
+            "supports": [
+                {"kind": "symmetry", "nodes": "x0", "normal": "x"},
+                {"kind": "fix", "nodes": {"min": [-math.inf] * 3}, "directions": "y"},
+                {"kind": "rigid", "name": "gauge", "nodes": "x0"},
+            ],
+            "controls": {
+                **pressed("under_holder", force, blocks=False),
+                "stroke": {"kind": "tool", "contact": "under_punch", "direction": "-z"},
+            },
+            "steps": press_steps(
+                force, self.way, self.pace, (("on_die", "under_holder", "under_punch"),), blocks=False
+            ),
+        }
+        about = "Half of a U-bend in plane strain, 1 mm of its width: held, drawn, released. Units: mm, N, MPa."
+        return Problem.of(tables, [about])
 
-    def _contacts(self) -> tuple[dict[str, Any], dict[str, Any]]:
-        """Settings of the contacts with the edges of punch and die, and with the holder."""
-        rule: dict[str, Any] = {"points": self.contact_points, "friction": self.friction}
-        if self.penalty is None:
-            return rule | {"penetration": self.allowed}, rule | {"penetration": _GIVEN_WAY * self.thickness}
-        return rule | {"penalty": self.penalty}, rule | {"penalty": _HOLDER * self.penalty}
+    def blank(self) -> Mesh:
+        """Half of a strip of unit width, its lower face at z = 0."""
+        return self.problem().sheet().mesh
 
     @property
     def parts(self) -> float:

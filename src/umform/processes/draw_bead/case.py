@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from umform.elements import rolling_at
 from umform.model import Model
 from umform.processes.draw_bead.limits import Limits
 from umform.processes.draw_bead.measures import Drawn
+from umform.processes.draw_bead.problem import problem_of
 from umform.processes.draw_bead.spec import DrawBead
 from umform.processes.limit import FINER, Limit
 from umform.progress import Show, parts, progress_bar
 from umform.run import solve
-from umform.steps import Move, Step
+from umform.steps import Step
 
 #: Margin of the penalty that follows from a coarser mesh.
 _MARGIN = 1.2
@@ -21,22 +21,9 @@ FRAMES = 12
 
 
 def build(case: DrawBead) -> tuple[Model, list[Step]]:
-    """Model of a case, and its steps: the upper tool closes while the right end is held, then this end is drawn.
-
-    The sheet flows in from the left, where its end is free.
-    """
-    direction = None if case.rolling is None else rolling_at(case.rolling)
-    model = Model(case.sheet(), case.element, material=case.material, rolling=direction)
-    model.fix(lambda x, y, z: y > -1.0, "y")
-    pull = model.prescribe("x1", "x", "way")
-    given = {"points": case.contact_points, "friction": case.friction, "penalty": case.penalty}
-    lower, upper = model.tool("lower_tool", case.lower_tool), model.tool("upper_tool", case.upper_tool)
-    down = model.drive(upper, "-z", name="closing")
-    model.contact("lower", lower, name="below", **given)  # type: ignore[arg-type]
-    model.contact("upper", upper, name="above", **given)  # type: ignore[arg-type]
-    for pair in model.contacts:
-        pair.allowed = case.allowed
-    return model, [Move(down, to=case.closing), Move(pull, to=case.way)]
+    """Model of a case, and its steps."""
+    made = problem_of(case).build()
+    return made.model, made.steps
 
 
 def extrapolated(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", progress: Show = None) -> Drawn:

@@ -17,7 +17,6 @@ from umform.spec.types import ContactPoints, Friction, Length, Penalty, Rolling
 if TYPE_CHECKING:
     from umform.elements.technology import Element
     from umform.materials import J2, Metal
-    from umform.mesh import Mesh
     from umform.surfaces import Extruded, Profile, UDie
 
 #: Range of the radii in thicknesses: sharper ones crush the sheet, larger ones are no bead.
@@ -157,19 +156,11 @@ class DrawBead:
         """Allowed penetration: half the rise of an arc over an element, 1/200 of the thickness at least. eq. (4.190)"""
         return allowed_penetration(self.size, min(self.radius, self.groove_radius), self.thickness)
 
-    def sheet(self) -> Mesh:
-        """A strip of the width one; its right end lies beside the groove, its left end is drawn up to there."""
-        import numpy as np
-
-        from umform.elements import element
-        from umform.mesh import strip
-
-        right = self.reach + 6.0 * self.thickness
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Where the strip lies along x: its right end beside the groove, its left end is drawn up to there."""
         left = -(self.reach + 4.0 * self.thickness + self.way + 2.0 * self.height)
-        flat = strip(
-            right - left, 1.0, self.thickness, (round((right - left) / self.size), 1), cell=element(self.element).cell
-        )
-        return flat.transformed(lambda x: x + np.array([left, 0.0, 0.5 * self.thickness]))
+        return left, self.reach + 6.0 * self.thickness
 
 
 def _check_geometry(case: DrawBead) -> None:

@@ -23,8 +23,9 @@ if TYPE_CHECKING:
 _DATA = ("hem.json", "curve.csv", "profile.csv", "hem.vtkhdf")
 _PICTURES = ("hem.png", "hem.svg")
 _PAGE = "report.html"
+_DECKS = ("bend1.toml", "hem.toml")
 #: Files of a hem.
-FILES = (*_DATA, *_PICTURES, _PAGE)
+FILES = (*_DATA, *_DECKS, *_PICTURES, _PAGE)
 RESULTS = FILES
 
 
@@ -34,7 +35,8 @@ def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:
     Parameters
     ----------
     out : str or Path
-        Folder for hem.json, curve.csv, profile.csv, hem.vtkhdf, hem.png, hem.svg and report.html.
+        Folder for hem.json, curve.csv, profile.csv, hem.vtkhdf, hem.png, hem.svg and report.html, and for bend1.toml
+        and hem.toml, the decks of its operations.
     hem : Hem
         The hem.
     note : str
@@ -49,7 +51,9 @@ def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:
         write_csv(here / "curve.csv", {"stroke": hem.stroke, "force": hem.force})
         write_csv(here / "profile.csv", {"x": hem.profile[:, 0], "z": hem.profile[:, 1]})
         hem.result.write(here / "hem.vtkhdf")
-        files = stage.commit(_DATA)
+        for name, text in hem.decks().items():
+            (here / name).write_text(text, encoding="utf-8")
+        files = stage.commit([*_DATA, *_DECKS])
         figure = picture(hem)
         for name in _PICTURES:
             save(figure, here / name)

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.problem.problem import Problem
 from umform.processes.air_bending.section import Section
-from umform.processes.bend_sequence.part import Part
+from umform.processes.bend_sequence.part import Part, after
 from umform.processes.bend_sequence.sides import Strip
 from umform.processes.hemming.spec import Hemming
 from umform.run import Result
@@ -71,6 +72,8 @@ class Hem:
         Warnings.
     result : Result
         History and frames of the flattening.
+    problem : Problem
+        The flattening as a problem of its own.
     """
 
     case: Hemming
@@ -81,6 +84,12 @@ class Hem:
     strip: Strip
     warnings: tuple[str, ...]
     result: Result
+    problem: Problem
+
+    def decks(self) -> dict[str, str]:
+        """Decks of bend and flattening by the names of their files: `umform run` of both repeats the runs."""
+        decks = self.first.decks()
+        return decks | {"hem.toml": self.problem.toml(after(*decks))}
 
     @property
     def stages(self) -> dict[str, Result]:

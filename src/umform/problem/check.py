@@ -1,0 +1,178 @@
+"""Checks of a problem before its solution: supports, gaps, units, element sizes, thickness, effort."""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from umform.errors import NotFinite, RigidBodyMotion, SingularMatrix, ToolSwallowsSheet
+from umform.materials import Plastic
+from umform.model.contact.encounter import sheet_thickness
+from umform.problem.clearance import away, clearances
+from umform.problem.contents import Contents
+from umform.problem.controls import ControlPart, Displacement, Drive, MidLine, Moment, Press, Spring, Turn
+from umform.problem.findings import Finding, error, ok, warning
+from umform.problem.material import FromLibrary
+from umform.problem.placement import out_of_the_sheet
+from umform.problem.planes import planes
+from umform.problem.plausible import of_model
+from umform.problem.prepared import Prepared
+from umform.problem.problem import Problem
+from umform.problem.references import references
+from umform.problem.resolution import resolution
+from umform.problem.steps import Move
+from umform.run.loose import carried, carried_motions
+from umform.sheet_metals import get
+from umform.solution.newton import Newton
+from umform.surfaces import CadTool, Offset, Placed, Triangulated
+
+#: Mean number of iterations of an increment.
+_ITERATIONS = 4
+
+
+def check(deck: Problem, problem: Prepared) -> Iterator[Finding]:
+    """Check a problem without solving it.
+
+    Parameters
+    ----------
+    deck : Problem
+        The deck.
+    problem : Prepared
+        The problem of the deck; its model is unchanged.
+
+    Yields
+    ------
+    Finding
+        Errors: refused by `umform.solve`, or certainly a mistake; warnings: rules of thumb.
+    """
+    with np.errstate(all="ignore"):
+        yield supports(problem)
+        yield from before_run(deck, problem)
+        with carried(problem.model, problem.steps):
+            yield effort(deck.contents, problem)
+
+
+def before_run(deck: Problem, problem: Prepared) -> Iterator[Finding]:
+    """The fast part of :func:`check`, without the supports, which `umform.solve` checks."""
+    with np.errstate(all="ignore"):
+        for note in problem.notes:
+            yield ok("deck", note)
+        place = partial(out_of_the_sheet, deck.contents)
+        millimetres = isinstance(deck.contents.material, FromLibrary)
+        yield from of_model(problem.model, problem.steps, millimetres=millimetres, place=place)
+        yield from metal_of_thickness(deck, problem)
+        yield from resolution(deck, problem)
+        yield from clearances(deck, problem)
+        yield from away(deck, problem)
+        yield from drawings(problem)
+        yield from planes(deck.contents, problem.model)
+        yield from forming_limit(deck.contents, problem)
+        yield from idle(deck)
+
+
+def metal_of_thickness(deck: Problem, problem: Prepared) -> Iterator[Finding]:
+    """Warn if the standard of a metal of the library has other values for the thickness of the sheet."""
+    part = deck.contents.material
+    if not isinstance(part, FromLibrary):
+        return
+    thin, thick = get(part.library), get(part.library, sheet_thickness(problem.model.mesh) * (1.0 + 1e-9))
+    if thick is not thin:
+        values = f"R {thick.yield_stress:g}, Rm {thick.tensile_strength:g} MPa"
+        yield warning(
+            "material",
+            f"{thin.name} with Rm {thin.tensile_strength:g} MPa ({thin.basis}); {thick.basis}: {values}",
+            f'its curve as law = "J2": umform.sheet_metals.get("{thin.name}", thickness).law',
+        )
+
+
+def supports(problem: Prepared) -> Finding:
+    """Whether supports and tools leave a rigid-body motion free, or a tool overlaps the sheet too much."""
+    motions = carried_motions(problem.model, problem.steps)
+    if motions:
+        return ok("supports", f"free until tools hold the sheet, which rests on weak springs: {'; '.join(motions)}")
+    try:
+        problem.model.system.check()
+    except (RigidBodyMotion, ToolSwallowsSheet) as refusal:
+        text = "; ".join(part for part in (refusal.what, refusal.where, str(refusal.value or "")) if part)
+        return error("supports" if isinstance(refusal, RigidBodyMotion) else "tools", text, refusal.remedy)
+    return ok("supports", "no rigid-body motion is free")
+
+
+def drawings(problem: Prepared) -> Iterator[Finding]:
+    """Report on tools from drawings."""
+    for name, tool in problem.tools.items():
+        own: object = tool
+        while isinstance(own, Placed | Offset):
+            own = own.tool
+        if isinstance(own, CadTool | Triangulated):
+            yield ok(f"tool {name}", str(own))
+
+
+def forming_limit(contents: Contents, problem: Prepared) -> Iterator[Finding]:
+    """Refuse the curve of Keeler and Brazier without a flow curve that gives its n."""
+    if isinstance(contents.output.forming_limit, str) and not isinstance(problem.model.bodies.only.material, Plastic):
+        text = f"{contents.output.forming_limit} needs the hardening of one plastic material"
+        yield error("output", text, "forming_limit = [[-0.2, 0.5], [0.0, 0.3], [0.2, 0.4]], strains of a test")
+
+
+def idle(deck: Problem) -> Iterator[Finding]:
+    """Tools without contact, controls that no step moves."""
+    used = {(kind, name) for kind, name, _ in references(deck.source.data)}
+    for name in deck.contents.tools:
+        if ("tools", name) not in used:
+            yield warning(f"tool {name}", "no contact has it", "add a contact, or take it out")
+    for name, part in deck.contents.controls.items():
+        if ("controls", name) not in used:
+            yield unmoved(f"control {name}", part)
+    before = deck.contents.before
+    if before is not None and before.control is not None and ("controls", before.control) not in used:
+        text = "no step moves it to 0: forces of the operation before stay on the part as dead loads"
+        yield warning(f"control {before.control}", text, f"to = {{ {before.control} = 0.0 }} in the first step")
+
+
+def unmoved(about: str, part: ControlPart) -> Finding:
+    """What a control does that no step moves."""
+    add = "add it to a step"
+    if isinstance(part, Spring):
+        return ok(about, "a spring with its preload holds the tool; no step adds a force")
+    if isinstance(part, Press | Moment):
+        return warning(about, "no step applies it: nothing holds the tool", f"{add}; without it the tool is fixed")
+    if isinstance(part, Displacement | MidLine):
+        return warning(about, "no step moves it: it holds its nodes", f"{add}, or fix the nodes in [[supports]]")
+    still = "the tool stays where it is" if isinstance(part, Drive | Turn) else "it stays at 0"
+    return warning(about, f"no step moves it: {still}", f"{add}, or take it out")
+
+
+def effort(contents: Contents, problem: Prepared) -> Finding:
+    """Estimated time of the run, from one evaluation and one factorisation."""
+    model = problem.model
+    newton = Newton(model.system, problem.options, problem.solver)
+    try:
+        solver = newton.ready_solver()
+        seconds = np.inf
+        for _ in range(2):  # the first one is slow: new memory, lazy libraries
+            start = clock.perf_counter()
+            solver.factor(model.evaluate(model.system.x))
+            seconds = min(seconds, clock.perf_counter() - start)
+    except (SingularMatrix, NotFinite) as refusal:
+        remedy = "let tools touch the sheet at the start, or hold it"
+        return warning("effort", f"there is no tangent at the start: {refusal.what}", remedy)
+    finally:
+        model.system.revert()
+    increments = sum(step.expected for step in contents.steps)
+    adapts = any(isinstance(step, Move) and step.increments is None for step in contents.steps)
+    about = "at least" if adapts else "about"  # contact may halve an increment many times
+    text = (
+        f"{about} {increments} increments; {1e3 * seconds:.3g} ms an iteration with {solver.solver.name}: "
+        f"{about} {_spell(seconds * increments * _ITERATIONS)}"
+    ) + ("; an adaptive step may take several times as many" if adapts else "")
+    return ok("effort", text)
+
+
+def _spell(seconds: float) -> str:
+    if seconds < 120:
+        return f"{max(seconds, 1.0):.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"

@@ -1,0 +1,75 @@
+"""The tables of a deck, and their JSON schema for editors."""
+
+from __future__ import annotations
+
+import json
+from typing import Annotated
+
+from pydantic import Field
+
+from umform.problem.beads import BeadPart
+from umform.problem.before import Before, Cut, Placement
+from umform.problem.contacts import ContactPart
+from umform.problem.controls import ControlPart
+from umform.problem.element import ElementPart
+from umform.problem.material import MaterialPart
+from umform.problem.measures import AnyMeasure
+from umform.problem.mesh import MeshPart
+from umform.problem.parts import Name, Part, describe
+from umform.problem.settings import Output, Solution, Units
+from umform.problem.steps import StepPart
+from umform.problem.supports import Support
+from umform.problem.tools import ToolPart
+
+
+class Contents(Part):
+    """A problem of umform: mesh, material, element, tools, contacts, supports, controls, steps."""
+
+    title: str = ""
+    """Title of the problem."""
+    before: Before | None = None
+    """The previous operation, whose deck then defines mesh, material and element."""
+    trim: list[Cut] = []
+    """Cuts of the part of the previous operation, in order."""
+    placement: Placement | None = None
+    """Rigid motion of the part before the first step."""
+    mesh: MeshPart
+    """Points and cells."""
+    material: MaterialPart
+    """Material law."""
+    element: ElementPart = ElementPart()
+    """Element and points through the thickness."""
+    tools: dict[Name, ToolPart] = {}
+    """Rigid tools by name."""
+    contacts: dict[Name, ContactPart] = {}
+    """Contacts by name; the names are prefixes of history columns."""
+    beads: dict[Name, BeadPart] = {}
+    """Equivalent draw beads by name; the names are prefixes of history columns."""
+    supports: list[Support] = []
+    """Supports."""
+    controls: dict[Name, ControlPart] = {}
+    """Quantities that steps move, by name: displacements, loads, tools; the names are history columns."""
+    measures: dict[Name, AnyMeasure] = {}
+    """Measures of the part by name; the names are those of files and fields."""
+    units: Units = Units()
+    """Names of the units."""
+    steps: Annotated[list[StepPart], Field(min_length=1)]
+    """Steps of the run, in order."""
+    solution: Solution = Solution()
+    """Sparse solver and Newton's method."""
+    output: Output = Output()
+    """Files of the results."""
+
+
+def json_schema() -> str:
+    """JSON schema (draft 2020-12) of a deck."""
+    describe()
+    Contents.model_rebuild(force=True)
+    schema = Contents.model_json_schema()
+    head = {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "Deck of umform",
+        "description": schema.pop("description"),
+    }
+    schema.pop("title")
+    return json.dumps(head | schema, indent=1) + "\n"

@@ -1,0 +1,74 @@
+"""Deck and folders in a checkpoint, so that the checkpoint alone suffices to resume a run."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from umform.errors import FileProblem
+from umform.problem.problem import Problem
+from umform.run.checkpoint import read_note
+
+
+@dataclass(frozen=True)
+class Kept:
+    """A run of a deck with the options of the command line.
+
+    Attributes
+    ----------
+    deck : Problem
+        The deck, with its changes.
+    out : Path
+        Folder of the results.
+    solver : str or None
+        Another sparse solver than that of the deck.
+    """
+
+    deck: Problem
+    out: Path
+    solver: str | None = None
+
+    @property
+    def chosen_solver(self) -> str:
+        """The solver of the run."""
+        return self.solver or self.deck.contents.solution.solver
+
+    def note(self, checkpoint: Path) -> dict[str, Any]:
+        """Note for a checkpoint; folders also relative to it, in case all of them are moved."""
+        source, here = self.deck.source, checkpoint.parent
+        return {
+            "deck": source.written,
+            "name": source.name,
+            "changes": dict(source.changes),
+            "folder": str(source.folder.resolve()),
+            "folder_from_here": os.path.relpath(source.folder, here),
+            "out_from_here": os.path.relpath(self.out, here),
+            "solver": self.solver,
+        }
+
+    @classmethod
+    def read(cls, checkpoint: Path) -> Kept:
+        """Content of the note of a checkpoint.
+
+        Raises
+        ------
+        FileProblem
+            If it cannot be read, is no checkpoint, or was not written by a run of a deck.
+        DeckError
+            If the deck in it is no longer valid.
+        """
+        note = read_note(checkpoint)
+        if "deck" not in note:
+            raise FileProblem(
+                "the checkpoint has no deck",
+                where=str(checkpoint),
+                cause="it was written by umform.solve, and the model was built in Python",
+                remedy=f"build the model again and call umform.resume({str(checkpoint)!r}, model, steps)",
+            )
+        here, folder = checkpoint.parent, Path(note["folder"])
+        if not folder.is_dir():
+            folder = here / note["folder_from_here"]
+        deck = Problem.read(note["deck"], note["name"], folder, note["changes"])
+        return cls(deck, Path(os.path.normpath(here / note["out_from_here"])), note["solver"])

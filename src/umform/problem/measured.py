@@ -1,0 +1,131 @@
+"""Take all measures of a deck after its run, and write them: tables, pictures, a part of the report."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from umform.errors import UmformError
+from umform.io.tables import write_csv
+from umform.problem.measures.base import Formed, Measured, Row
+from umform.problem.prepared import Prepared
+from umform.problem.problem import Problem
+from umform.problem.unloading import loading_steps
+from umform.run import Result
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+#: Table of all numbers.
+TABLE = "measures.csv"
+#: Tables and pictures of single measures are named after them.
+_OF_ONE = "measure-{}"
+
+
+@dataclass(frozen=True)
+class Taken:
+    """The measures of a run by name; one that could not be taken is a warning of the run."""
+
+    measures: dict[str, Measured] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, deck: Problem, problem: Prepared, result: Result, *, complete: bool) -> Taken:
+        """Take the measures; maps add their fields to the frames.
+
+        Parameters
+        ----------
+        deck : Problem
+            The deck.
+        problem : Prepared
+            Its problem.
+        result : Result
+            Its run.
+        complete : bool
+            Whether the run has reached its end.
+        """
+        contents = deck.contents
+        if not contents.measures or not result.rows:
+            return cls()
+        tools: dict[str, str] = {}
+        for name, contact in contents.contacts.items():
+            tools.setdefault(contact.tool, name)
+        part = Formed.of(result, problem, loading_steps(contents), complete, units=contents.units, tools=tools)
+        measures = {}
+        for name, wanted in contents.measures.items():
+            try:
+                measures[name] = wanted.take(name, part)
+            except (UmformError, ArithmeticError, ValueError) as error:  # a measure must not lose the run
+                result.warn(f"measure {name} is left out: {error}")
+        return cls(measures)
+
+    @property
+    def rows(self) -> list[tuple[str, Row]]:
+        """All numbers, with the names of their measures."""
+        return [(name, row) for name, measured in self.measures.items() for row in measured.rows]
+
+    @property
+    def is_released(self) -> bool:
+        """Whether there is a number of a released part."""
+        return any(row.released is not None for _, row in self.rows)
+
+    @property
+    def table(self) -> list[list[str]]:
+        """Rows of text, behind a header; without the column of the released part if there is none."""
+        header = ["measure", "quantity", "formed", *(["released"] if self.is_released else []), "unit"]
+        rows = []
+        for name, row in self.rows:
+            values = [row.formed, row.released] if self.is_released else [row.formed]
+            texts = ("" if value is None else f"{value + 0.0:.5g}" for value in values)
+            rows.append([name, row.quantity, *texts, row.unit])
+        return [header, *rows]
+
+    def write(self, folder: Path) -> None:
+        """Write the table of all numbers, and that of each measure."""
+        if not self.measures:
+            return
+        names, rows = zip(*self.rows, strict=True)
+        columns = {key: [getattr(row, key) for row in rows] for key in ("quantity", "formed", "released", "unit")}
+        write_csv(folder / TABLE, {"measure": names, **columns})
+        for name, measured in self.measures.items():
+            write_csv(folder / f"{_OF_ONE.format(name)}.csv", measured.columns)
+
+    def draw(self, folder: Path) -> None:
+        """Write the picture of each measure."""
+        from umform.plotting import save
+
+        for name, figure in self.pictures.items():
+            save(figure, folder / f"{_OF_ONE.format(name)}.png", dpi=120)
+
+    @cached_property
+    def pictures(self) -> dict[str, Figure]:
+        """Pictures by the names of the measures, each drawn once."""
+        return {name: measured.picture() for name, measured in self.measures.items()}
+
+    def parts(self) -> Iterator[str]:
+        """The part of the report."""
+        if not self.measures:
+            return
+        from umform.report import parts
+
+        yield parts.heading("Measures")
+        header, *rows = self.table
+        yield parts.table(header, rows)
+        for name, measured in self.measures.items():
+            yield parts.figure(self.pictures[name], f"{name}: {measured.caption}")
+
+
+def data_files(*folders: Path) -> list[str]:
+    """Names of the tables of single measures in some folders; those of an earlier run too."""
+    return _named(folders, "csv")
+
+
+def picture_files(*folders: Path) -> list[str]:
+    """Names of the pictures, likewise."""
+    return _named(folders, "png")
+
+
+def _named(folders: tuple[Path, ...], kind: str) -> list[str]:
+    return sorted({file.name for folder in folders for file in folder.glob(_OF_ONE.format("*") + f".{kind}")})

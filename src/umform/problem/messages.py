@@ -1,0 +1,214 @@
+"""Errors of pydantic in the form of umform: place, value, cause and remedy."""
+
+from __future__ import annotations
+
+import re
+import types
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
+
+from pydantic import BaseModel, Tag, ValidationError
+from pydantic.fields import FieldInfo
+
+from umform.problem.contents import Contents
+from umform.problem.errors import ANY_CAUSE, ANY_REMEDY, DeckKey, nearest, shortened, slip
+from umform.problem.lines import Path
+from umform.problem.source import Source
+from umform.spec import sentences
+
+_UNIONS = (Union, types.UnionType)
+_BEYOND = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
+_CAUSES = dict.fromkeys(_BEYOND, "a sign, another unit, or a typing error") | {
+    "float_type": "a word or a truth value",
+    "int_type": "a fraction, a word or a truth value",
+    "finite_number": "inf or nan",
+    "string_type": "a value without quotes",
+    "string_pattern_mismatch": "a letter that does not belong there",
+    "too_long": "an entry too many, or a decimal comma, which makes two numbers of one",
+}
+_REMEDIES = dict.fromkeys(_BEYOND, "write a number within the bound") | {
+    "float_type": "write a number, without quotes",
+    "int_type": "write a whole number, without a point and without quotes",
+    "bool_type": "write true or false, without quotes",
+    "string_type": "write it in quotes",
+    "string_pattern_mismatch": "names begin with a letter and go on with letters, digits, _ and -; directions are "
+    "letters such as xz",
+    "tuple_type": "write an array: [0.0, 0.0, 1.0]",
+    "list_type": "write an array: [0.0, 1.0]",
+    "dict_type": "write a table: a header, or keys between braces",
+    "model_type": "write a table: a header, or keys between braces",
+    "model_attributes_type": "write a table: a header, or keys between braces",
+    "finite_number": "write a finite number",
+    "too_long": "numbers have a decimal point, entries a comma between them: [25.0, 0.5]",
+}
+
+
+def messages(error: ValidationError, source: Source) -> Iterator[DeckKey]:
+    """One error of umform for each one of pydantic.
+
+    Parameters
+    ----------
+    error : ValidationError
+        Of `Contents`.
+    source : Source
+        The deck.
+    """
+    for found in error.errors(include_url=False):
+        yield _message(found, source)
+
+
+def _message(found: Mapping[str, Any], source: Source) -> DeckKey:
+    loc, kind, given = found["loc"], found["type"], found["input"]
+    path = path_in(source.data, loc)
+    context = found.get("ctx") or {}
+    if kind == "extra_forbidden":
+        known = list(fields_at(loc[:-1]))
+        return DeckKey(
+            "this key is unknown here",
+            where=source.place(path),
+            value=shortened(given),
+            cause=slip(loc[-1], known, "it belongs to another table, or to another version"),
+            remedy=f"known keys: {', '.join(known)}",
+        )
+    if kind == "missing" and isinstance(loc[-1], int):
+        return DeckKey(
+            f"this array is too short: it has no entry {loc[-1]}",
+            where=source.place(path),
+            value=shortened(given),
+            cause="a number left out",
+            remedy="entries are counted from 0; " + ANY_REMEDY,
+        )
+    if kind == "missing":
+        sentence = sentences(part_at(loc[:-1])).get(str(loc[-1]), "")
+        return _missing(source, path, str(loc[-1]), sentence and f": {sentence}")
+    if kind in ("union_tag_not_found", "union_tag_invalid") or "key" in context:
+        return _wrong_kind(source, path, given, context)
+    words = _quoted(context.get("expected", ""))
+    return DeckKey(
+        _plain(found["msg"]),
+        where=source.place(path),
+        value=None if isinstance(given, dict) else shortened(given),
+        cause=slip(given, words) if words else _CAUSES.get(kind, ANY_CAUSE),
+        remedy="one of " + ", ".join(words) if words else _REMEDIES.get(kind, ANY_REMEDY),
+    )
+
+
+def _missing(source: Source, path: Path, key: str, meaning: str, cause: str = "it was left out") -> DeckKey:
+    return DeckKey(
+        f"the key {key} is missing{meaning}".rstrip("."),
+        where=source.place(path) if path else source.name,
+        cause=cause,
+        remedy=f"add {key} = ..." if path else f"add {key}",
+    )
+
+
+def _wrong_kind(source: Source, path: Path, given: Any, context: Mapping[str, Any]) -> DeckKey:
+    """A table whose kind is missing or unknown."""
+    key = str(context.get("key") or context.get("discriminator", "")).strip("'")
+    known = _quoted(str(context.get("expected_tags", "")))
+    if not isinstance(given, dict):
+        return DeckKey(
+            "this should be a table",
+            where=source.place(path),
+            value=shortened(given),
+            cause="a value where keys should be",
+            remedy=_REMEDIES["dict_type"],
+        )
+    if key not in given:
+        near = next((word for word in given if nearest(word, [key])), "")
+        cause = f"a typing error: {near} for {key}" if near else "it was left out"
+        return _missing(source, path, key, f", one of {', '.join(known)}" if known else "", cause)
+    return DeckKey(
+        f"this {key} is unknown",
+        where=source.place((*path, key)),
+        value=shortened(given[key]),
+        cause=slip(given[key], known),
+        remedy="one of " + ", ".join(known),
+    )
+
+
+def _plain(message: str) -> str:
+    return (
+        message.replace("Input should", "it should")
+        .replace("String should match pattern '^-?[xyz]$'", "it should be x, y, z, -x, -y or -z, or an array")
+        .replace("String should", "it should")
+        .replace(" after validation", "")
+        .replace("valid tuple", "valid array")
+        .replace("Tuple", "this array")
+        .replace("List", "this array")
+        .replace("valid dictionary", "table")
+    )
+
+
+def _quoted(text: str) -> list[str]:
+    return re.findall(r"'([^']*)'", text)
+
+
+def path_in(data: Any, loc: tuple[str | int, ...]) -> Path:
+    """Path in the data for a location of pydantic, without its tags of unions."""
+    path: Path = ()
+    kind: Any = Contents
+    for part in loc:
+        tag = get_origin(_bare(kind)) in _UNIONS
+        kind = _inside(kind, part)
+        if tag:
+            continue
+        there = isinstance(data, dict) and part in data
+        there = there or (isinstance(data, list) and isinstance(part, int) and 0 <= part < len(data))
+        if there:
+            path, data = (*path, part), data[part]
+    return path
+
+
+# Known keys ---------------------------------------------------------------------------------------------------
+
+
+def fields_at(loc: tuple[str | int, ...]) -> dict[str, FieldInfo]:
+    """Known keys at a location of pydantic."""
+    kind = part_at(loc)
+    return dict(kind.model_fields) if issubclass(kind, BaseModel) else {}
+
+
+def part_at(loc: tuple[str | int, ...]) -> type:
+    """Class of the table at a location of pydantic; `object` if there is none."""
+    kind: Any = Contents
+    for part in loc:
+        kind = _inside(kind, part)
+    kind = _bare(kind)
+    return kind if isinstance(kind, type) else object
+
+
+def _inside(kind: Any, part: str | int) -> Any:
+    """Type at a key, at an index of an array, or of the member of a union with a tag."""
+    kind = _bare(kind)
+    if isinstance(kind, type) and issubclass(kind, BaseModel):
+        field = kind.model_fields.get(str(part))
+        return field.annotation if field else None
+    arguments = get_args(kind)
+    if get_origin(kind) in _UNIONS:
+        return next((member for member in arguments if part in _tags(member)), None)
+    if get_origin(kind) is dict:
+        return arguments[1]
+    return arguments[0] if arguments else None
+
+
+def _bare(kind: Any) -> Any:
+    """A type without its annotations, and without the None of an optional one."""
+    while True:
+        if get_origin(kind) is Annotated:
+            kind = get_args(kind)[0]
+        elif get_origin(kind) in _UNIONS and type(None) in get_args(kind):
+            members = [member for member in get_args(kind) if member is not type(None)]
+            kind = members[0] if len(members) == 1 else Union[tuple(members)]  # noqa: UP007
+        else:
+            return kind
+
+
+def _tags(member: Any) -> set[object]:
+    """Words that distinguish a member of a union from the others."""
+    tags: set[object] = {note.tag for note in get_args(member)[1:] if isinstance(note, Tag)}
+    bare = _bare(member)
+    if not tags and isinstance(bare, type) and issubclass(bare, BaseModel):
+        literals = [field.annotation for field in bare.model_fields.values() if get_origin(field.annotation) is Literal]
+        tags |= {word for literal in literals for word in get_args(literal)}
+    return tags

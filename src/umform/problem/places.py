@@ -1,0 +1,65 @@
+"""Context for building a part of a deck: it collects errors with the place of the part."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from umform.errors import UmformError
+from umform.problem.errors import ANY_CAUSE, ANY_REMEDY, DeckKey
+from umform.problem.lines import Path
+from umform.problem.source import Source
+
+
+@dataclass(frozen=True)
+class Place:
+    """A block that may fail: its error is collected, with its place in the deck, or raised, see `Source.made`."""
+
+    path: Path
+    source: Source
+    errors: list[UmformError]
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> bool:
+        if self.source.made:
+            return False
+        if isinstance(error, UmformError):
+            self._place(error)
+            self.errors.append(error)
+        elif isinstance(error, ArithmeticError | ValueError | MemoryError):
+            unusable = DeckKey(
+                "nothing can be built from this",
+                where=self.source.place(self.path),
+                cause=str(error) or type(error).__name__,
+                remedy="look at the size of its numbers",
+            )
+            self.errors.append(unusable)
+        else:
+            return False
+        return True
+
+    def _place(self, error: UmformError) -> None:
+        """Set the place in the deck; if the error names a key of the table, or its value, the place of that key."""
+        source, path = self.source, self.path
+        error.cause, error.remedy = error.cause or ANY_CAUSE, error.remedy or ANY_REMEDY
+        table = _value(source.data, path)
+        keys = table if isinstance(table, dict) else {}
+        last = error.where.rpartition(".")[2]
+        plain = isinstance(error.value, str | int | float)  # arrays are not compared
+        named = [last] if last in keys else [key for key, given in keys.items() if plain and given == error.value]
+        if named and isinstance(keys[named[0]], str | int | float):
+            error.where = source.place((*path, named[0]))
+        else:
+            inner = f" ({error.where})" if error.where and error.where != path[-1] else ""
+            error.where = source.place(path) + inner
+
+
+def _value(data: Any, path: Path) -> Any:
+    for part in path:
+        try:
+            data = data[part]
+        except (KeyError, IndexError, TypeError):
+            return None
+    return data

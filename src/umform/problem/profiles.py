@@ -1,0 +1,152 @@
+"""The profiles of a deck: sections of tools, by corners with radii or by segments."""
+
+from __future__ import annotations
+
+from pathlib import Path as File
+from typing import Annotated, Any, Literal
+
+from pydantic import Discriminator, Field, Tag
+
+from umform import surfaces
+from umform.problem.parts import NotNegative, Pair, Part, Positive, number_or_array
+from umform.surfaces import Profile
+
+
+class Line(Part):
+    """Straight segment."""
+
+    kind: Literal["line"]
+    """The word line."""
+    start: Pair
+    """First end."""
+    end: Pair
+    """Second end."""
+
+    def build(self) -> surfaces.Line:
+        """The segment."""
+        return surfaces.Line(self.start, self.end)
+
+
+class Arc(Part):
+    """Circular segment; where start and end are the same it is the whole circle."""
+
+    kind: Literal["arc"]
+    """The word arc."""
+    start: Pair
+    """First end."""
+    end: Pair
+    """Second end."""
+    centre: Pair
+    """Centre, at the same distance from both ends."""
+    clockwise: bool = False
+    """Turns to the right: a concave arc."""
+
+    def build(self) -> surfaces.Arc:
+        """The segment."""
+        return surfaces.Arc(self.start, self.end, self.centre, self.clockwise)
+
+
+Segment = Annotated[Line | Arc, Field(discriminator="kind")]
+Radii = Annotated[
+    Annotated[NotNegative, Tag("number")] | Annotated[list[NotNegative], Tag("array")], Discriminator(number_or_array)
+]
+
+
+class ByCorners(Part):
+    """Lines between rounded corners; the solid is on the left of the direction of travel."""
+
+    corners: Annotated[list[Pair], Field(min_length=2, max_length=1000)]
+    """Corners in order."""
+    radii: Radii = 0.0
+    """Radius at all corners, or at each of them."""
+    closed: bool = True
+    """The last corner is followed by the first."""
+
+    def build(self, folder: File = File()) -> Profile:
+        """The profile."""
+        del folder
+        return Profile.from_corners(self.corners, self.radii, self.closed)
+
+
+class BySegments(Part):
+    """Lines and arcs, one after the other; the solid is on the left of the direction of travel."""
+
+    segments: Annotated[list[Segment], Field(min_length=1, max_length=1000)]
+    """In order, each starting where the previous one ends."""
+    closed: bool = True
+    """The end of the last one is the start of the first one."""
+
+    def build(self, folder: File = File()) -> Profile:
+        """The profile."""
+        del folder
+        return Profile([segment.build() for segment in self.segments], self.closed)
+
+
+class FromDxf(Part):
+    """The lines and arcs of a DXF drawing."""
+
+    file: Annotated[str, Field(min_length=1)]
+    """Path, from the folder of the deck."""
+    layer: str | None = None
+    """The layer with the section; by default all of the drawing is the section."""
+    solid: Literal["inside", "outside", "below", "above", "left", "right"] | None = None
+    """Where the solid is: inside or outside of a closed section, by default inside; below, above, left or right of an
+    open one, by default below."""
+    origin: Pair = (0.0, 0.0)
+    """Point of the drawing that becomes the origin of the section."""
+    unit: Literal["mm", "cm", "m", "um", "in", "ft"] = "mm"
+    """Unit of the model."""
+    tolerance: Positive = 1e-3
+    """Ends nearer than this are one point; arcs deviate by at most this from ellipses and splines."""
+
+    def build(self, folder: File = File()) -> Profile:
+        """The profile."""
+        return Profile.from_dxf(
+            folder / self.file,
+            self.layer,
+            solid=self.solid,
+            origin=self.origin,
+            unit=self.unit,
+            tolerance=self.tolerance,
+        )
+
+
+_KEYS = {"corners": ByCorners, "segments": BySegments, "file": FromDxf}
+
+
+def _kind(value: Any) -> str | None:
+    if isinstance(value, str):
+        return "name"
+    if isinstance(value, dict):
+        return next((key for key in _KEYS if key in value), None)
+    return next((key for key, kind in _KEYS.items() if isinstance(value, kind)), None)
+
+
+ProfilePart = Annotated[
+    Annotated[ByCorners, Tag("corners")]
+    | Annotated[BySegments, Tag("segments")]
+    | Annotated[FromDxf, Tag("file")]
+    | Annotated[str, Field(min_length=1), Tag("name")],
+    Discriminator(
+        _kind,
+        custom_error_type="profile",
+        custom_error_message="a profile has corners, segments or file, or is the name of a DXF file",
+    ),
+]
+
+
+def profile_of(part: ProfilePart, folder: File) -> Profile:
+    """The profile; a name alone means a drawing that contains only the section."""
+    return (FromDxf(file=part) if isinstance(part, str) else part).build(folder)
+
+
+def profile_table(profile: Profile) -> dict[str, Any]:
+    """The table of a profile: its lines and arcs; no drawing is needed beside it."""
+    return {"segments": [_segment(segment) for segment in profile.segments], "closed": profile.closed}
+
+
+def _segment(segment: surfaces.Line | surfaces.Arc) -> dict[str, Any]:
+    ends = {"start": segment.start, "end": segment.end}
+    if isinstance(segment, surfaces.Arc):
+        return {"kind": "arc", **ends, "centre": segment.centre, "clockwise": bool(segment.clockwise)}
+    return {"kind": "line", **ends}

@@ -1,0 +1,91 @@
+"""Settings of the solution, and the output."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BeforeValidator, Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from umform.problem.parts import Pair, Part, Positive
+from umform.solution.options import NewtonOptions
+
+
+def _order(value: object) -> object:
+    """Order of the extrapolation: true is 1, false 0."""
+    return int(value) if isinstance(value, bool) else value
+
+
+class Solution(Part):
+    """Sparse solver and Newton's method."""
+
+    solver: Annotated[str, Field(min_length=1)] = "auto"
+    """auto, multifrontal, banded, pardiso, superlu, or petsc for many ranks."""
+    residual: Positive = 1e-9
+    """Tolerance of the residual, relative to the element forces."""
+    increment: Positive = 1e-6
+    """Tolerance of the increment, relative to the largest displacement."""
+    max_iterations: Annotated[int, Field(ge=1, le=1000)] = 25
+    """Largest number of iterations before an increment is cut."""
+    line_search: bool | None = None
+    """Shorten increments that are too long; default: if a law has a history."""
+    extrapolate: Annotated[Literal[0, 1, 2], BeforeValidator(_order)] = 1
+    """Start an increment from the tangent (0), or from a line (1) or a parabola (2) through the last states."""
+    keep: bool = False
+    """Start an increment with the contact points of the last one, also where they have opened: for drawing."""
+    mixed: bool | None = None
+    """Geometric stiffness of the stress predicted by the last increment; default: for elastic sheets."""
+    rest: Literal["auto", "off", "on"] | Positive = "auto"
+    """Springs under an initially loose sheet: auto where needed, off, on, or their total stiffness."""
+
+    def build(self) -> NewtonOptions:
+        """Options of Newton's method."""
+        return NewtonOptions(**self.model_dump(exclude={"solver", "rest"}))
+
+
+class Units(Part):
+    """Names of the units of a deck in tables and pictures of its measures; nothing is converted."""
+
+    length: str = ""
+    """Name of the unit of length."""
+    force: str = ""
+    """Name of the unit of force."""
+
+
+class Output(Part):
+    """Output files and folder."""
+
+    folder: Annotated[str, Field(min_length=1)] | None = None
+    """Folder, relative to the working directory; by default results/ and the name of the deck."""
+    frames: Annotated[int, Field(ge=1, le=100_000)] = 60
+    """Approximate number of states that each step keeps for pictures and fields."""
+    csv: bool = True
+    """History as history.csv."""
+    vtkhdf: bool = True
+    """Fields as fields.vtkhdf."""
+    report: bool = True
+    """A page, report.html."""
+    pictures: bool = True
+    """Force over displacement as curve.png, the final shape as shape.png."""
+    state: bool = False
+    """Final state as state.h5, the start of a deck with a table before."""
+    forming: bool = False
+    """Strains of both skins and of the middle, thinning and wrinkling among the fields."""
+    forming_limit: Literal["Keeler-Brazier"] | list[Pair] | None = None
+    """Forming limit: logarithmic minor and major strains, the minor ones ascending, or Keeler-Brazier (of the thickness
+    in mm and the hardening of a plastic material); adds the margin as a field."""
+
+    @model_validator(mode="after")
+    def _ascending(self) -> Output:
+        if self.forming_limit is None or isinstance(self.forming_limit, str):
+            return self
+        minor = [pair[0] for pair in self.forming_limit]
+        if len(minor) < 2 or sorted(set(minor)) != minor:
+            text = "a forming limit has two points or more, pairs of minor and major strain, the minor ones ascending"
+            raise PydanticCustomError("forming_limit", text)
+        from umform.results.forming.limits import LARGEST_STRAIN  # NumPy loads slowly
+
+        if any(abs(strain) > LARGEST_STRAIN for pair in self.forming_limit for strain in pair):
+            text = "the strains of a forming limit are logarithmic, not per cent: 0.262 = ln(1.3) for 30 %"
+            raise PydanticCustomError("forming_limit", text)
+        return self

@@ -1,0 +1,165 @@
+"""The text of a deck: read, parse, change; and the place of each key."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path as File
+from typing import Any
+
+from umform.errors import FileProblem
+from umform.problem.errors import DeckError, DeckKey, shortened, written
+from umform.problem.lines import Path, lines_of, nearest_line
+from umform.problem.material_keys import written_out
+from umform.problem.syntax import no_toml
+from umform.problem.written import deck_text, plain
+
+#: Keys of a sheet metal of the library.
+_OF_A_METAL = ("material.library", "material.rolling", "material.law")
+
+
+@dataclass(frozen=True)
+class Source:
+    """The source of a deck.
+
+    Attributes
+    ----------
+    name : str
+        Of the file, for messages.
+    folder : pathlib.Path
+        Folder of other files.
+    text : str
+        The text.
+    data : dict
+        Parsed data, with the changes.
+    lines : dict of path to int
+        Line of each key.
+    changes : dict of str to object
+        Keys whose values differ from the text.
+    remarks : tuple of str
+        Paragraphs at the head of the text of a problem that was made, not read.
+    made : bool
+        Whether the data were made by a program: their errors are raised one by one, as they are.
+    """
+
+    name: str
+    folder: File
+    text: str
+    data: dict[str, Any]
+    lines: Mapping[Path, int]
+    changes: Mapping[str, Any]
+    remarks: tuple[str, ...] = ()
+    made: bool = False
+
+    @property
+    def written(self) -> str:
+        """The text as it was read, without the changes, or that of the data.
+
+        Raises
+        ------
+        InvalidValue
+            A value that was made by a program has no notation in TOML.
+        """
+        return deck_text(self.data, self.remarks) if self.made else self.text
+
+    def place(self, path: Path) -> str:
+        """File, line and key of a path."""
+        line = nearest_line(self.lines, path)
+        parts = [self.name, f"line {line}" if line else "", written(path)]
+        return ", ".join(part for part in parts if part)
+
+
+def read_file(path: str | File) -> str:
+    """Text of a deck.
+
+    Raises
+    ------
+    FileProblem
+        If there is no such file, or it is no text.
+    """
+    path = File(path)
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise FileProblem(
+            "the deck is no text",
+            where=str(path),
+            value=f"byte {error.start}",
+            cause="another kind of file, or text that is not UTF-8",
+            remedy="save it as UTF-8; umform new lists templates",
+        ) from None
+    except (OSError, ValueError) as error:
+        cause = getattr(error, "strerror", None) or str(error)
+        remedy = "look at the path; umform new lists templates"
+        raise FileProblem("the deck cannot be read", where=str(path), cause=cause, remedy=remedy) from None
+
+
+def parse(text: str, name: str, folder: File, changes: Mapping[str, Any] | None = None) -> Source:
+    """Parse a deck.
+
+    Parameters
+    ----------
+    text : str
+        TOML.
+    name : str
+        Of the file, for messages.
+    folder : pathlib.Path
+        Folder of other files.
+    changes : mapping of str to object, optional
+        Other values of some keys: ``{"steps.0.increments": 3}``.
+
+    Raises
+    ------
+    DeckError
+        If the text is not valid TOML, or a changed key does not exist.
+    """
+    try:
+        data = tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise DeckError([no_toml(text, name, error)]) from None
+    change(data, changes or {})
+    return Source(name, folder, text, data, lines_of(text), dict(changes or {}))
+
+
+def change(data: dict[str, Any], changes: Mapping[str, Any]) -> None:
+    """Give keys of parsed data other values, in place; a key of the law of a library metal writes the law out.
+
+    Raises
+    ------
+    DeckError
+        If a key does not exist.
+    """
+    if any(key.startswith("material.") and key not in _OF_A_METAL for key in changes):
+        data["material"] = plain(written_out(data.get("material")))
+    wrong = [problem for key, value in changes.items() if (problem := _change(data, key, value))]
+    if wrong:
+        raise DeckError(wrong)
+
+
+def _change(data: dict[str, Any], key: str, value: Any) -> DeckKey | None:
+    """Give a key another value."""
+    holder: Any = data
+    *way, last = key.split(".")
+    for number, part in enumerate(way):
+        if isinstance(holder, list) and part.isdecimal() and int(part) < len(holder):
+            holder = holder[int(part)]
+        elif isinstance(holder, dict) and part in holder:
+            holder = holder[part]
+        elif isinstance(holder, dict) and number == len(way) - 1:
+            holder = holder.setdefault(part, {})
+        else:
+            holder = None
+    if isinstance(holder, dict):
+        holder[last] = value
+    elif isinstance(holder, list) and last.isdecimal() and int(last) < len(holder):
+        holder[int(last)] = value
+    else:
+        return DeckKey(
+            "a changed key is nowhere in the deck",
+            where=key,
+            value=shortened(value),
+            cause="a number beyond the end of a list, or a value that holds no keys",
+            remedy="write the way from the outside inwards, entries of lists by number from 0: steps.0.increments",
+        )
+    return None

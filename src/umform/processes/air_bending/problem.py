@@ -1,0 +1,94 @@
+"""The problem of a bend: what a deck of it holds."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from umform.model import Model
+from umform.model.control import Control
+from umform.problem.material_keys import law_keys
+from umform.problem.problem import Problem
+from umform.problem.profiles import profile_table
+from umform.processes.air_bending.brake import OPTIONS, loading, unloading_keys
+from umform.processes.air_bending.goal import needed_stroke
+from umform.processes.air_bending.sheet import lines_of
+from umform.processes.air_bending.spec import AirBending
+
+
+def build(case: AirBending) -> tuple[Model, Control]:
+    """Model of a case, and the control that moves the punch down."""
+    made = problem_of(case, case.way).build()
+    return made.model, made.controls["stroke"]
+
+
+def problem_of(case: AirBending, stroke: float | None = None) -> Problem:
+    """Half of the sheet in its tools: down by a stroke, by default that of the case, and back to zero force.
+
+    Raises
+    ------
+    InvalidValue
+        There is no stroke.
+    """
+    stroke = needed_stroke(case) if stroke is None else stroke
+    if case.width is None:
+        modelled, kind = case.thickness, "in plane strain"
+    else:
+        modelled, kind = 0.5 * case.width, f"{case.width:g} mm wide"
+    remarks = [
+        f"Air bending of a sheet of {case.thickness:g} mm, {kind}, over an opening of {case.opening:g} mm: down by "
+        f"{stroke:.6g} mm, and back to zero force. Units: mm, N, MPa.",
+        f"Half of the sheet, {modelled:g} mm of its width: the force for each mm of the bend is stroke_force times "
+        f"{2.0 / modelled:.6g}.",
+    ]
+    moves = [{"kind": "move", "to": {"stroke": end}, "increments": count} for end, count in loading(case, stroke)]
+    tables = {
+        "title": "Air bending",
+        "mesh": {"generator": "grid", **dict(zip("xyz", (line.tolist() for line in lines_of(case)), strict=True))},
+        "element": {
+            "name": case.element,
+            "thickness_points": case.thickness_points,
+            "plane_strain": case.plane_strain,
+        },
+        "material": law_keys(case.material, None if case.rolling is None else {"angle": float(case.rolling)}),
+        "tools": {"die": _die(case), "punch": _punch(case)},
+        "contacts": {"die": _contact(case, "die", "lower"), "punch": _contact(case, "punch", "upper")},
+        "supports": [{"kind": "symmetry", "nodes": "x0", "normal": "x"}, _across(case)],
+        "controls": {"stroke": {"kind": "tool", "contact": "punch", "direction": "-z"}},
+        "steps": [*moves, {"kind": "release", "control": "stroke", **unloading_keys(case)}],
+        "solution": {
+            "residual": OPTIONS.residual,
+            "increment": OPTIONS.increment,
+            "line_search": OPTIONS.line_search,
+            "extrapolate": OPTIONS.extrapolate,
+        },
+    }
+    return Problem.of(tables, remarks)
+
+
+def _contact(case: AirBending, tool: str, faces: str) -> dict[str, Any]:
+    pressed = case.bottoming and tool == "punch"
+    how = {"penalty": case.penalty, "penetration": case.penetration, "points": case.contact_points}
+    return {"tool": tool, "faces": faces, **how, "may_bottom": pressed or None}
+
+
+def _die(case: AirBending) -> dict[str, Any]:
+    if case.die_section is not None:
+        return {"shape": "Extruded", "profile": profile_table(case.die_section.profile)}
+    return {"shape": "VDie", "opening": case.opening, "angle": case.die_angle, "shoulder_radius": case.die_radius}
+
+
+def _punch(case: AirBending) -> dict[str, Any]:
+    if case.punch_section is not None:
+        shape: dict[str, Any] = {"shape": "Extruded", "profile": profile_table(case.punch_section.profile)}
+    else:
+        tip = {"tip_radius": case.punch_radius, "angle": case.punch_angle, "width": case.punch_width}
+        shape = {"shape": "Punch", **tip}
+    return {**shape, "origin": case.punch.origin}
+
+
+def _across(case: AirBending) -> dict[str, Any]:
+    """Supports along the bend."""
+    if case.width is None:
+        everywhere = {"min": [-float("inf")] * 3}
+        return {"kind": "fix", "nodes": everywhere, "directions": "y"}
+    return {"kind": "symmetry", "nodes": "y0", "normal": "y"}

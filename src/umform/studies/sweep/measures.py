@@ -1,0 +1,162 @@
+"""Measures of a job: numbers of its history, springback, and user-defined functions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import InvalidValue
+from umform.problem.errors import slip
+from umform.report.symmetry import mirrors, with_images
+from umform.results.forming import lay_by_best_fit
+from umform.run import Result
+
+#: A user-defined function: a number from a result. Other processes must be able to import it.
+Function = Callable[[Result], float]
+#: Record of a job, as JSON.
+Record = Mapping[str, Any]
+
+_SPRINGBACK = "springback"
+#: Columns of the history whose last values do not characterise a part.
+_COUNTS = ("step", "time", "iterations")
+_STATS: dict[str, Callable[[NDArray[np.float64]], float]] = {
+    "last": lambda column: float(column[-1]),
+    "min": lambda column: float(column.min()),
+    "max": lambda column: float(column.max()),
+    "peak": lambda column: float(column[np.abs(column).argmax()]),
+    "sum": lambda column: float(column.sum()),
+}
+
+
+@dataclass(frozen=True)
+class Measure:
+    """A column of the table of a sweep.
+
+    Attributes
+    ----------
+    name : str
+        Its name in the table.
+    column, stat : str
+        Column of the history and its statistic; empty for springback and for functions.
+    """
+
+    name: str
+    column: str = ""
+    stat: str = ""
+
+    @classmethod
+    def of(cls, wanted: str | Function) -> Measure:
+        """The measure for ``punch_force:max``, ``punch_force`` or ``springback``, or a function.
+
+        Raises
+        ------
+        InvalidValue
+            An unknown word after the colon.
+        """
+        if not isinstance(wanted, str):
+            return cls(wanted.__name__)
+        column, colon, stat = wanted.partition(":")
+        if wanted == _SPRINGBACK:
+            return cls(wanted)
+        if colon and stat not in _STATS:
+            raise InvalidValue(
+                "this measure is unknown",
+                where="measure",
+                value=wanted,
+                cause=slip(stat, _STATS, "an unknown word behind the colon"),
+                remedy=f"write COLUMN or COLUMN:{', COLUMN:'.join(_STATS)}; peak is that of the largest magnitude",
+            )
+        return cls(column if stat == "last" else wanted, column, stat or "last")
+
+    def value(self, record: Record) -> float | None:
+        """The number of a finished job.
+
+        Raises
+        ------
+        InvalidValue
+            The history has no such column, or the job has no springback.
+        """
+        if self.column:
+            history = record["history"]
+            if self.column not in history:
+                raise InvalidValue(
+                    "the history has no such column",
+                    where="measure",
+                    value=self.column,
+                    cause=slip(self.column, history),
+                    remedy=f"one of {', '.join(history)}; finished jobs are kept: run the sweep again",
+                )
+            found: float | None = history[self.column][self.stat]
+            return found
+        if self.name == _SPRINGBACK and record[_SPRINGBACK] is None:
+            raise InvalidValue(
+                "a sweep without unloading has no springback",
+                where="measure",
+                value=self.name,
+                cause="no step of the kind release or free after another step",
+                remedy="add such a step to the deck, or leave the measure out",
+            )
+        number: float | None = record[_SPRINGBACK] if self.name == _SPRINGBACK else record["functions"][self.name]
+        return number
+
+
+def usual(records: Sequence[Record]) -> list[Measure]:
+    """Default measures: peaks of the forces of controls, springback, last values of the history."""
+    if not records:
+        return []
+    controls = dict.fromkeys(name for record in records for name in record["controls"])
+    columns = list(dict.fromkeys(name for record in records for name in record["history"]))
+    measures = [Measure.of(f"{name}_force:peak") for name in controls]
+    if any(record[_SPRINGBACK] is not None for record in records):
+        measures.append(Measure(_SPRINGBACK))
+    columns = [name for name in columns if name not in _COUNTS]
+    return [*measures, *(Measure.of(name) for name in columns), Measure.of("iterations:sum")]
+
+
+def stats(result: Result) -> dict[str, dict[str, float | None]]:
+    """Last value, extremes and sum of each column of the history; None where it is not finite."""
+    return {
+        name: {stat: _finite(function(column)) for stat, function in _STATS.items()}
+        for name, column in result.table().items()
+    }
+
+
+def springback(result: Result, unloading: int) -> float | None:
+    """Largest displacement of a node by unloading, after the best fit of the part into its loaded shape. eq. (5.67)
+
+    Parameters
+    ----------
+    result : Result
+        A run with a frame at the end of each step.
+    unloading : int
+        The first step that unloads, counted from 1.
+
+    Returns
+    -------
+    float or None
+        In units of length. For a modelled half or quarter, the whole part is fitted. None without a loading step
+        before.
+    """
+    steps = [int(result.rows[frame.number]["step"]) for frame in result.frames]
+    before = [number for number, step in enumerate(steps) if 0 < step < unloading]
+    if not before:
+        return None
+    X = result.model.mesh.points
+    loaded = X + result.frames[before[-1]].points["displacement"]
+    left = X + result.model.u.reshape(-1, 3)
+    planes = mirrors(result.model)
+    return lay_by_best_fit(with_images(left, planes), with_images(loaded, planes)).largest
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def number_of(function: Function, result: Result) -> float | None:
+    """Value of a user-defined function for a result."""
+    return _finite(float(function(result)))

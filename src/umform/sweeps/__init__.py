@@ -1,5 +1,0 @@
-"""Sweeps: run a deck over values of some of its keys, in parallel, with one table and one plot."""
-
-from umform.sweeps.study import Sweep, sweep
-
-__all__ = ["Sweep", "sweep"]

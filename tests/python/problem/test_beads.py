@@ -1,0 +1,67 @@
+"""Draw beads in decks."""
+
+import numpy as np
+
+from umform.problem import Problem
+
+BEADED = """
+[mesh]
+generator = "strip"
+length = 30.0
+width = 2.0
+thickness = 1.0
+cells = [12, 1]
+[material]
+law = "SVK"
+E = 210e3
+nu = 0.3
+[tools.bed]
+shape = "Plane"
+point = [0, 0, -0.5]
+normal = [0, 0, 1]
+[contacts.bed]
+tool = "bed"
+faces = "lower"
+penalty = 1e3
+[beads.front]
+contact = "bed"
+curve = [[9, -9, -0.5], [9, 9, -0.5]]
+restraint = 30.0
+width = 6.0
+[[supports]]
+kind = "fix"
+nodes = { min = [-1, -9, -9], max = [99, 9, 9] }
+directions = "yz"
+[controls.pull]
+kind = "displacement"
+nodes = "x1"
+direction = "x"
+[[steps]]
+kind = "move"
+to = { pull = 0.5 }
+increments = 4
+"""
+
+
+def test_a_deck_with_a_bead_is_solved():
+    result = Problem.read(BEADED, "deck.toml").build().solve()
+    np.testing.assert_allclose(result["pull_force"][1:], 60.0, rtol=2e-3)
+    np.testing.assert_allclose(result["front_restraint"][-1], 60.0, rtol=2e-3)
+
+
+def test_faces_of_a_bead_are_those_of_its_contact_or_its_own():
+    problem = Problem.read(BEADED, "deck.toml").build()
+    (bead,) = problem.model.system.others
+    np.testing.assert_array_equal(bead.faces, problem.contacts["bed"].faces)
+    fewer = BEADED.replace("width = 6.0", "width = 6.0\nfaces = { min = [-1, -9, -9], max = [20, 9, -0.4] }")
+    (bead,) = Problem.read(fewer, "deck.toml").build().model.others
+    assert 0 < len(bead.faces) < 12
+
+
+def test_a_bead_of_no_contact_a_negative_one_and_one_beside_its_tool_are_named(errors):
+    (error,) = errors(BEADED.replace('contact = "bed"', 'contact = "bad"'))
+    assert "no contact of this name" in error.what and "line 21, beads.front.contact" in error.where
+    (error,) = errors(BEADED.replace("restraint = 30.0", "restraint = -30.0"))
+    assert "line 23, beads.front.restraint" in error.where
+    (error,) = errors(BEADED.replace("[9, -9, -0.5]", "[9, -9, -9.5]"))
+    assert "beside its tool" in error.what and "beads.front" in error.where

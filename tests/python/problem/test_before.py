@@ -1,0 +1,186 @@
+"""Decks of several operations: the second one begins with the state of the first, trims it, and goes on."""
+
+from __future__ import annotations
+
+import csv
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import umform as uf
+from umform import cli
+from umform.errors import UmformError
+from umform.problem import load
+
+FIXED = """
+[[supports]]
+kind = "fix"
+nodes = "x0"
+"""
+SLIDING = "".join(
+    f"""
+[[supports]]
+kind = "symmetry"
+nodes = "{nodes}"
+normal = "{normal}"
+"""
+    for nodes, normal in (("x0", "x"), ("y0", "y"), ("lower", "z"))
+)
+OUTPUT = """
+[output]
+state = true
+report = false
+pictures = false
+vtkhdf = false
+"""
+SECOND = """
+[before]
+deck = "draw.toml"
+state = "draw/state.h5"
+control = "cut"
+
+[[trim]]
+line = { corners = [[4.0, -1.0], [4.0, 3.0]], closed = false }
+formed = false
+
+[[supports]]
+kind = "rigid"
+name = "gauge"
+
+[[steps]]
+kind = "move"
+to = { cut = 0.0 }
+increments = 2
+"""
+
+
+def first(strip):
+    """The strip of a metal that flows, whose state is kept."""
+    changes = {
+        FIXED: SLIDING,
+        "[4, 2]": "[5, 1]",
+        '"SVK"': '"J2"',
+        "nu = 0.3": 'nu = 0.3\nhardening = { curve = "Linear", yield_stress = 160.0, modulus = 500.0 }',
+        "to = { pull = 0.1 }\nincrements = 2": "to = { pull = 0.04 }\nincrements = 3",
+    }
+    for old, new in changes.items():
+        assert old in strip
+        strip = strip.replace(old, new)
+    return strip + OUTPUT
+
+
+def umform(*words):
+    return CliRunner().invoke(cli.app, [str(word) for word in words])
+
+
+@pytest.fixture(scope="module")
+def finished(strip, tmp_path_factory):
+    """Folder with both decks, and what a run of the first one has written."""
+    folder = tmp_path_factory.mktemp("operations")
+    (folder / "draw.toml").write_text(first(strip))
+    (folder / "trim.toml").write_text(SECOND + OUTPUT)
+    answer = umform("run", folder / "draw.toml", "--out", folder / "draw")
+    assert answer.exit_code == 0, answer.output
+    assert (folder / "draw" / "state.h5").exists()
+    return folder
+
+
+@pytest.fixture
+def drawn(finished, tmp_path):
+    """A copy of it, to be changed."""
+    return Path(shutil.copytree(finished, tmp_path, dirs_exist_ok=True))
+
+
+def test_a_deck_goes_on_where_another_has_ended(drawn):
+    answer = umform("run", drawn / "trim.toml", "--out", drawn / "trim")
+    assert answer.exit_code == 0, answer.output
+    assert "trim 1: 2 cells are left" in answer.output
+    problem = load(drawn / "trim.toml").build()
+    result = problem.solve(progress=False)
+    assert result["cut"].tolist() == [1.0, 0.5, 0.0]
+    first = load(drawn / "draw.toml").build().solve(progress=False)
+    part = uf.Trim([(4.0, -1.0), (4.0, 3.0)], formed=False).of(first)
+    gauge = part.model.hold_rigid(name="gauge")
+    part.model.put_back(gauge)
+    expected = uf.solve(part.model, uf.Move(part.model.unbalanced("cut"), 0.0, steps=2), frames=0)
+    np.testing.assert_array_equal(problem.model.u, expected.model.u)
+    np.testing.assert_array_equal(result["elastic_energy"], expected["elastic_energy"])
+    assert result["elastic_energy"][-1] < 1e-8 * result["elastic_energy"][0]
+
+
+def test_a_trimmed_part_is_measured_before_and_after_its_forces_have_gone(drawn):
+    measure = '\n[measures.along]\nkind = "section"\n[measures.fit]\nkind = "gauge"\n'
+    (drawn / "measured.toml").write_text(SECOND + measure + OUTPUT)
+    answer = umform("run", drawn / "measured.toml", "--out", drawn / "measured")
+    assert answer.exit_code == 0, answer.output
+    with (drawn / "measured" / "measures.csv").open() as file:
+        rows = {row["quantity"]: row for row in csv.DictReader(file)}
+    along = rows["length of the mid-surface"]
+    assert float(along["released"]) < float(along["formed"])  # the pulled strip springs back
+    assert float(rows["largest distance from the gauge"]["released"]) > 0.0
+
+
+def test_what_was_cut_off_is_said_of_a_run_that_ends_early_too(drawn):
+    text = SECOND.replace("to = { cut = 0.0 }", "to = { cut = -1e9 }\ncuts = 0")
+    (drawn / "early.toml").write_text(text)
+    with pytest.raises(UmformError) as caught:
+        load(drawn / "early.toml").build().solve(progress=False)
+    assert any("trim 1: 2 cells are left" in event for event in caught.value.result.events)
+
+
+def test_a_third_operation_and_a_run_that_was_stopped(drawn):
+    assert umform("run", drawn / "trim.toml", "--out", drawn / "trim").exit_code == 0
+    third = (SECOND + OUTPUT).replace('"draw.toml"', '"trim.toml"').replace('"draw/', '"trim/')
+    third = third.replace("[4.0, -1.0], [4.0, 3.0]", "[2.0, -1.0], [2.0, 3.0]")
+    (drawn / "again.toml").write_text(third)
+    deck = load(drawn / "again.toml")
+    assert len(deck.sheet().mesh.connectivity) == 1
+    checkpoint = drawn / "kept.h5"
+    answer = umform("run", drawn / "again.toml", "--out", drawn / "again", "--checkpoint", checkpoint)
+    assert answer.exit_code == 0, answer.output
+    resumed = umform("resume", checkpoint, "--out", drawn / "resumed")
+    assert resumed.exit_code == 0, resumed.output
+    whole, taken_up = (drawn / name / "history.csv" for name in ("again", "resumed"))
+    assert whole.read_text() == taken_up.read_text()
+
+
+def test_decks_cannot_be_before_each_other(tmp_path):
+    table = '[before]\ndeck = "{}.toml"\nstate = "state.h5"\ncontrol = "cut"\n'
+    for name, other in (("a", "b"), ("b", "c"), ("c", "a")):
+        (tmp_path / f"{name}.toml").write_text(table.format(other))
+    with pytest.raises(UmformError, match=r"(?s)operation before itself.*c.toml"):
+        load(tmp_path / "a.toml")
+
+
+def test_a_state_is_that_of_a_run_to_the_end(drawn):
+    (drawn / "draw" / "state.h5").unlink()
+    answer = umform("run", drawn / "draw.toml", "--set", "solution.max_iterations=1", "--out", drawn / "failed")
+    assert answer.exit_code == 1
+    assert not (drawn / "failed" / "state.h5").exists()
+
+
+@pytest.mark.parametrize(
+    ("deck", "change", "said"),
+    [
+        ("trim", ('deck = "draw.toml"', 'deck = "trim.toml"'), "operation before itself"),
+        ("trim", ('state = "draw/', 'state = "nowhere/'), "has left no state"),
+        ("trim", ("[[trim]]", "[element]\n[[trim]]"), "element is that of the deck before"),
+        ("trim", ("[4.0, -1.0], [4.0, 3.0]", "[40.0, -1.0], [40.0, 3.0]"), "cuts nothing off"),
+        ("trim", ("formed = false", 'view = "r"'), "trim"),
+        ("trim", ('kind = "rigid"\nname = "gauge"', 'kind = "fix"\nnodes = "x1"'), "cut off"),
+        ("trim", ("to = { cut = 0.0 }", "to = { cur = 0.0 }"), "did you mean cut"),
+        ("draw", ("cells = [5, 1]", "cells = [6, 1]"), "belongs to another model"),
+        ("draw", ("modulus = 500.0", "modulus = 400.0"), "material of the run: other than in the deck"),
+        ("trim", ("[before]", "[befor]"), "names none"),
+    ],
+)
+def test_mistakes_are_named(drawn, deck, change, said):
+    path = drawn / f"{deck}.toml"
+    assert change[0] in path.read_text()
+    path.write_text(path.read_text().replace(*change))
+    with pytest.raises(UmformError) as caught:
+        load(drawn / "trim.toml").build()
+    assert said in str(caught.value)

@@ -1,0 +1,153 @@
+"""Decks of several operations: contact points keep their friction through a cut."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from umform.errors import UmformError
+from umform.problem import load
+from umform.problem.before import write_state
+
+#: Tool and contact of both operations.
+TOOL = """
+[tools.plane]
+shape = "Plane"
+point = [0.0, 0.0, -0.5]
+normal = [0.0, 0.0, 1.0]
+
+[contacts.die]
+tool = "plane"
+faces = "lower"
+friction = 0.3
+penalty = 1e4
+"""
+FIRST = (
+    TOOL
+    + """
+[mesh]
+generator = "strip"
+length = 10.0
+width = 2.0
+thickness = 1.0
+cells = [10, 1]
+
+[material]
+law = "SVK"
+E = 210e3
+nu = 0.3
+
+[[supports]]
+kind = "fix"
+nodes = "upper"
+directions = "y"
+
+[controls.down]
+kind = "displacement"
+nodes = "upper"
+direction = "z"
+
+[controls.aside]
+kind = "displacement"
+nodes = "upper"
+direction = "x"
+
+[[steps]]
+kind = "move"
+to = { down = -1e-3 }
+increments = 1
+
+[[steps]]
+kind = "move"
+to = { aside = -0.03 }
+increments = 2
+
+[[steps]]
+kind = "move"
+to = { aside = -0.0299 }
+increments = 1
+"""
+)
+SECOND = (
+    TOOL
+    + """
+[before]
+deck = "press.toml"
+state = "state.h5"
+control = "cut"
+keep = ["die"]
+
+[[trim]]
+line = { corners = [[7.3, -1.0], [7.3, 3.0]], closed = false }
+formed = false
+edge = "EDGE"
+
+[[supports]]
+kind = "fix"
+nodes = "upper"
+
+[[steps]]
+kind = "move"
+to = { cut = 0.0 }
+increments = 1
+"""
+)
+
+
+@pytest.fixture(scope="module")
+def pressed(tmp_path_factory):
+    """A folder with the first deck and its state; and its contact at the end."""
+    folder = tmp_path_factory.mktemp("friction")
+    (folder / "press.toml").write_text(FIRST)
+    deck = load(folder / "press.toml")
+    problem = deck.build()
+    problem.solve(progress=False)
+    write_state(problem.model, folder / "state.h5", deck.source.data)
+    return folder, problem.contacts["die"].found
+
+
+@pytest.mark.parametrize(("edge", "same"), [("line", 6), ("elements", 7)])
+def test_a_tool_that_stays_keeps_its_friction(pressed, edge, same):
+    folder, before = pressed
+    (folder / "trim.toml").write_text(SECOND.replace("EDGE", edge))
+    problem = load(folder / "trim.toml").build()
+    assert ("fitted to the line" in problem.notes[0]) == (edge == "line")
+    die = problem.contacts["die"]
+    found = problem.model.evaluate(problem.model.system.x).found[die]
+    points = same * die.block.per_facet
+    np.testing.assert_allclose(found.friction[:points], before.friction[:points], rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(found.slip[:points], before.slip[:points], rtol=1e-9)
+    assert before.slip[:points].min() > 0.02
+    result = problem.solve(progress=False)
+    assert result["cut"][-1] == 0.0
+
+
+def test_a_tool_that_stays_keeps_the_penalty_that_has_grown(tmp_path):
+    """Its points carry what they carried; with the estimate they would carry less."""
+    first = FIRST.replace("penalty = 1e4\n", "").replace("down = -1e-3", "down = -6e-3")
+    (tmp_path / "press.toml").write_text(first)
+    deck = load(tmp_path / "press.toml")
+    problem = deck.build()
+    problem.solve(progress=False)
+    write_state(problem.model, tmp_path / "state.h5", deck.source.data)
+    before = problem.contacts["die"]
+    (tmp_path / "trim.toml").write_text(SECOND.replace("penalty = 1e4\n", "").replace("EDGE", "elements"))
+    problem = load(tmp_path / "trim.toml").build()
+    die = problem.contacts["die"]
+    assert die.penalty == before.penalty > 1.1 * die.initial_penalty
+    points = 7 * die.block.per_facet
+    found = problem.model.evaluate(problem.model.system.x).found[die]
+    np.testing.assert_allclose(found.pressure[:points], before.found.pressure[:points], rtol=1e-9)
+    problem.solve(progress=False)
+    assert die.penalty >= before.penalty
+
+
+def test_a_contact_that_keeps_nothing_is_refused(pressed):
+    folder, _ = pressed
+    (folder / "other.toml").write_text(SECOND.replace("EDGE", "line").replace('keep = ["die"]', 'keep = ["punch"]'))
+    with pytest.raises(UmformError, match=r"(?s)no contact with friction.*punch.*one of die"):
+        load(folder / "other.toml").build()
+    text = SECOND.replace("EDGE", "line").replace("contacts.die", "contacts.base")
+    (folder / "renamed.toml").write_text(text)
+    with pytest.raises(UmformError, match=r"(?s)no contact that keeps.*die.*one of base"):
+        load(folder / "renamed.toml").build()

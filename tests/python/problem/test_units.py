@@ -1,0 +1,99 @@
+"""Units: what is unusual is a warning, what no metal sheet comes near to an error."""
+
+import pytest
+
+from umform.problem import DeckError
+from umform.problem.findings import Level, accept, error, ok, warning
+from umform.problem.plausible import of_model
+from umform.processes.air_bending import AirBending
+from umform.processes.air_bending.problem import build
+
+OK, WARNING, ERROR = [Level.OK], [Level.WARNING], [Level.ERROR]
+
+
+def levels(findings):
+    return [finding.level for finding in findings]
+
+
+def plastic(E, hardening):
+    return {"law": "J2", "E": E, "nu": 0.3, "hardening": hardening}
+
+
+def test_moduli_and_lengths(strip, found):
+    assert levels(found(strip, "units")) == OK
+    (pascal,) = found(strip, "units", material__E=210e9)
+    assert pascal.level is Level.WARNING
+    assert "Pa with mm" in pascal.text
+    (giga,) = found(strip, "units", material__E=210.0)
+    assert giga.level is Level.WARNING
+    assert "GPa with mm" in giga.text
+    small = {"mesh__length": 0.01, "mesh__width": 0.002, "mesh__thickness": 0.001}
+    (metres,) = found(strip, "units", **small)
+    assert "MPa with m?" in metres.text
+    assert levels(found(strip, "units", material__E=210e9, **small)) == OK
+
+
+@pytest.mark.parametrize(
+    ("E", "yield_stress", "level"),
+    [
+        (210e3, 160.0, None),
+        (210e9, 160e6, None),
+        (210e3, 2.0, Level.ERROR),
+        (210.0, 160.0, Level.ERROR),  # E in GPa
+        (210e3, 0.2, Level.ERROR),  # yield stress in GPa
+        (210e3, 10.0, Level.WARNING),
+        (2.1e3, 160.0, Level.WARNING),
+    ],
+)
+def test_yield_stress_against_the_modulus(E, yield_stress, level, strip, found):
+    material = plastic(E, {"curve": "Perfect", "yield_stress": yield_stress})
+    told = [finding for finding in found(strip, "units", material=material) if "first yield" in finding.text]
+    assert levels(told) == ([] if level is None else [level])
+
+
+@pytest.mark.parametrize(("end", "level"), [(0.2, None), (3.0, Level.WARNING), (20.0, Level.ERROR)])
+def test_a_curve_in_per_cent(end, level, strip, found):
+    curve = {"curve": "Table", "eqps": [0.0, 0.5 * end, end], "stress": [200.0, 300.0, 350.0]}
+    told = [
+        finding for finding in found(strip, "material", material=plastic(210e3, curve)) if "per cent" in finding.text
+    ]
+    assert levels(told) == ([] if level is None else [level])
+
+
+@pytest.mark.parametrize(("width", "level"), [(2.0, Level.OK), (0.05, Level.WARNING), (0.002, Level.ERROR)])
+def test_a_side_against_the_thickness(width, level, strip, found):
+    (told,) = found(strip, "sheet", mesh__width=width)
+    assert told.level is level
+
+
+def test_a_metal_of_the_library_has_its_units(strip, found):
+    thin = {"mesh__length": 0.06, "mesh__width": 0.01, "mesh__thickness": 0.001}
+    told = found(strip, "units", material={"library": "DC04"}, **thin)[0]
+    assert told.level is Level.ERROR
+    assert "lengths are in mm" in told.text
+    assert found(strip, "units", material={"library": "DC04"})[0].level is Level.OK
+
+
+def test_the_modulus_of_a_bend_is_in_MPa():
+    from umform.materials import J2, Perfect
+
+    for E, yield_stress in ((210.0, 0.2), (210e9, 160e6)):
+        model, _ = build(AirBending(stroke=6.0, material=J2(E=E, nu=0.3, hardening=Perfect(yield_stress))))
+        assert Level.ERROR in levels(of_model(model, millimetres=True))
+    model, _ = build(AirBending(stroke=6.0))
+    assert set(levels(of_model(model, millimetres=True))) == {Level.OK}
+
+
+def test_a_stiff_penalty(texts, found):
+    stiff = found(texts("free-bending"), "contact cylinder", contacts__cylinder__penalty=1e9)
+    assert Level.WARNING in levels(stiff)
+
+
+def test_errors_are_refused_together_unless_forced():
+    findings = [ok("a", "fine"), warning("b", "odd", "look"), error("c", "off", "mend"), error("d", "wild", "tame")]
+    with pytest.raises(DeckError) as caught:
+        accept(findings)
+    assert [(told.where, told.what) for told in caught.value.errors] == [("c", "off"), ("d", "wild")]
+    assert all("--force" in told.remedy for told in caught.value.errors)
+    assert [line.split(":")[0] for line in accept(findings, force=True)] == ["b", "c", "d"]
+    assert len(accept(findings[:2])) == 1

@@ -1,0 +1,130 @@
+"""The problem of each process: it is written, read and run with the history of the process, to the last bit."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import umform as uf
+from umform.errors import InvalidValue
+from umform.problem import DeckError, Problem, load, running
+from umform.problem.templates import template_file
+from umform.processes.air_bending import AirBending, air_bending
+from umform.processes.bend_sequence import bend_sequence
+from umform.processes.bend_sequence.spec import Bend, BendSequence
+from umform.processes.draw.case import draw
+from umform.processes.draw.cup import ESAFORM, Cup
+from umform.processes.draw.u_bend import NUMISHEET, UBend
+from umform.processes.draw_bead.case import drawn_through
+from umform.processes.draw_bead.spec import DrawBead
+from umform.processes.hemming import Hemming, hemming
+from umform.processes.hemming.spec import ACUTE
+from umform.processes.problems import problem_of
+
+METAL = uf.sheet_metals.get("DC04").law
+CUP = Cup(**ESAFORM | Cup.meshes["coarse"] | {"stroke": 2.0}, material=METAL)
+U = UBend(**NUMISHEET | UBend.meshes["coarse"] | {"stroke": 8.0}, material=METAL)
+BEND = AirBending(stroke=1.0, layers=1, elements_per_thickness=1.0)
+
+
+@pytest.mark.parametrize("case", [CUP, replace(CUP, holder_force=None), U], ids=["cup", "cup-fixed", "u"])
+def test_the_deck_of_a_drawn_part_repeats_its_history(case):
+    drawn = draw(case, frames=0, progress=False)
+    again = Problem.read(problem_of(case).toml()).build().solve(progress=False)
+    held = len(drawn.result["time"])
+    for name in ("stroke", "punch_fz", "holder_fz", "on_die_penetration"):
+        assert drawn.result[name].tolist() == again[name][:held].tolist(), name
+    assert drawn.released is not None
+    assert drawn.released.model.u.tolist() == again.model.u.tolist()
+
+
+def test_the_deck_of_a_bead_repeats_its_history():
+    case = DrawBead(radius=4.0, height=2.0, elements=2.0, element="BEND8", material=METAL)
+    drawn = drawn_through(case, frames=0, progress=False)
+    again = Problem.read(problem_of(case).toml()).build().solve(progress=False)
+    assert drawn.result.table().keys() == again.table().keys()
+    assert all(column.tolist() == again[name].tolist() for name, column in drawn.result.table().items())
+
+
+def repeated(decks, folder, monkeypatch):
+    """Results of decks that are run one after the other."""
+    monkeypatch.chdir(folder)
+    for name, text in decks.items():
+        (folder / name).write_text(text)
+    for name in decks:
+        deck = load(name, {f"output.{file}": False for file in ("csv", "vtkhdf", "report", "pictures")})
+        yield running.run(deck, running.prepared(deck, "auto"), progress=False).result
+
+
+def test_the_decks_of_bends_and_a_hem_repeat_their_histories(tmp_path, monkeypatch):
+    sheet = replace(ACUTE, layers=1, elements_per_thickness=1.0, increment=0.025)
+    hem = hemming(Hemming(base=13.0, sheet=sheet, increments=12), frames=1, progress=False)
+    runs = [hem.first.bends[0].result, hem.result]
+    for run, again in zip(runs, repeated(hem.decks(), tmp_path, monkeypatch), strict=True):
+        assert run.table().keys() == again.table().keys()
+        assert all(column.tolist() == again[name].tolist() for name, column in run.table().items())
+
+
+def test_the_deck_of_a_bend_that_is_turned_over_repeats_its_history(tmp_path, monkeypatch):
+    sheet = AirBending(thickness=1.0, opening=8.0, die_radius=1.0, layers=1, elements_per_thickness=1.0)
+    bends = Bend(20.0, stroke=1.0), Bend(40.0, stroke=1.0, direction="down")
+    part = bend_sequence(BendSequence(60.0, bends, sheet), frames=1, progress=False)
+    assert list(part.decks()) == ["bend1.toml", "bend2.toml"]
+    for done, again in zip(part.bends, repeated(part.decks(), tmp_path, monkeypatch), strict=True):
+        assert done.result["stroke_force"].tolist() == again["stroke_force"].tolist()
+        assert done.result.model.u.tolist() == again.model.u.tolist()
+    with pytest.raises(InvalidValue, match="a deck names the files of the operation before"):
+        part.bends[1].problem.toml()
+
+
+def test_a_path_changes_a_number_and_the_mesh_follows():
+    problem = problem_of(BEND)
+    numbers = {one.path: one for one in problem.paths()}
+    assert numbers["tools.die.shoulder_radius"].value == BEND.die_radius
+    assert numbers["material.hardening.exponent"].value == BEND.material.hardening.exponent
+    assert numbers["steps.0.cuts"].sentence == "How often an increment may be halved."
+    assert not [path for path in numbers if path.startswith("output.")]
+    changed = problem.with_({"tools.die.shoulder_radius": 2.1, "steps.0.to.stroke": 0.4}, same_topology=True)
+    assert changed.contents.tools["die"].shoulder_radius == 2.1
+    assert "stroke = 0.4" in changed.toml() and "stroke = 0.4" not in problem.toml()
+    strip = Problem.read(template_file("cantilever").read_text())
+    longer = strip.with_({"mesh.length": 11.0}, same_topology=True)
+    assert np.ptp(longer.sheet().mesh.points[:, 0]) == 11.0
+    with pytest.raises(InvalidValue, match="the mesh has another topology with this value") as refused:
+        strip.with_({"mesh.cells.0": 3}, same_topology=True)
+    assert refused.value.where == "mesh.cells.0"
+    with pytest.raises(DeckError) as nowhere:
+        strip.with_({"mesh.cells.7": 3})
+    assert nowhere.value.errors[0].where == "mesh.cells.7"
+
+
+def test_a_path_into_a_metal_of_the_library_writes_its_law_out():
+    text = '[mesh]\ngenerator="strip"\nlength=9.0\nwidth=1.0\nthickness=1.0\ncells=[2,1]\n[material]\nlibrary="DC04"\n'
+    text += '[controls.pull]\nkind="displacement"\nnodes="x1"\ndirection="x"\n[[steps]]\nkind="move"\nto={pull=0.1}\n'
+    problem = Problem.read(text)
+    path = next(one for one in problem.paths() if one.path.startswith("material.hardening."))
+    changed = problem.with_({path.path: 1.01 * path.value})
+    key = path.path.rpartition(".")[2]
+    law, known = changed.sheet().material, problem.sheet().material
+    assert getattr(law.hardening, key) == 1.01 * getattr(known.hardening, key)
+    assert replace(law, hardening=known.hardening) == known
+
+
+def test_a_problem_takes_an_element_of_python_that_no_deck_has_words_for():
+    own = replace(uf.elements.element("BEND8"), name="own")
+    problem = problem_of(replace(BEND, element=own))
+    assert problem.sheet().element.name == "own"
+    with pytest.raises(InvalidValue, match="a deck has no words for this value"):
+        problem.toml()
+
+
+def test_errors_of_a_made_problem_are_those_of_python():
+    with pytest.raises(uf.UmformError) as refused:
+        problem_of(replace(BEND, element="BEND81")).build()
+    assert "BEND81" in str(refused.value) and not isinstance(refused.value, DeckError)
+
+
+def test_the_history_of_a_bend_is_that_of_its_problem_in_python():
+    bend = air_bending(BEND, progress=False)
+    again = problem_of(BEND).build().solve(progress=False)
+    assert bend.result["stroke_force"].tolist() == again["stroke_force"].tolist()

@@ -1,0 +1,248 @@
+"""Sweeps of a small deck: table, failures, going on, executors."""
+
+import csv
+import json
+import pickle
+import signal
+from concurrent.futures import Executor, Future
+
+import numpy as np
+import pytest
+
+import umform as uf
+from umform.errors import InvalidValue
+from umform.problem import DeckError, load, running
+from umform.problem.templates import write_template
+from umform.results.history import History
+from umform.studies.sweep import jobs as jobs_module
+
+
+@pytest.fixture
+def ran(monkeypatch):
+    """What was run, and not only read from the disk."""
+    names, run_job = [], jobs_module.run_job
+    monkeypatch.setattr(jobs_module, "run_job", lambda job: names.append(dict(job.varied)) or run_job(job))
+    return names
+
+
+def sweep(deck, vary=None, **options):
+    return uf.sweep(deck, vary, **{"processes": 1, "progress": False} | options)
+
+
+def length(result):
+    return np.ptp(result.model.mesh.points[:, 0])
+
+
+def fails(result):
+    raise RuntimeError("this measure has a bug")
+
+
+def test_the_table_has_what_each_deck_gives_alone(deck):
+    vary = {"thickness": [1.0, 0.8], "E": np.array([70e3, 210e3])}
+    found = sweep(deck, vary, measures=["pull_force:max", "pull_force", "springback", length])
+    assert found.varied == ["thickness", "E"]
+    assert list(zip(found["thickness"], found["E"])) == [(1.0, 70e3), (1.0, 210e3), (0.8, 70e3), (0.8, 210e3)]
+    assert found["outcome"] == ["done"] * 4
+    for row in found.rows:
+        alone = load(deck, {"mesh.thickness": row["thickness"], "material.E": row["E"]}).build().solve(progress=False)
+        assert row["pull_force:max"] == alone["pull_force"].max() > 0.0
+        assert row["pull_force"] == alone["pull_force"][-1]
+        assert row["length"] == 10.0
+    with (deck.parent / "results" / "pull-sweep" / "sweep.csv").open() as file:
+        kept = list(csv.DictReader(file))
+    assert [float(row["pull_force:max"]) for row in kept] == found["pull_force:max"]
+    assert {file.name for file in found.files} >= {"sweep.csv", "sweep.png"}
+
+
+def test_springback_is_that_of_the_whole_part_without_its_rigid_motion(deck):
+    """Half of the strip is 0.1 longer when loaded; laid into its middle, each end of the whole is off by 0.1."""
+    found = sweep(deck, {"pull": [0.1, 0.2]}, measures=["springback"])
+    assert found["springback"] == pytest.approx([0.1, 0.2], rel=1e-6)
+    without = {"steps": [{"kind": "move", "to": {"pull": 0.1}, "increments": 1}]}
+    with pytest.raises(InvalidValue, match="no springback"):
+        sweep(deck, {"E": [1e5]}, changes=without, measures=["springback"])
+
+
+def test_without_measures_there_are_peaks_springback_and_last_values(deck):
+    found = sweep(deck, {"E": "70e3,210e3"})
+    assert found.measures[:3] == ["pull_force:peak", "springback", "pull"]
+    assert {"pull_force", "elastic_energy", "iterations:sum"} <= set(found.measures)
+    assert found["pull_force:peak"][1] == pytest.approx(3 * found["pull_force:peak"][0])
+
+
+def test_failures_are_rows_with_their_reason_and_the_others_go_on(deck):
+    found = sweep(deck, {"thickness": [-1.0, 1.0], "max_iterations": [1, 25]}, changes={"steps.0.cuts": 0})
+    assert found["outcome"] == ["refused", "refused", "stopped", "done"]
+    assert "mesh.thickness" in found["reason"][0]
+    assert "solve.no-convergence" in found["reason"][2]
+    assert found["reason"][3] == ""
+    assert found["pull_force:peak"][:3] == [None] * 3
+    unknown = sweep(deck, {"material": "no such steel,DC04"}, measures=["pull_force:max"])
+    assert unknown["outcome"] == ["refused", "done"]
+    with pytest.raises(DeckError, match=r"mesh\.thicknes"):
+        sweep(deck, {"mesh.thicknes": [1.0, 2.0]})
+
+
+def test_an_unexpected_error_is_a_failure_and_runs_again(deck, ran):
+    found = sweep(deck, {"E": [1e5]}, measures=[fails])
+    assert found["outcome"] == ["failed"]
+    assert found["reason"] == ["RuntimeError: this measure has a bug"]
+    sweep(deck, {"E": [1e5]})
+    sweep(deck, {"E": [1e5]})
+    assert len(ran) == 2
+
+
+def test_finished_jobs_are_not_run_again(deck, ran):
+    first = sweep(deck, {"E": [1e5, 2e5]})
+    again = sweep(deck, {"E": [1e5, 2e5]}, measures=["pull_force:min"])  # another measure needs no run
+    assert [row["E"] for row in ran] == [1e5, 2e5]
+    assert again["seconds"] == first["seconds"]
+    more = sweep(deck, {"E": "100000:300000:100000"})  # whole numbers are the same values
+    assert [row["E"] for row in ran] == [1e5, 2e5, 3e5]
+    assert more["folder"][:2] == first["folder"]
+    deck.write_text(deck.read_text().replace("length = 10.0", "length = 12.0"))
+    sweep(deck, {"E": [1e5]})
+    assert len(ran) == 4
+
+
+def test_files_that_the_deck_reads_are_part_of_what_was_run_and_its_title_is_none(tmp_path):
+    path, _ = write_template("own-mesh", tmp_path / "own.toml")
+
+    def place():
+        return jobs_module.job(load(path), {}, {}, tmp_path, files=False).folder
+
+    before = place()
+    path.write_text(path.read_text().replace("title = ", "title = 'Another one'  # "))
+    assert place() == before
+    (tmp_path / "sheet.inp").write_text((tmp_path / "sheet.inp").read_text() + "** more\n")
+    assert place() != before
+
+
+def test_a_job_that_comes_twice_runs_once(deck, ran):
+    found = sweep(deck, {"E": [1e5, 2e5, 1e5]}, measures=["pull_force:max"])
+    assert [row["E"] for row in ran] == [1e5, 2e5]
+    assert found["pull_force:max"][0] == found["pull_force:max"][2] != found["pull_force:max"][1]
+
+
+def test_jobs_that_were_refused_run_again_by_force(deck, ran):
+    vary = {"thickness": [2000.0]}  # a sheet thicker than it is long
+    assert sweep(deck, vary)["outcome"] == ["refused"]
+    assert sweep(deck, vary)["outcome"] == ["refused"]
+    assert sweep(deck, vary, force=True)["outcome"] == ["done"]
+    assert len(ran) == 2
+
+
+def test_jobs_that_did_not_converge_run_again_if_that_is_wanted(deck, ran):
+    changes = {"steps.0.cuts": 0}
+    for retry in (False, False, True):
+        found = sweep(deck, {"max_iterations": [1]}, changes=changes, retry=retry)
+        assert found["outcome"] == ["stopped"]
+    assert len(ran) == 2
+
+
+def test_a_sweep_that_was_interrupted_goes_on_within_its_job(deck, monkeypatch):
+    options = {"changes": {"steps.0.increments": 5}, "measures": ["elastic_energy:max"]}
+    add, count = History.add, []
+
+    def stop(self, *arguments, **keys):
+        add(self, *arguments, **keys)
+        count.append(1)
+        if len(count) == 4:
+            signal.raise_signal(signal.SIGINT)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(History, "add", stop)
+        with pytest.raises(KeyboardInterrupt) as caught:
+            sweep(deck, {"E": [1e5, 2e5]}, **options)
+    assert "0 of 2 jobs" in caught.value.__notes__[-1]
+    with (deck.parent / "results" / "pull-sweep" / "sweep.csv").open() as file:
+        assert [row["outcome"] for row in csv.DictReader(file)] == ["open", "open"]
+    resumed, resume = [], running.resume
+    monkeypatch.setattr(running, "resume", lambda *a, **k: resumed.append(a) or resume(*a, **k))
+    found = sweep(deck, {"E": [1e5, 2e5]}, **options)
+    assert len(resumed) == 1
+    assert (
+        found.table()["elastic_energy:max"]
+        == sweep(deck, {"E": [1e5, 2e5]}, out="afresh", **options)["elastic_energy:max"]
+    )
+
+
+def test_a_list_of_jobs_varies_keys_together(deck):
+    jobs = [{"thickness": 1.0, "E": 1e5}, {"thickness": 2.0, "E": 2e5}]
+    found = sweep(deck, {"pull": [0.1, 0.2]}, jobs=jobs, measures=["pull_force:max"])
+    rows = list(zip(*(found[name] for name in ("thickness", "E", "pull"))))
+    assert rows == [(1.0, 1e5, 0.1), (1.0, 1e5, 0.2), (2.0, 2e5, 0.1), (2.0, 2e5, 0.2)]
+    assert found["pull_force:max"][2] == pytest.approx(4 * found["pull_force:max"][0])
+
+
+class Elsewhere(Executor):
+    """An executor of a user, whose jobs travel as pickles as those of other machines do."""
+
+    def __init__(self):
+        self.submitted = 0
+
+    def submit(self, function, /, *arguments, **keys):
+        self.submitted += 1
+        future = Future()
+        try:
+            function, arguments = pickle.loads(pickle.dumps((function, arguments)))
+            future.set_result(pickle.loads(pickle.dumps(function(*arguments, **keys))))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+
+def test_an_executor_of_the_user_runs_the_jobs(deck):
+    executor, threads, said = Elsewhere(), uf.threads(), []
+    vary = {"E": [1e5, 2e5], "thickness": [0.5, -1.0]}
+    found = uf.sweep(deck, vary, executor=executor, progress=False, on_job=said.append)
+    assert executor.submitted == len(said) == 2
+    assert uf.threads() == threads
+    here = sweep(deck, vary, out="here")
+    names = [name for name in here.table() if name != "seconds"]
+    assert all(found[name] == here[name] for name in names)
+    with pytest.raises(InvalidValue, match="executor"):
+        uf.sweep(deck, vary, executor=executor, processes=2)
+
+
+def test_a_measure_that_is_not_there_is_refused_and_costs_no_run_twice(deck, ran):
+    with pytest.raises(InvalidValue, match="did you mean pull_force"):
+        sweep(deck, {"E": [1e5, 2e5]}, measures=["pul_force:max"])
+    assert len(ran) == 1  # the first job has shown it
+    with pytest.raises(InvalidValue, match="did you mean max"):
+        sweep(deck, {"E": [1e5]}, measures=["pull_force:maxi"])
+    sweep(deck, {"E": [1e5, 2e5]}, measures=["pull_force:max"])
+    assert len(ran) == 2
+
+
+@pytest.mark.parametrize("vary", [{}, {"E": []}, {"E": [1e5], "material.E": [2e5]}])
+def test_a_sweep_over_nothing_or_over_a_key_twice_is_refused(deck, vary):
+    with pytest.raises(InvalidValue, match="varie"):
+        sweep(deck, vary)
+
+
+def test_files_of_each_job_if_they_are_wanted(deck):
+    found = sweep(deck, {"E": [1e5]}, files=True, changes={"output.report": False, "output.pictures": False})
+    folder = deck.parent / "results" / "pull-sweep" / "jobs" / found["folder"][0]
+    assert {file.name for file in folder.iterdir()} == {"job.json", "as-run.toml", "history.csv", "fields.vtkhdf"}
+    assert json.loads((folder / "job.json").read_text())["outcome"] == "done"
+    assert "# run with --set material.E=100000.0\n" in (folder / "as-run.toml").read_text()
+
+
+def test_the_plot_has_a_panel_for_each_measure_and_a_line_for_each_other_value(deck):
+    found = sweep(deck, {"material": "DC04,S355", "thickness": [2.0, 1.0]}, measures=["pull_force:max", "plastic_work"])
+    upper, lower = found.plot().axes
+    assert [axes.get_ylabel() for axes in (upper, lower)] == ["pull_force:max", "plastic_work"]
+    assert lower.get_xlabel() == "thickness"
+    assert [line.get_label() for line in upper.lines] == ["material DC04", "material S355"]
+    assert upper.lines[0].get_xdata().tolist() == [1.0, 2.0]
+    assert upper.lines[0].get_ydata().tolist() == found["pull_force:max"][1::-1]
+
+
+def test_the_table_as_parquet(deck):
+    parquet = pytest.importorskip("pyarrow.parquet")
+    found = sweep(deck, jobs=[{"E": 1e5, "cells": [4, 1]}, {"E": -1.0}])
+    kept = parquet.read_table(next(file for file in found.files if file.suffix == ".parquet")).to_pydict()
+    assert kept["cells"] == ["[4, 1]", None]
+    assert kept["outcome"] == ["done", "refused"]
+    assert kept["pull_force:peak"] == found["pull_force:peak"]
