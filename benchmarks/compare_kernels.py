@@ -48,7 +48,10 @@ def answers(core: str) -> dict[str, np.ndarray]:
                     break
                 model.system.recover(0.007 * u)
                 model.system.commit(evaluation)
-                results[f"alpha {case}"], results[f"history {case}"] = model.bodies.only.block.alpha, model.bodies.only.block.state
+                results[f"alpha {case}"], results[f"history {case}"] = (
+                    model.bodies.only.block.alpha,
+                    model.bodies.only.block.state,
+                )
                 try:
                     fields = model.bodies.only.block.point_fields(u)
                 except ValueError:  # the recovery has led out of the domain of the law

@@ -125,7 +125,12 @@ def table(names: list[str], cells: int, repeat: int, native: Native) -> list[dic
             model, u = sheet(name, law, (side, side))
             model.evaluate(u)
             seconds = best(partial(model.evaluate, u), repeat, time.process_time) / len(model.mesh.connectivity)
-            row: dict[str, object] = {"element": name, "law": law, "points": model.bodies.only.block.points, "us": 1e6 * seconds}
+            row: dict[str, object] = {
+                "element": name,
+                "law": law,
+                "points": model.bodies.only.block.points,
+                "us": 1e6 * seconds,
+            }
             row["bytes"] = moved_bytes(model)
             line = f"{name:<12}{law:<15}{model.bodies.only.block.points:>7}{1e6 * seconds:>9.2f}"
             operations = native.operations(model, u)

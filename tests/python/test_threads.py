@@ -56,7 +56,13 @@ def test_a_run_is_bitwise_the_same(build, solver):
         umform.set_threads(count)
         case = build.free_bending((24, 4))
         result = solve(case.model, Move(case.punch, -1.5, steps=3), frames=0, solver=solver)
-        return case.model.u, case.model.bodies.only.block.state, result["punch_force"], result["tool_fz"], result["iterations"]
+        return (
+            case.model.u,
+            case.model.bodies.only.block.state,
+            result["punch_force"],
+            result["tool_fz"],
+            result["iterations"],
+        )
 
     for a, b in zip(run(1), run(2), strict=True):
         np.testing.assert_array_equal(a, b)

@@ -317,9 +317,9 @@ def test_a_compiled_law_in_a_run(elastic):
     seen = uf.Model(mesh, material=compiled(elastic, sees_points=True), rolling=(0.6, 0.8, 0))
     seen.fix("x0")
     seen.evaluate(seen.u)
-    seen.block.commit()
+    seen.bodies.only.block.commit()
     # e_1 along the rolling direction: 0.6 of it along x
-    assert seen.block.state[..., 0] == pytest.approx(1.0 + 60.0)
+    assert seen.bodies.only.block.state[..., 0] == pytest.approx(1.0 + 60.0)
 
 
 @needs_compiler

@@ -96,7 +96,9 @@ def test_the_tangent_follows_a_driven_tool():
         du = Increment(model, newton, Habits(), goal, (stroke,), None, last).tangent()
         assert stroke.value == 2.0
         model.system.recover(du)
-        norms.append(np.linalg.norm(model.system.restrict(model.evaluate(model.system.state_at(model.u + du, goal)).residual)))
+        norms.append(
+            np.linalg.norm(model.system.restrict(model.evaluate(model.system.state_at(model.u + du, goal)).residual))
+        )
         model.system.revert()
     assert norms[0] / norms[1] == pytest.approx(4.0, rel=0.2)
 

@@ -60,7 +60,9 @@ def test_the_tangent_of_kept_points_is_consistent(friction, build):
     def forces(x):
         return model.system.restrict(model.evaluate(x, keep=True).residual - model.evaluate(x).residual)
 
-    tangents = [build.dense(model.system.pattern, model.evaluate(model.system.x, keep=keep).values) for keep in (True, False)]
+    tangents = [
+        build.dense(model.system.pattern, model.evaluate(model.system.x, keep=keep).values) for keep in (True, False)
+    ]
     slope = build.central_difference(forces, model.system.x, v, h=1e-5)
     assert np.abs(slope).max() > 1.0
     assert build.relative_error((tangents[0] - tangents[1]) @ model.system.coefficients(v), slope) < 1e-6

@@ -70,7 +70,9 @@ def test_entries_are_those_of_the_dense_product(element, pressure, build, rng):
     T, K = transformation(model), build.dense(other.system.pattern, full.values)
     assert model.system.pattern.n == model.supports.unknown_count == T.shape[1]
     np.testing.assert_allclose(T.T @ T, np.eye(model.system.pattern.n), atol=1e-14)
-    np.testing.assert_allclose(build.dense(model.system.pattern, found.values), T.T @ K @ T, atol=1e-13 * np.abs(K).max())
+    np.testing.assert_allclose(
+        build.dense(model.system.pattern, found.values), T.T @ K @ T, atol=1e-13 * np.abs(K).max()
+    )
     np.testing.assert_array_equal(found.residual, full.residual)
     np.testing.assert_allclose(model.system.restrict(full.residual), T.T @ full.residual, atol=1e-12 * np.abs(K).max())
     np.testing.assert_allclose(model.system.coefficients(model.system.extend(T[3])), T[3], atol=1e-14)
@@ -94,7 +96,9 @@ def test_unknowns_leave_what_is_held_where_it_is_and_everything_else_free():
 def test_the_tangent_is_the_derivative_of_the_residual(build, rng):
     model = shell("DISP3D", material=mt.NeoHooke(E=1e4, nu=0.3))
     u, x = model.system.extend(0.02 * rng.normal(size=model.system.pattern.n)), rng.normal(size=model.system.pattern.n)
-    slope = build.central_difference(lambda v: model.system.restrict(model.evaluate(v).residual), u, model.system.extend(x), 1e-6)
+    slope = build.central_difference(
+        lambda v: model.system.restrict(model.evaluate(v).residual), u, model.system.extend(x), 1e-6
+    )
     assert build.relative_error(build.dense(model.system.pattern, model.evaluate(u).values) @ x, slope) < 1e-7
 
 

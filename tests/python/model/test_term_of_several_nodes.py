@@ -50,7 +50,9 @@ def test_its_tangent_is_the_derivative_of_its_forces(nodes, symmetric, rng):
     assert pattern.symmetric == symmetric
     K = K + np.triu(K, 1).T if symmetric else K
     q, step = model.system.coefficients(du), 1e-4
-    ahead, behind = (model.system.restrict(model.evaluate(u + s * step * model.system.extend(q)).residual) for s in (1, -1))
+    ahead, behind = (
+        model.system.restrict(model.evaluate(u + s * step * model.system.extend(q)).residual) for s in (1, -1)
+    )
     np.testing.assert_allclose(K @ q, (ahead - behind) / (2 * step), atol=1e-6 * np.abs(K @ q).max())
 
 

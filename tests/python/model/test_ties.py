@@ -72,7 +72,9 @@ def test_entries_are_those_of_the_dense_product(element, pressure, build, rng):
 def test_the_tangent_of_a_tied_model_is_the_derivative_of_its_residual(build, rng):
     model = hinged_strip((3, 1), "DISP3D", mt.NeoHooke(E=1e4, nu=0.3))
     u, x = model.system.extend(0.02 * rng.normal(size=model.system.pattern.n)), rng.normal(size=model.system.pattern.n)
-    slope = build.central_difference(lambda v: model.system.restrict(model.evaluate(v).residual), u, model.system.extend(x), 1e-6)
+    slope = build.central_difference(
+        lambda v: model.system.restrict(model.evaluate(v).residual), u, model.system.extend(x), 1e-6
+    )
     assert build.relative_error(build.dense(model.system.pattern, model.evaluate(u).values) @ x, slope) < 1e-7
 
 
@@ -236,7 +238,9 @@ def test_newton_converges_alike_with_ties_whatever_its_options(options):
     push = model.pressure("lower", "push")
     result = solve(model, Move([pull, push], [-0.5, 0.02], steps=8), options=options, frames=0)
     assert result["iterations"].max() <= 8
-    assert np.abs(model.system.restrict(model.evaluate(model.u).residual)).max() < 1e-8 * abs(result["pull_force"]).max()
+    assert (
+        np.abs(model.system.restrict(model.evaluate(model.u).residual)).max() < 1e-8 * abs(result["pull_force"]).max()
+    )
     reference = hinged_strip()
     controls = [reference.prescribe_midline("x1", "x", "pull"), reference.pressure("lower", "push")]
     solve(reference, Move(controls, [-0.5, 0.02], steps=8), options=TIGHT, frames=0)

@@ -139,7 +139,9 @@ def test_controls_ties_and_contacts_are_parted_too():
 
 def test_a_begun_state_goes_along():
     model, _ = sheet()
-    model.bodies.only.block.restore(model.bodies.only.block.state, np.random.default_rng(3).normal(size=model.bodies.only.block.alpha.shape))
+    model.bodies.only.block.restore(
+        model.bodies.only.block.state, np.random.default_rng(3).normal(size=model.bodies.only.block.alpha.shape)
+    )
     begun = model.contacts[1].state()["history"]
     begun[..., 0] = np.arange(float(begun[..., 0].size)).reshape(begun[..., 0].shape)
     model.contacts[1].restore({"history": begun})

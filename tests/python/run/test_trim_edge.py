@@ -71,12 +71,17 @@ def stretched(material, **options):
 
 def stresses(model):
     """Second Piola-Kirchhoff stresses in global axes at all points."""
-    return _core.point_stresses(*(a.reshape(-1, *a.shape[2:]) for a in model.bodies.only.block.point_fields(model.u)[:4]))[2]
+    return _core.point_stresses(
+        *(a.reshape(-1, *a.shape[2:]) for a in model.bodies.only.block.point_fields(model.u)[:4])
+    )[2]
 
 
 def back_stress(model):
     """The back stress in global axes at all points."""
-    names, frame = list(model.bodies.only.block.state_names), model.bodies.only.block.point_fields(model.u)[2].reshape(-1, 3, 3)
+    names, frame = (
+        list(model.bodies.only.block.state_names),
+        model.bodies.only.block.point_fields(model.u)[2].reshape(-1, 3, 3),
+    )
     at = sum(model.bodies.only.block.state_names[name] for name in names[: names.index("back_stress_1")])
     parts = model.bodies.only.block.state[..., at : at + 6].reshape(-1, 6)
     local = parts[:, [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]
@@ -96,8 +101,12 @@ def test_a_uniform_state_is_moved_without_error(metal, options):
     assert np.abs(expected - expected[0]).max() < 1e-5 * np.abs(expected).max()
     assert np.abs(found - expected[0]).max() < 1e-5 * np.abs(expected).max()
     names = list(whole.bodies.only.block.state_names)
-    eqps = sum(size for name, size in whole.bodies.only.block.state_names.items() if names.index(name) < names.index("eqps"))
-    np.testing.assert_allclose(part.model.bodies.only.block.state[..., eqps], whole.bodies.only.block.state[0, 0, eqps], rtol=1e-6)
+    eqps = sum(
+        size for name, size in whole.bodies.only.block.state_names.items() if names.index(name) < names.index("eqps")
+    )
+    np.testing.assert_allclose(
+        part.model.bodies.only.block.state[..., eqps], whole.bodies.only.block.state[0, 0, eqps], rtol=1e-6
+    )
     if metal is ISOTROPIC:
         backs = [back_stress(whole), back_stress(part.model)]
         assert np.abs(backs[1] - backs[0][0]).max() < 1e-4 * np.abs(backs[0]).max() > 1e-3

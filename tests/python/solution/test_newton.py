@@ -86,7 +86,13 @@ def plastic(build):
 
 
 def state_of(model):
-    return model.u.copy(), model.bodies.only.block.state, model.bodies.only.block.alpha, model.system.time, [c.value for c in model.controls]
+    return (
+        model.u.copy(),
+        model.bodies.only.block.state,
+        model.bodies.only.block.alpha,
+        model.system.time,
+        [c.value for c in model.controls],
+    )
 
 
 @pytest.fixture
@@ -117,7 +123,9 @@ def test_predictor_is_the_tangent_times_the_increment(plastic, build, rng):
     du[model.system.free] = rng.normal(size=len(model.system.free))
     evaluation = model.evaluate(plastic.u, du)
     K = build.dense(model.system.pattern, evaluation.values)
-    np.testing.assert_allclose(evaluation.predictor[model.system.free], K @ du[model.system.free], atol=1e-11 * np.abs(K).max())
+    np.testing.assert_allclose(
+        evaluation.predictor[model.system.free], K @ du[model.system.free], atol=1e-11 * np.abs(K).max()
+    )
 
 
 def test_tangent_of_a_whole_model_is_the_derivative_of_its_residual(plastic, build, rng):

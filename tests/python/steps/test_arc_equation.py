@@ -73,7 +73,9 @@ def test_column_row_and_corner_are_derivatives(kind, held, build, rng):
             return model.system.restrict(scaled)
 
         change = build.central_difference(residual, 0.0, 1.0, 1e-6)
-        np.testing.assert_allclose(solver.solve(change), model.system.coefficients(ahead), atol=1e-5 * np.abs(ahead).max())
+        np.testing.assert_allclose(
+            solver.solve(change), model.system.coefficients(ahead), atol=1e-5 * np.abs(ahead).max()
+        )
     assert model.system.others == []
     assert model.system.x.size == model.u.size + (kind == "press")
 
