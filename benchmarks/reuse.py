@@ -61,7 +61,10 @@ def costs(cells: int) -> None:
         factor, told = best(solver.factor, evaluation)
         solve, _ = best(solver.solve, np.ones(pattern.n))
         fill = told.fill
-        units = f"{factor / (fill**2 / pattern.n):>19.3f}{solve / fill:>12.2f}{evaluate / pattern.n / model.system.effort:>19.0f}"
+        system = model.system
+        units = (
+            f"{factor / (fill**2 / pattern.n):>19.3f}{solve / fill:>12.2f}{evaluate / pattern.n / system.effort:>19.0f}"
+        )
         ratios = f"{cost_of_factors(fill, pattern.n, model.system.effort):>10.2f}{factor / (evaluate + solve):>10.2f}"
         print(f"{label:<22}{units}{ratios}", flush=True)
 
