@@ -18,6 +18,7 @@ SAY    := @printf '\033[1m==>\033[0m %s\n'
 # Directories are listed too: their time changes when a file is removed.
 PACKAGE   := $(shell find CMakeLists.txt pyproject.toml cpp src \
                  -not -name '*.pyc' -not -name '*.so' -not -name __pycache__)
+BOOK      := $(shell find book/pyproject.toml book/README.md book/src -not -name '*.pyc' -not -name __pycache__)
 CPP       := $(shell find cpp -name '*.hpp' -o -name '*.cpp')
 CPP_TESTS := $(wildcard tests/cpp/*.hpp tests/cpp/*.cpp tests/cpp/*/*.hpp tests/cpp/*/*.cpp)
 
@@ -31,18 +32,19 @@ export OMP_WAIT_POLICY ?= passive
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
-.PHONY: help env dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification mutants lint lint-python lint-imports lint-types lint-page lint-stubs lint-format lint-cpp stubs \
+.PHONY: help env book dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification mutants lint lint-python lint-imports lint-types lint-page lint-stubs lint-format lint-cpp stubs \
         format docs wheel bench dome robust robust-draws balances ubend cup draws s-rail compare peers clean
 
 help:  ## show this help
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 	@echo '  Variables: PYTHON=python3.12, JOBS=4, ARGS="-k contact" (handed to pytest and to the benchmarks)'
 
-# ---- environment: three stamps, each made again only when what it depends on has changed ----
+# ---- environment: four stamps, each made again only when what it depends on has changed ----
 # A stamp bears the time at which its rule began, so that a file saved during the build counts as changed.
 
 env: $(VENV)/.package  ## make .venv and install umform into it
-dev: $(VENV)/.package $(VENV)/.dev  ## the same, with the tools of the developers
+book: $(VENV)/.book  ## the same, with the verification book
+dev: $(VENV)/.book $(VENV)/.dev  ## the same, with the tools of the developers
 
 $(VENV)/.tools: pyproject.toml tools/check_machine.py tools/requirements.py
 	@$(PYTHON) tools/check_machine.py
@@ -60,6 +62,13 @@ $(VENV)/.package: $(VENV)/.tools $(PACKAGE)
 	@{ cmp -s $(VENV)/run.new $(VENV)/run || { $(PIP) install -r $(VENV)/run.new && mv $(VENV)/run.new $(VENV)/run; }; } & fetched=$$!; \
 	$(PIP) install --no-deps --no-build-isolation --config-settings=build-dir=$(BUILD) $(STRICT) .; built=$$?; \
 	wait $$fetched && exit $$built
+	@mv $@.new $@
+
+# A package of its own, without compiled code; what it needs comes with umform.
+$(VENV)/.book: $(VENV)/.package $(BOOK)
+	$(SAY) 'Installing the verification book'
+	@touch $@.new
+	@$(PIP) install --no-deps --no-build-isolation ./book
 	@mv $@.new $@
 
 $(VENV)/.dev: $(VENV)/.tools
@@ -94,28 +103,28 @@ robust: env  ## 300 random jobs and how many finish (some 10 minutes of CPU), th
 robust-draws: env  ## 200 random jobs of drawing and forming (some 12 minutes of CPU); writes docs/robust-draws.md
 	@$(BIN)/python benchmarks/robust.py --lot draws --json build/robust.json --page docs/robust-draws.md $(ARGS)
 
-ubend: env  ## a U-bend with friction, beside CalculiX if it is there (a quarter of an hour)
+ubend: book  ## a U-bend with friction, beside CalculiX if it is there (a quarter of an hour)
 	$(SAY) 'Drawing the U-bend'
 	@$(BIN)/python benchmarks/ubend.py --page docs/performance-codes.md $(ARGS)
 	@$(BIN)/python tools/performance_numbers.py
 
-cup: env  ## the cup of the ESAFORM benchmark 2021 on four meshes (some ten minutes)
+cup: book  ## the cup of the ESAFORM benchmark 2021 on four meshes (some ten minutes)
 	$(SAY) 'Drawing the cup'
 	@$(BIN)/python benchmarks/esaform_cup.py --json build/cup.json --page docs/performance-increments.md $(ARGS)
 
-draws: env  ## what drawn cups and U-bends cost, and what their evaluations are for (some ten minutes)
+draws: book  ## what drawn cups and U-bends cost, and what their evaluations are for (some ten minutes)
 	$(SAY) 'Drawing cups and U-bends'
 	@$(BIN)/python benchmarks/draws.py --json build/draws.json --page docs/performance-draws.md $(ARGS)
 	@$(BIN)/python benchmarks/beside.py --json build/beside.json --page docs/performance-draws.md
 
-s-rail: env  ## the S-rail of the verification book with up to 6 000 elements, three penalties (an hour)
+s-rail: book  ## the S-rail of the verification book with up to 6 000 elements, three penalties (an hour)
 	$(SAY) 'Drawing the S-rail'
 	@$(BIN)/python benchmarks/s_rail.py --json build/s_rail.json $(ARGS)
 
 compare: env  ## compare the speed of two commits: make compare ARGS="main HEAD"
 	@$(BIN)/python benchmarks/compare.py $(ARGS)
 
-peers: env  ## the same work in other codes that are installed, CalculiX first (some 15 minutes of CPU)
+peers: book  ## the same work in other codes that are installed, CalculiX first (some 15 minutes of CPU)
 	@$(BIN)/python benchmarks/peers/run.py --out benchmarks/peers/results.md --page docs/performance-codes.md $(ARGS)
 	@$(BIN)/python tools/performance_numbers.py
 
@@ -221,14 +230,16 @@ $(VENV)/.wheel: $(VENV)/.tools
 	@$(PIP) install -r $@.new
 	@mv $@.new $@
 
-wheel: env $(VENV)/.wheel  ## a wheel in dist, repaired, and tested in an environment without a compiler
+wheel: env $(VENV)/.wheel  ## wheels of umform and of the book in dist, tested in an environment without a compiler
 	$(SAY) 'Making the wheel'
 	@rm -rf build/wheel
 	@$(PIP) wheel --no-deps --no-build-isolation --config-settings=build-dir=$(BUILD) -w build/wheel .
+	@$(PIP) wheel --no-deps --no-build-isolation -w dist ./book
 	@PATH="$(abspath $(BIN)):$$PATH" $(BIN)/auditwheel repair -w dist build/wheel/*.whl > build/wheel/repair.log 2>&1 \
 	    || { cat build/wheel/repair.log; exit 1; }
 	$(SAY) 'Testing it in build/wheel/env, whose PATH has no compiler'
-	@bash tools/test_wheel.sh $(PYTHON) "$$(ls -t dist/umform-*.whl | head -1)" build/wheel/env
+	@bash tools/test_wheel.sh $(PYTHON) "$$(ls -t dist/umform-*.whl | head -1)" build/wheel/env \
+	    "$$(ls -t dist/umform_book-*.whl | head -1)"
 
 # ---- style ----
 
@@ -241,7 +252,7 @@ lint-python: $(VENV)/.dev
 
 lint-imports: $(VENV)/.dev
 	$(SAY) 'direction of imports'
-	@PYTHONPATH=src $(BIN)/lint-imports --no-cache --no-logo > $(VENV)/imports.log || { cat $(VENV)/imports.log; exit 1; }
+	@PYTHONPATH=src:book/src $(BIN)/lint-imports --no-cache --no-logo > $(VENV)/imports.log || { cat $(VENV)/imports.log; exit 1; }
 
 lint-types: $(VENV)/.dev
 	$(SAY) 'mypy'

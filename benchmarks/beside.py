@@ -17,6 +17,7 @@ from typing import Any, cast
 from unittest.mock import patch
 
 import draws
+import needs_book  # noqa: F401
 import record
 import umform as uf
 from umform.attempts import Attempts

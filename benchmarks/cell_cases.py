@@ -9,6 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+import needs_book  # noqa: F401
 import umform as uf
 from umform import materials as mt
 from umform import mesh as meshes

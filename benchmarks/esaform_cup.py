@@ -14,6 +14,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import needs_book  # noqa: F401
 import record
 from umform_book.drawing.cups import esaform, isotropic
 

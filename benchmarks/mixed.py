@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable
 
 import dome
+import needs_book  # noqa: F401
 import record
 import umform as uf
 from sheets import sheet

@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+import needs_book  # noqa: F401
 import record
 from umform.results.forming import forming_fields
 from umform_book.drawing.s_rail import STROKE, Setup, model_of

@@ -10,6 +10,7 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+import needs_book  # noqa: F401
 import record
 import umform as uf
 from dome import build as dome

@@ -22,6 +22,7 @@ from typing import Any
 
 import numpy as np
 
+import needs_book  # noqa: F401
 import record
 from umform_book.calculix import element, node_set
 

@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+import needs_book  # noqa: F401
 import record
 from ubend import LENGTH, MU, THICKNESS, build, deck, run_deck
 from umform_book.calculix import totals

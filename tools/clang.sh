@@ -45,7 +45,7 @@ echo "Building with $("$clang" --version | head -n 1), $kind"
 # The sources of the package beside the extension of this build.
 rm -rf "$build/package"
 mkdir "$build/package"
-cp -r src/umform src/umform_book "$build/package"
+cp -r src/umform book/src/umform_book "$build/package"
 rm -f "$build"/package/umform/_core*.so
 cp "$build"/_core*.so "$build/package/umform"
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from umform_book.checks import Check, Verdict
-from umform_book.printed import about, bounded, rounded_coordinates, shown
+from umform_book.printed import about, bounded, shown
 
 
 @pytest.mark.parametrize(
@@ -103,12 +103,3 @@ def test_numbers_of_tables():
         "-",
     ]
     assert [about(count) for count in (7, 99, 903, 1248, 0)] == [7, 99, 900, 1200, 0]
-
-
-def test_coordinates_of_pictures_hide_the_last_digits():
-    one, other = '<path d="M 50.144561 13.192073"/>', '<path d="M 50.144560 13.192074"/>'
-    assert rounded_coordinates(one) == rounded_coordinates(other) == '<path d="M 50.14 13.19"/>'
-    used = '<path clip-path="url(#{0})"/><use xlink:href="#{0}"/><clipPath id="{0}">'
-    assert rounded_coordinates(used.format("pbcd305e4af")) == used.format("p0")
-    kept = '<g transform="scale(0.015625)" width="446.4pt" version="1.1">'
-    assert rounded_coordinates(kept) == kept

@@ -133,6 +133,18 @@ def test_the_main_picture_of_every_case_is_one_that_it_draws():
             assert not case.picture or f"(images/{case.name}-{case.picture}." in page.read_text(), case.name
 
 
+def test_the_pages_have_the_words_of_the_code():
+    """Title, problem and reference of each case; all of the pages that are made from stored results."""
+    folder = Path(__file__).parents[2] / "docs" / "verification"
+    for name, case in book.cases().items():
+        text = (folder / f"{name}.md").read_text(encoding="utf-8")
+        assert text.startswith(f"# {case.title}\n"), name
+        for part in (case.problem, case.reference, case.own):
+            assert part.strip() in text, name
+    for name, text in book.pages_of_all(folder).items():
+        assert (folder / name).read_text(encoding="utf-8") == text, name
+
+
 def test_an_expected_failure_leaves_a_page_green_and_is_listed():
     theory = {"known": 0.5, "cause": "it locks", "theory": "MacNeal 1987"}
     page = Page(STRETCHED, short=True)

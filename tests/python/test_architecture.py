@@ -11,6 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+BOOK = tomllib.loads((ROOT / "book" / "pyproject.toml").read_text(encoding="utf-8"))
 SOURCE = ROOT / "src" / "umform"
 (LAYERS,) = (one["layers"] for one in PROJECT["tool"]["importlinter"]["contracts"] if one["type"] == "layers")
 
@@ -43,12 +44,13 @@ def test_each_folder_and_each_file_beside_the_folders_is_on_the_page():
         assert any((parent / name).is_dir() for parent in (SOURCE, ROOT / "cpp" / "include" / "umform")), name
 
 
-@pytest.mark.parametrize("kind", ["dependencies", "build", *PROJECT["project"]["optional-dependencies"]])
+@pytest.mark.parametrize("kind", ["dependencies", "build", "book", *PROJECT["project"]["optional-dependencies"]])
 def test_each_dependency_has_a_reason_on_the_page(kind):
     project = PROJECT["project"]
     required = {
         "dependencies": project["dependencies"],
         "build": PROJECT["build-system"]["requires"],
+        "book": BOOK["build-system"]["requires"] + BOOK["project"]["dependencies"][1:],  # the first is umform
         **project["optional-dependencies"],
     }[kind]
     table = section("Dependencies, and why")

@@ -13,11 +13,11 @@ from umform.elements import CATALOGUE, element
 
 ROOT = Path(__file__).parents[2]
 THEORY = ROOT / "docs" / "theory"
-BOOK = ROOT / "src" / "umform_book"  # cites what it puts to the test, and holds no equation
+BOOK = ROOT / "book" / "src" / "umform_book"  # cites what it puts to the test, and holds no equation
 PAGES = {page: page.read_text(encoding="utf-8") for page in sorted(THEORY.glob("*.md"))}
 CODE = {
     file: file.read_text(encoding="utf-8")
-    for folder in ("cpp", "src")
+    for folder in ("cpp", "src", "book/src")
     for file in sorted((ROOT / folder).rglob("*"))
     if file.suffix in (".hpp", ".cpp", ".py")
 }
@@ -55,7 +55,7 @@ def table() -> list[tuple[str, str]]:
 
 def code_file(name: str) -> Path:
     if name.startswith("umform_book/"):
-        return ROOT / "src" / name
+        return BOOK.parent / name
     return ROOT / ("src/umform" if name.endswith(".py") else "cpp/include/umform") / name
 
 

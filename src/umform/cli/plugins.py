@@ -7,7 +7,11 @@ from typing import Any
 
 import typer
 
+from umform.errors import InvalidValue
+
 GROUP = "umform.commands"
+#: Commands of packages of the same repository: what they are, and where they are.
+_APART = {"verify": ("the verification book", "umform-book", "./book")}
 
 
 @cache
@@ -29,3 +33,21 @@ def plugins() -> dict[str, Any]:
         command.name = point.name
         found[point.name] = command
     return found
+
+
+def check_installed(name: str) -> None:
+    """Refuse a command whose package is known but not installed.
+
+    Raises
+    ------
+    InvalidValue
+        With the line that installs the package.
+    """
+    if name in _APART:
+        what, package, folder = _APART[name]
+        raise InvalidValue(
+            f"{what} is not installed",
+            where=f"umform {name}",
+            cause=f"{package} is a package of its own, which umform runs without",
+            remedy=f"pip install {folder} in a clone of the repository of umform, or make book",
+        )

@@ -27,8 +27,12 @@ class Commands(TyperGroup):
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         """A command of umform, or of another package."""
-        own = super().get_command(ctx, cmd_name)
-        return own if own is not None else _plugins().get(cmd_name)
+        from umform.cli.plugins import check_installed
+
+        found = super().get_command(ctx, cmd_name) or _plugins().get(cmd_name)
+        if found is None:
+            check_installed(cmd_name)
+        return found
 
     def list_commands(self, ctx: Any) -> list[str]:
         """Names of all commands."""
@@ -51,7 +55,8 @@ class Commands(TyperGroup):
                 return super().invoke(ctx)
         except UmformError as error:
             _show_traceback(ctx)
-            say_of(error, message(error, options_of(self.get_command(ctx, ctx.invoked_subcommand or ""))))
+            command = self.get_command(ctx, ctx.invoked_subcommand or "")
+            say_of(error, message(error, options_of(command) if command else {}))
             raise typer.Exit(1) from error
         except KeyboardInterrupt as error:
             say_of(error, "interrupted; what was not finished is given up")

@@ -15,7 +15,7 @@ from umform.io.owner import is_left_behind, mark
 
 
 class PendingFile:
-    r"""rA file that gets its name only once it is complete.
+    r"""A file that gets its name only once it is complete.
 
     As a context manager it gives the path of an empty temporary file in the directory of the target. At the
     regular end of the block the temporary file is flushed to the disk and renamed to the target in one step;

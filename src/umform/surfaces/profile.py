@@ -17,7 +17,7 @@ from umform.surfaces.segments import Arc, Floats, Point2, Segment
 
 @dataclass(frozen=True)
 class Profile:
-    r"""rLines and arcs, one after the other, with the solid on the left of the direction of travel.
+    r"""Lines and arcs, one after the other, with the solid on the left of the direction of travel.
 
     A closed profile is solid inside if it runs counter-clockwise (its :attr:`area` is positive); clockwise it is a
     hole in the solid. An open one divides the plane: its first and last line extend to infinity. ::

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import importlib.metadata
+
 import pytest
 from typer.testing import CliRunner
 
 from umform import cli
+from umform.cli import plugins
 
 ONE = "linear-hemisphere"
 
@@ -51,3 +54,19 @@ def test_a_folder_that_cannot_be_made(tmp_path):
     run = umform_cli("verify", ONE, "--short", "--out", tmp_path / "file" / "book")
     assert run.exit_code == 1
     assert "the folder cannot be made" in run.stderr
+
+
+def test_without_the_book_one_message_says_how_to_get_it(monkeypatch):
+    real = importlib.metadata.entry_points
+    others = [point for point in real(group=plugins.GROUP) if point.dist.name != "umform-book"]
+    monkeypatch.setattr(importlib.metadata, "entry_points", lambda **group: others)
+    plugins.plugins.cache_clear()
+    try:
+        run = umform_cli("verify", "--help")
+        assert umform_cli("verfy").exit_code == 2
+    finally:
+        plugins.plugins.cache_clear()
+    assert run.exit_code == 1
+    assert run.stdout == ""
+    assert run.stderr.startswith("umform: the verification book is not installed [value.invalid]\n")
+    assert "remedy: pip install ./book" in run.stderr

@@ -128,3 +128,17 @@ def test_the_history_of_a_bend_is_that_of_its_problem_in_python():
     bend = air_bending(BEND, progress=False)
     again = problem_of(BEND).build().solve(progress=False)
     assert bend.result["stroke_force"].tolist() == again["stroke_force"].tolist()
+
+
+def test_a_sweep_takes_a_problem_of_python(tmp_path):
+    found = uf.sweep(
+        problem_of(BEND),
+        {"shoulder_radius": [2.0, 2.2]},
+        measures=["stroke_force:peak"],
+        out=tmp_path,
+        processes=1,
+        progress=False,
+    )
+    forces = [row["stroke_force:peak"] for row in found.rows]
+    bend = air_bending(BEND, progress=False)
+    assert forces[0] == bend.result["stroke_force"].max() > forces[1]

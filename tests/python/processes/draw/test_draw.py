@@ -81,9 +81,8 @@ def test_a_cup_is_symmetric_and_in_balance():
 def test_the_gauge_of_a_cup_keeps_its_symmetry():
     """It may carry a force while the punch still holds the part."""
     tools = {"punch_radius": 30.0, "punch_edge": 5.0, "die_radius": 31.2, "die_edge": 10.0}
-    model, _ = replace(CUP, blank_radius=53.75, turn=30.0, around=8, **tools).build()
-    (gauge,) = (support for support in model.supports if support.name == "gauge")
-    x = model.mesh.points[gauge.nodes]
+    model, press = replace(CUP, blank_radius=53.75, turn=30.0, around=8, **tools).build()
+    x = model.mesh.points[press.opening[0].on.nodes]
     assert len(x) == 1
     np.testing.assert_allclose(x[:, :2], 0.0, atol=1e-9)
 

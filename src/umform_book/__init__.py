@@ -1,5 +1,0 @@
-"""The verification book: problems with a known answer, and the pages that say what came out on every relevant element.
-
-Each case is a module with a :class:`Case`; a chapter is a folder of them. ``umform verify`` and ``make verification``
-run cases and write their pages, the tests run each case on its short meshes.
-"""
