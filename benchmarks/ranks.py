@@ -138,7 +138,7 @@ def arrays_of(model: uf.Model) -> dict[str, float]:
         "points": [mesh.points],
         "cells": [mesh.connectivity],
         "sets and faces": [*mesh.sets.values(), *mesh.faces.values()],
-        "displacement and supports": [model.u, model._fixed],
+        "displacement and supports": [model.u, model.supports.fixed],
         "contact facets": [array for contact in contacts for array in (contact.facets, contact.nodes)],
     }
     return {name: sum(array.nbytes for array in each) / len(mesh.connectivity) for name, each in arrays.items()}
