@@ -38,6 +38,8 @@ def test_an_evaluation_at_a_state_is_that_of_the_present_and_writes_nothing(run)
     elsewhere = model.evaluate(other)
     assert elsewhere.time == other.time and elsewhere.controls[model.controls[0]] == 7.0
     assert not np.array_equal(elsewhere.residual, present.residual)
+    later = model.evaluate(model.state.toward({}, time=model.state.time + 0.3))  # the punch moves in time
+    assert not np.array_equal(later.residual, present.residual)
     assert model.state.time == 1.0 and model.controls[0].value == 60.0
     again = model.evaluate(model.state)
     np.testing.assert_array_equal(again.residual, present.residual)
