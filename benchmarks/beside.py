@@ -131,7 +131,7 @@ class Purposes:
             keep(run, converged, *given, **named)
             self.accepted += len(converged.iterations)
             if self._each:
-                self._tell(run.model.time, converged.iterations)
+                self._tell(run.model.system.time, converged.iterations)
 
         with ExitStack() as stack:
             for owner, name, new in (

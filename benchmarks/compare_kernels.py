@@ -46,15 +46,18 @@ def answers(core: str) -> dict[str, np.ndarray]:
                 results[f"failed {case}"] = np.array([float(evaluation.failed)])
                 if evaluation.failed >= 0:
                     break
-                model.recover(0.007 * u)
-                model.commit(evaluation)
-                results[f"alpha {case}"], results[f"history {case}"] = model.block.alpha, model.block.state
+                model.system.recover(0.007 * u)
+                model.system.commit(evaluation)
+                results[f"alpha {case}"], results[f"history {case}"] = (
+                    model.bodies.only.block.alpha,
+                    model.bodies.only.block.state,
+                )
                 try:
-                    fields = model.block.point_fields(u)
+                    fields = model.bodies.only.block.point_fields(u)
                 except ValueError:  # the recovery has led out of the domain of the law
                     break
                 results |= {f"{what} {case}": field for what, field in zip(("E", "S", "frame", "F", "dV"), fields)}
-                results[f"energies {case}"] = np.array(model.block.energy(u))
+                results[f"energies {case}"] = np.array(model.bodies.only.block.energy(u))
     return results
 
 

@@ -65,7 +65,7 @@ def measured(elements: int, increments: int, solver: str) -> dict[str, Any]:
     attempts = timing.attempts
     return {
         "elements": count,
-        "equations": model.pattern.n,
+        "equations": model.system.pattern.n,
         "solver": result.solver,
         "CPU s": cpu,
         "wall s": wall,

@@ -66,14 +66,14 @@ class Native:
 
     def operations(self, model: Model, u: np.ndarray) -> list[float] | None:
         """Operations of strains, law, integration and condensation of the first element."""
-        law = model.material
+        law = model.bodies.only.material
         if not isinstance(law, uf.SVK | uf.J2):
             return None
         constants = [law.lambda_, law.mu]
         if isinstance(law, uf.J2):
             y0, slope = law.hardening.curve()(0.0)
             constants = [law.kappa, law.mu, y0, slope]
-        return self.run("flops.cpp", ["-O1"], description(model.element, model, constants, u))
+        return self.run("flops.cpp", ["-O1"], description(model.bodies.only.element, model, constants, u))
 
 
 def description(element: Element, model: Model, constants: list[float], u: np.ndarray) -> str:
@@ -87,7 +87,7 @@ def description(element: Element, model: Model, constants: list[float], u: np.nd
         numbers.append(len(mode.polynomials))
         for part in mode.polynomials:
             numbers += [index(part.component), part.factor, part.a, part.b, part.c]
-    t, w = (np.atleast_2d(part) for part in model.body.through)
+    t, w = (np.atleast_2d(part) for part in model.bodies.only.through)
     numbers += [element.nodes, element.surface_points, *t.shape]
     for heights, weights in zip(t, w, strict=True):
         numbers += [*heights, *weights]
@@ -104,9 +104,9 @@ def moved_bytes(model: Model) -> int:
 
     Entries of the tangent and their places, forces, coordinates and displacements, history old and new, condensed rows.
     """
-    size = 3 * model.element.nodes
+    size = 3 * model.bodies.only.element.nodes
     entries = size * (size + 1) // 2
-    block = model.block
+    block = model.bodies.only.block
     return (4 + 16) * entries + 32 * size + 16 * block.points * block.state_size + 8 * block.modes * (size + 3)
 
 
@@ -125,9 +125,14 @@ def table(names: list[str], cells: int, repeat: int, native: Native) -> list[dic
             model, u = sheet(name, law, (side, side))
             model.evaluate(u)
             seconds = best(partial(model.evaluate, u), repeat, time.process_time) / len(model.mesh.connectivity)
-            row: dict[str, object] = {"element": name, "law": law, "points": model.block.points, "us": 1e6 * seconds}
+            row: dict[str, object] = {
+                "element": name,
+                "law": law,
+                "points": model.bodies.only.block.points,
+                "us": 1e6 * seconds,
+            }
             row["bytes"] = moved_bytes(model)
-            line = f"{name:<12}{law:<15}{model.block.points:>7}{1e6 * seconds:>9.2f}"
+            line = f"{name:<12}{law:<15}{model.bodies.only.block.points:>7}{1e6 * seconds:>9.2f}"
             operations = native.operations(model, u)
             if operations is None or peak is None:
                 line += " " * 26

@@ -41,18 +41,18 @@ def stages(elements: int, solver: str) -> Iterator[tuple[str, float, float]]:
     steel = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(yield_stress=160.0, modulus=500.0))
     model = uf.Model(mesh, "ANS3DEAS", material=steel, thickness_order=1, thickness_points=5)
     model.fix("x0")
-    block, count = model.block, len(mesh.connectivity)
+    block, count = model.bodies.only.block, len(mesh.connectivity)
     held = 2 * block.state.nbytes
     yield "history, converged and trial", peak(), held / MB
     condensed = 8 * count * block.modes * (1 + mesh.connectivity.shape[1] * 3)
     yield "condensed blocks of the enhanced parameters", peak(), condensed / MB
     maps = [scatter for scatters in model._assembly().scatters.values() for scatter in scatters]
     yield "scatter map", peak(), sum(scatter.bytes for scatter in maps) / MB
-    pattern = model.pattern
+    pattern = model.system.pattern
     yield "pattern, upper triangle", peak(), (pattern.indices.nbytes + pattern.indptr.nbytes) / MB
     evaluation = model.evaluate(model.u)
     yield "matrix, upper triangle", peak(), evaluation.values.nbytes / MB
-    newton = Newton(model, solver=solver)
+    newton = Newton(model.system, solver=solver)
     sparse = newton.ready_solver()
     yield f"analysis by {sparse.solver.name}", peak(), math.nan
     told = sparse.factor(evaluation)

@@ -48,7 +48,7 @@ def flowing(law: uf.Metal | uf.J2, cells: int, strain: float) -> tuple[uf.Model,
     u = np.stack([strain * x * (1 + 0.1 * z), -0.4 * strain * y + 0.2 * strain * x, -0.6 * strain * z], axis=1)
     model = uf.Model(mesh, "ANS3DEAS", material=law, rolling=(1, 0, 0), thickness_order=1, thickness_points=5)
     model.fix("x0")
-    model.time = 0.01  # for the law with a rate
+    model.system.time = 0.01  # for the law with a rate
     return model, u.ravel()
 
 

@@ -68,8 +68,8 @@ def cost_of_an_evaluation(element: str) -> float:
     seconds: dict[bool, list[float]] = {False: [], True: []}
     for _ in range(15):
         for mixed, times in seconds.items():
-            model.revert()
-            model.recover(u, mixed)
+            model.system.revert()
+            model.system.recover(u, mixed)
             start = time.process_time()
             model.evaluate(u)
             times.append(time.process_time() - start)

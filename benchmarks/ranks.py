@@ -85,10 +85,10 @@ def measure(cells: int) -> dict[str, object]:
     u, solver = bent(share.mesh.points), Petsc()
     timed("first evaluation", lambda: share.evaluate(u))
     found = timed("evaluation", lambda: share.evaluate(u))
-    timed("matrix", lambda: solver.analyse(share.pattern))
+    timed("matrix", lambda: solver.analyse(share.system.pattern))
     timed("first factorisation", lambda: solver.factor(found.values))
     factors = timed("factorisation", lambda: solver.factor(found.values))
-    timed("solution", lambda: solver.solve(share.restrict(found.residual)))
+    timed("solution", lambda: solver.solve(share.system.restrict(found.residual)))
     held["peak"] = memory(peak=True)
     flops = solver._ksp.pc.getFactorMatrix().getMumpsRinfog(3)
     others = {key: value if ranks.rank > 0 else 0.0 for key, value in held.items()}
@@ -96,7 +96,7 @@ def measure(cells: int) -> dict[str, object]:
                (("wall", wall), ("cpu", cpu), ("memory", held), ("others", others))}  # fmt: skip
     return {
         "elements": cells * cells,
-        "unknowns": share.pattern.n,
+        "unknowns": share.system.pattern.n,
         "ranks": ranks.size,
         "fill": factors.fill,
         "flops": flops,
@@ -138,7 +138,7 @@ def arrays_of(model: uf.Model) -> dict[str, float]:
         "points": [mesh.points],
         "cells": [mesh.connectivity],
         "sets and faces": [*mesh.sets.values(), *mesh.faces.values()],
-        "displacement and supports": [model.u, model._fixed],
+        "displacement and supports": [model.u, model.supports.fixed],
         "contact facets": [array for contact in contacts for array in (contact.facets, contact.nodes)],
     }
     return {name: sum(array.nbytes for array in each) / len(mesh.connectivity) for name, each in arrays.items()}

@@ -56,15 +56,16 @@ def costs(cells: int) -> None:
         **{f"dome {count}x{count}": dome.build(count)[0] for count in (cells // 2, cells)},
     }
     for label, model in models.items():
-        pattern, solver = model.pattern, Newton(model).ready_solver()
+        pattern, solver = model.system.pattern, Newton(model.system).ready_solver()
         evaluate, evaluation = best(model.evaluate, model.u)
         factor, told = best(solver.factor, evaluation)
         solve, _ = best(solver.solve, np.ones(pattern.n))
         fill = told.fill
+        system = model.system
         units = (
-            f"{factor / (fill**2 / pattern.n):>19.3f}{solve / fill:>12.2f}{evaluate / pattern.n / model.effort:>19.0f}"
+            f"{factor / (fill**2 / pattern.n):>19.3f}{solve / fill:>12.2f}{evaluate / pattern.n / system.effort:>19.0f}"
         )
-        ratios = f"{cost_of_factors(fill, pattern.n, model.effort):>10.2f}{factor / (evaluate + solve):>10.2f}"
+        ratios = f"{cost_of_factors(fill, pattern.n, model.system.effort):>10.2f}{factor / (evaluate + solve):>10.2f}"
         print(f"{label:<22}{units}{ratios}", flush=True)
 
 

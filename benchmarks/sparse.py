@@ -58,7 +58,7 @@ def tangent(cells: tuple[int, int], cell: str, kind: str = "positive") -> tuple[
     mesh = uf.mesh.strip(length=float(cells[0]), width=float(cells[1]), thickness=0.5, cells=cells, cell=cell)
     model = uf.Model(mesh, "ANS3DEAS" if cell == "hex8" else "MI9K3DEAS", material=uf.SVK(E=210e3, nu=0.3))
     model.fix("x0")
-    pattern, values = model.pattern, model.evaluate(np.zeros_like(model.u)).values.copy()
+    pattern, values = model.system.pattern, model.evaluate(np.zeros_like(model.u)).values.copy()
     diagonal = pattern.indptr[:-1]
     if kind == "indefinite":
         values[diagonal] -= 1e-4 * values[diagonal].mean()

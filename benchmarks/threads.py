@@ -60,7 +60,7 @@ def evaluations(side: int, threads: list[int], repeat: int) -> dict[str, Any]:
     alone = [of_one_thread(model, u) for _ in range(repeat)]
     return {
         "elements": side**2,
-        "points": model.block.points * side**2,
+        "points": model.bodies.only.block.points * side**2,
         "wall": {count: 1e3 * min(times) for count, times in wall.items()},
         "busy": {count: 1e3 * min(times) for count, times in busy.items()},
         "cpu": 1e3 * min(whole for whole, _ in alone),
@@ -71,12 +71,12 @@ def evaluations(side: int, threads: list[int], repeat: int) -> dict[str, Any]:
 def of_one_thread(model: Any, u: Any) -> tuple[float, float]:
     """CPU seconds of an evaluation, and of what no thread shares: all but the block of elements."""
     with patch.object(time, "perf_counter", time.thread_time):  # the clock of `umform.timing`
-        before, start = model.timing.elements.seconds, time.thread_time()
+        before, start = model.system.timing.elements.seconds, time.thread_time()
         model.evaluate(u)
         whole = time.thread_time() - start
-        inside = model.timing.elements.seconds - before
+        inside = model.system.timing.elements.seconds - before
         start = time.thread_time()
-        _ = model.block.flowing  # part of the time of the elements
+        _ = model.bodies.only.block.flowing  # part of the time of the elements
         return whole, whole - inside + time.thread_time() - start
 
 

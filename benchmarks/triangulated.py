@@ -48,7 +48,7 @@ def seconds(models: dict[str, uf.Model]) -> dict[str, float]:
     best = dict.fromkeys(models, np.inf)
     for number in range(ROUNDS):
         for name, model in models.items():
-            x = model.x.copy()
+            x = model.system.x.copy()
             x[: model.mesh.points.size : 3] += SLIDE * (number % 2)
             start = time.process_time()
             model.evaluate(x)

@@ -76,7 +76,7 @@ def cup(
     ram = model.drive(tools["punch"], "-z", name="stroke")
     result = _opened(model, [*closing, uf.Move(ram, stroke, steps=steps)], end, ram)
     image = DIAGONAL if part == "quarter" else FRONT_BACK
-    symmetric = not getattr(model.body.material, "directional", False) or part == "half"
+    symmetric = not getattr(model.bodies.only.material, "directional", False) or part == "half"
     symmetry = [unlike(model, model, image)] if symmetric else []
     return Answer([result], symmetry, [carried(result, list(tools))] if end != "free" else [])
 

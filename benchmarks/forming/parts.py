@@ -66,7 +66,7 @@ def _ended(model: uf.Model, steps: list[Step], keys: dict[str, Any], ram: Any) -
 
 def _symmetry(model: uf.Model) -> list[float]:
     """How far the answer is from its image in the diagonal, unless the law has directions."""
-    return [] if getattr(model.body.material, "directional", False) else [unlike(model, model, DIAGONAL)]
+    return [] if getattr(model.bodies.only.material, "directional", False) else [unlike(model, model, DIAGONAL)]
 
 
 def draw_box(drawing: Drawing) -> dict[str, Any]:

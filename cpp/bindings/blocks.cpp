@@ -174,6 +174,8 @@ void bind_blocks(nb::module_& m) {
         .def_prop_ro(
             "keeps_blocks", &ShellBlock::keeps_blocks,
             "Whether enhanced parameters can be recovered from the converged state without an evaluation there.")
+        .def_prop_ro("staged_returns", &ShellBlock::staged_returns,
+                     "Points at which return maps have gone through stages of a shrinking yield surface so far.")
         .def("follow", &ShellBlock::follow,
              "After an evaluation of forces alone: the next recover takes its residual, with the tangent of before.")
         .def("shorten", &ShellBlock::shorten, nb::arg("part"),

@@ -182,6 +182,8 @@ void bind_materials(nb::module_& m) {
             nb::sig("def quantities(self) -> dict[str, int]"), "Parts of the history of a point, in their order.")
         .def_prop_ro("symmetric", &Material::symmetric, "Whether the tangent is symmetric at any strain.")
         .def_prop_ro("sees_points", &Material::sees_points, "Whether the law asks for axes, size and step.")
+        .def_prop_ro("staged_returns", &Material::staged_returns,
+                     "Points at which its return map has gone through stages of a shrinking yield surface so far.")
         .def(
             "initial",
             [](const Material& law) {

@@ -6,7 +6,6 @@
 #include "arrays.hpp"
 #include "umform/materials/logarithmic_space.hpp"
 #include "umform/materials/metal.hpp"
-#include "umform/materials/staged_returns.hpp"
 #include "umform/materials/yield/yld2004.hpp"
 #include "umform/materials/yield/yld2004_roots.hpp"
 
@@ -79,9 +78,6 @@ nb::object evaluate(const YieldFunction& yield, const Input& stress) {
 }  // namespace
 
 void bind_metals(nb::module_& m) {
-    m.def(
-        "staged_returns", [] { return staged_returns().load(); },
-        "Points at which return maps have gone through stages of a shrinking yield surface, since the process began.");
     nb::class_<YieldFunction>(m, "YieldFunction",
                               "Equivalent stress as a function of the stress in the axes of the sheet.")
         .def("__call__", &evaluate, nb::arg("stress"),

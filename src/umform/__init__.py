@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import importlib
-import os
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from umform import errors as errors
 from umform.renamed import message
-
-# Before the kernels are loaded: threads that wait actively take the processors from other programs and from each other.
-os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 
 if TYPE_CHECKING:
     from umform import elements as elements

@@ -62,6 +62,12 @@ class Material:
     def sees_points(self) -> bool:
         """Whether the law asks for axes, size and step."""
 
+    @property
+    def staged_returns(self) -> int:
+        """
+        Points at which its return map has gone through stages of a shrinking yield surface so far.
+        """
+
     def initial(self) -> NDArray[float64]:
         """History of the virgin material."""
 
@@ -91,11 +97,6 @@ def j2(kappa: float, mu: float, hardening: Hardening) -> Material: ...
 def material_from_function(function: Callable[[NDArray[float64], NDArray[float64], int, tuple[NDArray[float64], float, float] | None], tuple[NDArray[float64], NDArray[float64], NDArray[float64]]], initial: Sequence[float], state: Sequence[tuple[str, int]], energy: Callable[[NDArray[float64], NDArray[float64], int], tuple[NDArray[float64], NDArray[float64]]] | None, symmetric: bool, sees_points: bool) -> Material:
     """
     A law from a function (E (n, 6), state (n, size), cell, (axes (n, 3, 3), size, step) or None) -> (S (n, 6), CC (n, 6, 6), new state (n, size)); its energy (E, state, cell) -> (elastic (n,), plastic (n,)).
-    """
-
-def staged_returns() -> int:
-    """
-    Points at which return maps have gone through stages of a shrinking yield surface, since the process began.
     """
 
 class YieldFunction:
@@ -457,6 +458,12 @@ class ShellBlock:
     def keeps_blocks(self) -> bool:
         """
         Whether enhanced parameters can be recovered from the converged state without an evaluation there.
+        """
+
+    @property
+    def staged_returns(self) -> int:
+        """
+        Points at which return maps have gone through stages of a shrinking yield surface so far.
         """
 
     def follow(self) -> None:

@@ -129,7 +129,7 @@ def efforts():
     whole = uf.Model(strip(20.0, 4.0, 0.2, (12, 3)), bodies=halves)
     whole.fix("x0")
     effort = shared(whole).effort
-    return [whole.effort, *world().comm.allgather(effort)]
+    return [whole.system.effort, *world().comm.allgather(effort)]
 
 
 def message(run):
@@ -151,21 +151,21 @@ def refused(solver, values):
 def main():
     answer = {"negative": [], "serial": [], "error": [], "largest": []}
     whole = strut()
-    share, serial, petsc = shared(whole), make_solver(whole.pattern, "superlu"), Petsc()
-    petsc.analyse(share.pattern)
+    share, serial, petsc = shared(whole), make_solver(whole.system.pattern, "superlu"), Petsc()
+    petsc.analyse(share.system.pattern)
     for strain in (0.0, 0.001, 0.01):
         u = pressed(whole.mesh.points, strain)
         one, own = whole.evaluate(u), share.evaluate(pressed(share.mesh.points, strain))
         answer["negative"].append(petsc.factor(own.values).negative_pivots)
         answer["serial"].append(serial.factor(one.values).negative_pivots)
         load = np.random.default_rng(1).normal(size=u.size)
-        expected = whole.extend(serial.solve(whole.restrict(load)))
+        expected = whole.system.extend(serial.solve(whole.system.restrict(load)))
         mine = np.zeros(share.u.size)
-        mine.reshape(-1, 3)[share.owned] = load.reshape(-1, 3)[share.nodes[share.owned]]
-        found = share.extend(petsc.solve(share.restrict(mine)))
+        mine.reshape(-1, 3)[share.system.whole.system.whole.owned] = load.reshape(-1, 3)[share.nodes[share.system.whole.system.whole.owned]]
+        found = share.system.extend(petsc.solve(share.system.restrict(mine)))
         difference = np.abs(found - expected.reshape(-1, 3)[share.nodes].ravel()).max() / np.abs(expected).max()
         answer["error"].append(world().max(float(difference)))
-        answer["largest"].append(share.largest_entry(own.values) / whole.largest_entry(one.values) - 1.0)
+        answer["largest"].append(share.system.largest_entry(own.values) / whole.system.largest_entry(one.values) - 1.0)
     values = own.values.copy()
     if world().rank == world().size - 1:
         values[0] = np.nan

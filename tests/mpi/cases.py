@@ -50,7 +50,7 @@ def hinged_strip():
         model.force(lambda x, y, z: (abs(x - 10) < 1e-9) & (z > 0.49), (0.0, 0.0, -2.0), "nodes"),
         model.traction("x1", (1.0, 0.0, 0.0), "pull"),
         model.line_load("y1", "upper", (0.0, 0.0, -0.5), "line"),
-        model.body_force((0.0, 0.0, -0.01), "weight"),
+        model.loads.body_force((0.0, 0.0, -0.01), "weight"),
     ]
     steps = [uf.Move(loads, [1.0, 5.0, 1.0, 1.0], steps=3), uf.Move(middle, 0.5, steps=3)]
     return model, steps, None

@@ -34,7 +34,7 @@ def sheet(columns):
     model.fix("x0", "xz")
     model.hinge("x1", "z")
     end = model.prescribe("y0", "y", "end")
-    model.body_force((0.0, 0.0, -0.01), "weight")
+    model.loads.body_force((0.0, 0.0, -0.01), "weight")
     model.pressure("upper", "pressure")
     nodes = mesh.nodes("lower")
     model.add(Foam(nodes, np.full(len(nodes), 0.1), limit=1.0, slope=1.0))

@@ -56,7 +56,13 @@ def test_a_run_is_bitwise_the_same(build, solver):
         umform.set_threads(count)
         case = build.free_bending((24, 4))
         result = solve(case.model, Move(case.punch, -1.5, steps=3), frames=0, solver=solver)
-        return case.model.u, case.model.block.state, result["punch_force"], result["tool_fz"], result["iterations"]
+        return (
+            case.model.u,
+            case.model.bodies.only.block.state,
+            result["punch_force"],
+            result["tool_fz"],
+            result["iterations"],
+        )
 
     for a, b in zip(run(1), run(2), strict=True):
         np.testing.assert_array_equal(a, b)
@@ -106,12 +112,18 @@ def test_two_models_evaluate_in_two_python_threads(build, rng):
 
 
 @pytest.mark.parametrize(("given", "expected"), [(None, "PASSIVE"), ("active", "ACTIVE")])
-def test_threads_wait_passively_unless_the_user_wants_otherwise(given, expected):
+def test_threads_of_a_command_wait_passively_unless_the_user_wants_otherwise(given, expected):
     environment = {name: value for name, value in os.environ.items() if name != "OMP_WAIT_POLICY"}
     environment |= {"OMP_DISPLAY_ENV": "true"} | ({} if given is None else {"OMP_WAIT_POLICY": given})
-    code = "import umform; umform.threads()"
+    code = "import sys, umform.cli; sys.argv[1:] = ['elements']; umform.cli.main()"
     done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
     shown = [line for line in done.stderr.splitlines() if "OMP_WAIT_POLICY" in line]
     if not shown:
         pytest.skip("the kernels were built without OpenMP, or its library does not show its settings")
     assert expected in shown[0].upper()
+
+
+def test_an_import_sets_no_variable_of_the_process():
+    code = "import os; before = dict(os.environ); import umform; umform.threads(); assert dict(os.environ) == before"
+    environment = {name: value for name, value in os.environ.items() if name != "OMP_WAIT_POLICY"}
+    subprocess.run([sys.executable, "-c", code], env=environment, check=True)

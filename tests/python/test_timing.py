@@ -71,7 +71,7 @@ def test_a_result_knows_where_its_time_went():
     model, move = strip()
     result = uf.solve(model, move, frames=0, progress=False)
     spent = result.timing
-    assert spent is model.timing
+    assert spent is model.system.timing
     iterations = int(result["iterations"].sum())
     # One more of each increment: its start; the last one of an increment is not factorised but for the first tangent.
     assert spent.factorisation.calls == spent.solve.calls

@@ -21,7 +21,7 @@ def stiffness(model: Model, evaluation: Evaluation) -> csr_matrix:
     """Tangent over the unknowns of the pattern, both triangles."""
     from scipy.sparse import csr_matrix, triu  # a solution needs none of it
 
-    pattern = model.pattern
+    pattern = model.system.pattern
     K = csr_matrix((evaluation.values, pattern.indices, pattern.indptr), shape=(pattern.n, pattern.n))
     return K + triu(K, 1).T if pattern.symmetric else K
 
@@ -46,12 +46,12 @@ def linear_solution(
     -------
     ndarray, shape (n, 3)
     """
-    u = np.where(model.constrained(), np.broadcast_to(prescribed, (model.u.size // 3, 3)).ravel(), 0.0)
+    u = np.where(model.supports.constrained(), np.broadcast_to(prescribed, (model.u.size // 3, 3)).ravel(), 0.0)
     evaluation = model.evaluate(np.zeros(u.size), u)
     if evaluation.failed >= 0:
         raise SolveError(f"an element {evaluation.failure}", where=f"cell {evaluation.failed}")
-    linear = make_solver(model.pattern, solver)
+    linear = make_solver(model.system.pattern, solver)
     linear.factor(evaluation.values)
     rhs = np.broadcast_to(loads, u.shape) - evaluation.predictor
-    u += model.extend(linear.solve(model.restrict(rhs)))
+    u += model.system.extend(linear.solve(model.system.restrict(rhs)))
     return u.reshape(-1, 3)

@@ -2,61 +2,118 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from umform.mesh import Mesh
 from umform.model.assembly import Assembly
-from umform.model.beaded import Beaded
-from umform.model.bodies import Embodied
+from umform.model.bodies import Bodies
+from umform.model.contact.bead import Bead
 from umform.model.contact.encounter import sheet_thickness
-from umform.model.loads import Loaded
-from umform.model.supports import Supported
+from umform.model.contact.pair import Contact
+from umform.model.contacts import Contacts
+from umform.model.control import Control
+from umform.model.controls import Controls
+from umform.model.now import Now
+from umform.model.state import State
+from umform.model.supports import Supports
 from umform.model.term import Global, Term
 from umform.model.term_checks import check_term
+from umform.model.tools import Tools
 from umform.model.whole import Whole
-from umform.ranks import ONE, Ranks
+from umform.ranks import ONE
 from umform.solvers import Pattern
 from umform.timing import Timing
 
 Floats = NDArray[np.float64]
 
 
-class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
+@dataclass(frozen=True)
+class Parts:
+    """The parts of a model.
+
+    Attributes
+    ----------
+    mesh, bodies, controls, supports, tools, contacts
+        Its mesh, and objects of their own.
+    now : Now
+        The present state that they share.
+    whole : Whole
+        Access to the whole model where ranks share it.
+    """
+
+    mesh: Mesh
+    bodies: Bodies
+    controls: Controls
+    supports: Supports
+    tools: Tools
+    contacts: Contacts
+    now: Now
+    whole: Whole
+
+    @classmethod
+    def on(cls, mesh: Mesh, bodies: Bodies) -> Self:
+        """The parts of a model without supports, loads and tools."""
+        now = Now(np.zeros(3 * len(mesh.points)))
+        controls = Controls(now)
+        tools = Tools(controls, now)
+        supports, contacts = Supports(mesh, controls, now), Contacts(mesh, bodies, tools)
+        return cls(mesh, bodies, controls, supports, tools, contacts, now, Whole())
+
+
+class Assembled:
     """Terms and unknowns of supports, loads, tools and bodies.
 
     Parameters
     ----------
-    mesh : Mesh
-        Points and cells.
+    parts : Parts
+        Mesh, bodies, controls, supports, tools and contacts.
+
+    Attributes
+    ----------
+    others : list of Term
+        Terms of other kinds, see :meth:`add`.
+    timing : Timing
+        Timing; :func:`umform.solve` sets a new one.
+    ranks : Ranks
+        Ranks that share the model.
     """
 
-    #: Ranks that share the model.
-    ranks: Ranks = ONE
-
-    def __init__(self, mesh: Mesh) -> None:
-        super().__init__(mesh)
-        self.u: Floats = np.zeros(3 * len(mesh.points))
-        #: Terms of other kinds, see :meth:`add`.
+    def __init__(self, parts: Parts) -> None:
+        self.mesh, self.bodies, self.controls, self.supports = parts.mesh, parts.bodies, parts.controls, parts.supports
+        self.tools, self.contacts, self.now, self.whole = parts.tools, parts.contacts, parts.now, parts.whole
         self.others: list[Term] = []
-        #: Timing; :func:`umform.solve` sets a new one.
-        self.timing = Timing()
+        self.controls.beside = [self.tools, self.contacts, self.others]
+        self.timing, self.ranks = Timing(), ONE
+        self._assembled: tuple[int, Assembly] | None = None
 
-    # Terms ---------------------------------------------------------------------------------------------------
+    # State ---------------------------------------------------------------------------------------------------
+
+    @property
+    def u(self) -> Floats:
+        """Displacement of the converged state, shape (3 n,)."""
+        return self.now.u
+
+    @u.setter
+    def u(self, value: Floats) -> None:
+        self.now.u = value
 
     @property
     def time(self) -> float:
-        """Present time."""
+        """Time of the converged state."""
         return self.now.time
 
     @time.setter
     def time(self, value: float) -> None:
         self.now.time = value
+
+    # Terms ---------------------------------------------------------------------------------------------------
 
     @property
     def terms(self) -> list[Term]:
@@ -85,10 +142,10 @@ class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
         InvalidValue
             If its name or its history columns are taken, or it couples a node that does not exist.
         """
-        self._refuse_taken(term.column_names(), term.name)
+        self.controls.refuse_taken(term.column_names(), term.name)
         check_term(term, self.terms, len(self.mesh.points))
         self.others.append(term)
-        self._assembled = None
+        self.now.restructured()
         return term
 
     @contextmanager
@@ -100,9 +157,9 @@ class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
         finally:
             self.others.remove(term)
 
-    def _named(self) -> Iterable[Any]:
-        """All objects with columns in the history."""
-        return [*self.controls, *self.tools, *self.contacts, *self.others]
+    def pairs_of_tools(self) -> list[Contact]:
+        """All terms that involve tools: contacts, and beads."""
+        return [*self.contacts, *(term for term in self.others if isinstance(term, Bead))]
 
     @property
     def unknowns(self) -> tuple[Global, ...]:
@@ -197,7 +254,7 @@ class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
         z = self.ranks.sum(x[-count:].copy() if first else np.zeros(count))
         u = self._extend_nodes(x[:-count] if first else x)
         for unknown, value in zip(unknowns, z, strict=True):
-            u += value * self.displacement_of_supports(unknown.rates)
+            u += value * self.supports.displacement(unknown.rates)
         return np.concatenate([u, z])
 
     # Internal ------------------------------------------------------------------------------------------------
@@ -206,9 +263,18 @@ class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
     def _positions(self) -> Floats:
         return self.mesh.points.ravel()
 
+    def prescribed_displacement(self, goal: State | None = None) -> Floats:
+        """Displacement that supports prescribe at a goal, see :meth:`Supports.prescribed`."""
+        return self.supports.prescribed(goal)
+
+    def displacement_of_supports(self, values: Mapping[Control, float]) -> Floats:
+        """Displacement that supports prescribe for values of controls, see :meth:`Supports.displacement`."""
+        return self.supports.displacement(values)
+
     def _assembly(self) -> Assembly:
-        if self._assembled is None:
+        if self._assembled is None or self._assembled[0] != self.now.revision:
             with self.timing.analysis:
-                self._assembled = Assembly(self.terms, self.constrained(), self.pairs, self.groups, self.ranks)
-        assembled: Assembly = self._assembled
-        return assembled
+                supports = self.supports
+                made = Assembly(self.terms, supports.constrained(), supports.pairs, supports.groups, self.ranks)
+                self._assembled = self.now.revision, made
+        return self._assembled[1]

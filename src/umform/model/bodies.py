@@ -1,39 +1,35 @@
-"""The bodies of a model; a model with one body exposes the body's element and law directly."""
+"""The bodies of a model."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Self
 
 import numpy as np
 
-from umform import _core
-from umform.elements import Element
 from umform.errors import InvalidValue, ModelError
-from umform.materials import Material
 from umform.mesh import Mesh
 from umform.model.body import Body
 
 
-class Embodied:
-    """Something that consists of bodies."""
+class Bodies(list[Body]):
+    """The bodies of a model."""
 
-    mesh: Mesh
-    bodies: list[Body]
-
-    def _embody(self, bodies: Sequence[Body]) -> None:
-        """Attach bodies to the mesh.
+    @classmethod
+    def on(cls, mesh: Mesh, bodies: Sequence[Body]) -> Self:
+        """Put bodies on a mesh.
 
         Raises
         ------
         InvalidValue
             If a cell belongs to no body or to two, or two bodies have the same name.
         """
-        self.bodies = [body.on(self.mesh) for body in bodies]
+        made = cls(body.on(mesh) for body in bodies)
         names = [body.name for body in bodies]
         if len(set(names)) < len(names):
             raise InvalidValue("two bodies have the same name", value=", ".join(names), remedy="Body(..., name=...)")
-        count = np.zeros(len(self.mesh.connectivity), dtype=int)
-        for body in self.bodies:
+        count = np.zeros(len(mesh.connectivity), dtype=int)
+        for body in made:
             count[body.cells] += 1
         wrong = np.flatnonzero(count != 1)
         if len(wrong):
@@ -43,9 +39,10 @@ class Embodied:
                 value=f"{count[wrong[0]]} bodies",
                 remedy="choose the cells of the bodies so that they share none and leave none out",
             )
+        return made
 
     @property
-    def body(self) -> Body:
+    def only(self) -> Body:
         """The only body.
 
         Raises
@@ -53,35 +50,10 @@ class Embodied:
         ModelError
             If there are several.
         """
-        if len(self.bodies) != 1:
+        if len(self) != 1:
             raise ModelError(
                 "the model has several bodies",
-                value=", ".join(body.name for body in self.bodies),
+                value=", ".join(body.name for body in self),
                 remedy="ask the bodies themselves: model.bodies",
             )
-        return self.bodies[0]
-
-    @property
-    def element(self) -> Element:
-        """Element of the only body."""
-        return self.body.element
-
-    @property
-    def material(self) -> Material:
-        """Law of the only body."""
-        return self.body.material
-
-    @property
-    def thickness_points(self) -> int:
-        """Points through the thickness of the only body."""
-        return self.body.thickness_points
-
-    @property
-    def thickness_rule(self) -> str:
-        """Their rule."""
-        return self.body.thickness_rule
-
-    @property
-    def block(self) -> _core.ShellBlock:
-        """Elements of the only body with their history."""
-        return self.body.block
+        return self[0]

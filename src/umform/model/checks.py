@@ -134,9 +134,9 @@ def free_motions(
 
 def left_free(model: Evaluated, modes: Floats, more: Sequence[Floats] = ()) -> Floats:
     """Combinations (k, 6) of the rigid-body modes (6, 3 n) that supports and more rows (m, 6) leave free."""
-    rows = [modes[:, np.flatnonzero(model.constrained())].T]
-    rows += [modes[:, tie.dofs].mean(axis=-1).T for tie in model.ties]
-    rows += [np.einsum("mkd,kd->km", modes[:, part.dofs], part.weights) for part in model.rows]
+    rows = [modes[:, np.flatnonzero(model.supports.constrained())].T]
+    rows += [modes[:, tie.dofs].mean(axis=-1).T for tie in model.supports.ties]
+    rows += [np.einsum("mkd,kd->km", modes[:, part.dofs], part.weights) for part in model.supports.rows]
     matrix = model.ranks.rows(np.concatenate([np.zeros((6, 6)), *rows, *more]))  # six rows give all six directions
     _, singular, directions = np.linalg.svd(matrix, full_matrices=False)
     rank = int((singular > 1e-8 * max(singular.max(), 1e-300)).sum())
@@ -217,7 +217,7 @@ def _touching(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
         if gap[deepest] < -0.5 * thickness:
             raise ToolSwallowsSheet(
                 "a tool overlaps the sheet before anything has moved",
-                where=f"contact {contact.name}, node {model.node_number(contact.nodes[deepest])}",
+                where=f"contact {contact.name}, node {model.whole.node_number(contact.nodes[deepest])}",
                 value=f"gap {gap[deepest]:.4g}, thickness {thickness:.4g}",
                 cause="the tool stands on the wrong side, a normal points into the sheet, or units differ",
                 remedy="move the tool so that it just touches the sheet, or turn its normal",

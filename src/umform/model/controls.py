@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from itertools import chain, count
 from typing import Any, TypeVar
 
 from umform.errors import InvalidValue
 from umform.model.control import Control
+from umform.model.now import Now
+from umform.model.state import State
 from umform.model.term import Term
 
 #: Columns of every history.
@@ -32,29 +34,56 @@ def columns_of(thing: Any) -> list[str]:
     return [thing.name, f"{thing.name}_force"]
 
 
-class Controlled:
-    """Something with controls, and with a register of the names of all history columns."""
+class Controls(list[Control]):
+    """The controls of a model in the order of their creation, and the register of all history columns.
 
-    def __init__(self) -> None:
-        self.controls: list[Control] = []
-        self._assembled: Any = None  # rebuilt when supports, ties, pressures or contacts change
+    Parameters
+    ----------
+    now : Now
+        The present state of the model.
+
+    Attributes
+    ----------
+    beside : list of sequences
+        Other objects with columns: tools, contacts, further terms.
+    """
+
+    def __init__(self, now: Now) -> None:
+        super().__init__()
+        self.beside: list[Sequence[Any]] = []
+        self._now = now
 
     def of_kind(self, kind: type[_T]) -> list[_T]:
         """Controls of a class, in the order of their creation."""
-        return [control for control in self.controls if isinstance(control, kind)]
+        return [control for control in self if isinstance(control, kind)]
 
-    def _named(self) -> Iterable[Any]:
-        """Controls and terms: all objects with columns in the history."""
-        return self.controls
+    def values_at(self, state: State) -> dict[Control, float]:
+        """Values of the controls at a state.
+
+        Raises
+        ------
+        InvalidValue
+            If the state is that of a model with other controls.
+        """
+        try:
+            return {control: state.controls[control.name] for control in self}
+        except KeyError as missing:
+            raise InvalidValue(
+                "a state has no value for a control of the model",
+                where="state",
+                value=missing.args[0],
+                cause="the state of a model with other controls, or one from before the control was made",
+                remedy="a state of a model with the same supports, loads and tools",
+            ) from None
 
     def _columns(self) -> dict[str, str]:
         """Each column of the history, and its owner."""
         taken = dict.fromkeys(COLUMNS, "the history itself")
-        for thing in self._named():
+        for thing in chain(self, *self.beside):
             taken |= {column: f"{type(thing).__name__} {thing.name!r}" for column in columns_of(thing)}
         return taken
 
-    def _refuse_taken(self, columns: Iterable[str], name: str) -> None:
+    def refuse_taken(self, columns: Iterable[str], name: str) -> None:
         """Reject a name whose columns another object writes.
 
         Raises
@@ -73,21 +102,14 @@ class Controlled:
                     remedy="give it another name",
                 )
 
-    def forget_assembly(self) -> None:
-        """Rebuild pattern and maps at the next evaluation."""
-        self._assembled = None
-
-    def free_name(self, base: str) -> str:
-        """An unused name for a control: the given one, possibly with a number."""
-        return self._name(base)
-
-    def _add(self, control: _C) -> _C:
-        self._refuse_taken(columns_of(control), control.name)
-        self.controls.append(control)
-        self._assembled = None
+    def add(self, control: _C) -> _C:
+        """Add a control; a taken name is refused."""
+        self.refuse_taken(columns_of(control), control.name)
+        self.append(control)
+        self._now.restructured()
         return control
 
-    def _name(self, base: str) -> str:
+    def free_name(self, base: str) -> str:
         """An unused name for a control whose columns are also unused."""
         taken = self._columns()
         free = chain([base], (f"{base}{k}" for k in count(2)))

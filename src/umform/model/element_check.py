@@ -82,7 +82,7 @@ def _zeros(made: Element, law: Material) -> int:
         return np.column_stack([x + 0.2 * x * y, y - 0.15 * x * y, z])
 
     model = Model(strip(1.0, 1.0, 0.3, (1, 1), cell=made.cell).transformed(skewed), made, material=law)
-    eigenvalues = np.linalg.eigvalsh(model.block.element(0, np.zeros_like(model.u))[0])
+    eigenvalues = np.linalg.eigvalsh(model.bodies.only.block.element(0, np.zeros_like(model.u))[0])
     return int((np.abs(eigenvalues) < _ZERO * eigenvalues.max()).sum())
 
 

@@ -9,28 +9,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import UmformError
-from umform.mesh import Mesh
-from umform.model.assembled import Assembled
+from umform.model.assembled import Assembled, Parts
 from umform.model.contact.pair import Contact
 from umform.model.control import Control
 from umform.model.evaluation import Evaluation, first_failure
-from umform.model.term import At, Border, Global, Into, Term
+from umform.model.state import State
+from umform.model.term import At, Border, Into, Term
 
 Floats = NDArray[np.float64]
 
 
 class Evaluated(Assembled):
-    """Something with terms that can be evaluated.
+    """Terms that can be evaluated.
 
     Parameters
     ----------
-    mesh : Mesh
-        Points and cells.
+    parts : Parts
+        Mesh, bodies, controls, supports, tools and contacts.
     """
 
-    def __init__(self, mesh: Mesh) -> None:
-        super().__init__(mesh)
-        self._evaluations, self._converged_time, self._began = 0, 0.0, 0.0
+    def __init__(self, parts: Parts) -> None:
+        super().__init__(parts)
+        self._evaluations = 0
 
     def too_deep(self, evaluation: Evaluation) -> dict[Contact, float]:
         """Contacts beyond their allowed penetration that may become stiffer, and their share of it. eq. (4.200)"""
@@ -41,9 +41,33 @@ class Evaluated(Assembled):
                 shares[contact] = contact.deepest(evaluation.found[contact], self.ranks) / contact.allowed
         return {contact: share for contact, share in shares.items() if share > 1.0}
 
+    @property
+    def state(self) -> State:
+        """The present state."""
+        controls = {control.name: control.value for control in self.controls}
+        return State(self.x, self.time, controls, self.now.converged)
+
+    def state_at(self, x: Floats, goal: State | None = None) -> State:
+        """A goal, or the present state, with other unknowns: scalar ones move their controls.
+
+        Parameters
+        ----------
+        x : ndarray, shape (3 n + k,)
+            Displacement, followed by the scalar unknowns.
+        goal : State, optional
+            The present unknowns with the time and the controls of an increment; default: the present state.
+        """
+        goal, dofs = goal or self.state, self.u.size
+        if x.size == dofs:
+            return replace(goal, x=x)
+        values = self.controls.values_at(goal)
+        for unknown, before, value in zip(self.unknowns, goal.x[dofs:].tolist(), x[dofs:].tolist(), strict=True):
+            unknown.move(values, before, value)
+        return replace(goal, x=x, controls={control.name: value for control, value in values.items()})
+
     def evaluate(
         self,
-        x: Floats,
+        state: State | Floats,
         du: Floats | None = None,
         rates: Mapping[Control, float] | None = None,
         until: float | None = None,
@@ -51,12 +75,12 @@ class Evaluated(Assembled):
         tangent: bool = True,
         keep: bool = False,
     ) -> Evaluation:
-        """Residual and tangent at ``x``, for the present values of controls and time; changes no converged history.
+        """Residual and tangent at a state; changes no converged history.
 
         Parameters
         ----------
-        x : ndarray, shape (3 n + k,)
-            Displacement, followed by the scalar unknowns.
+        state : State or ndarray, shape (3 n + k,)
+            Unknowns, time and values of the controls, see :attr:`state`; or the unknowns alone, at the present time.
         du : ndarray, shape (3 n + k,), optional
             Increment of the prescribed degrees of freedom, for the predictor. eq. (5.6)
         rates : mapping of Control to float, optional
@@ -71,13 +95,14 @@ class Evaluated(Assembled):
         keep : bool
             Whether tools hold all points that they hold in the converged state, whatever the gap. eq. (4.230)
         """
-        assembly, unknowns, dofs = self._assembly(), self.unknowns, self.u.size
+        state = state if isinstance(state, State) else self.state_at(state)
+        assembly, unknowns, dofs, x = self._assembly(), self.unknowns, self.u.size, state.x
         u, rates = x[:dofs], rates or {}
         if rates or until is not None:
-            du = self.displacement_of_supports(rates)
-        scalars, step = dict(zip(unknowns, x[dofs:].tolist(), strict=True)), self.time - self._converged_time
+            du = self.supports.displacement(rates)
+        scalars, step = dict(zip(unknowns, x[dofs:].tolist(), strict=True)), state.time - state.since
         du = None if du is None else du[:dofs]
-        at = At(u, self.time, self._values(scalars), step, du, rates, until, scalars, keep)
+        at = At(u, state.time, self.controls.values_at(state), step, du, rates, until, scalars, keep)
         values = np.zeros(assembly.entries) if tangent else None
         border = Border.of(unknowns, dofs)
         into = Into(np.zeros(dofs), values, np.zeros(dofs), assembly.scatters, self._positions, self.ranks, border)
@@ -85,10 +110,10 @@ class Evaluated(Assembled):
             self._evaluate_terms(self.terms, at, into)
         else:
             self._evaluate_with_scalars(at, into)
-        if (self.ties or self.rows) and values is not None:
+        if (self.supports.ties or self.supports.rows) and values is not None:
             with self.timing.ties:
                 values = assembly.reduce(values)
-        return self._evaluation(x, at, into, values)
+        return self._evaluation(state, at, into, values)
 
     def _evaluate_terms(self, terms: Iterable[Term], at: At, into: Into) -> None:
         for term in terms:
@@ -108,7 +133,7 @@ class Evaluated(Assembled):
         self.ranks.agree(problem)
         self._evaluate_terms([term for term in self.terms if term.unknowns], *moving)
 
-    def _evaluation(self, x: Floats, at: At, into: Into, values: Floats | None) -> Evaluation:
+    def _evaluation(self, state: State, at: At, into: Into, values: Floats | None) -> Evaluation:
         """Sums of the contributions and results of the terms."""
         self._evaluations += 1
         self.timing.attempts.evaluations += 1
@@ -123,8 +148,7 @@ class Evaluated(Assembled):
             residual = np.concatenate([residual, into.border.residual])
             predictor = np.concatenate([predictor, into.border.predictor])
         return Evaluation(
-            x=x,
-            time=at.time,
+            state=state,
             controls=at.values,
             residual=residual,
             values=np.empty(0) if values is None else values,
@@ -138,13 +162,6 @@ class Evaluated(Assembled):
             number=self._evaluations,
         )
 
-    def _values(self, scalars: Mapping[Global, float]) -> dict[Control, float]:
-        """Values of all controls, including those that scalar unknowns move."""
-        values = {control: control.value for control in self.controls}
-        for unknown, value in scalars.items():
-            unknown.move(values, value)
-        return values
-
     def _move(self, at: At, into: Into) -> tuple[At, Into]:
         """Rates of the residual with each scalar unknown at fixed nodal unknowns. eq. (5.47)
 
@@ -154,10 +171,10 @@ class Evaluated(Assembled):
         border = into.border
         if len(border.unknowns) == 1 and at.du is None and not any(tool.unknowns for tool in self.tools):
             rates, unused = border.unknowns[0].rates, replace(border, predictor=np.zeros(1))
-            along = self.displacement_of_supports(rates)
+            along = self.supports.displacement(rates)
             return replace(at, du=along, rates=rates), replace(into, predictor=border.columns[0], border=unused)
         for column, unknown in zip(into.border.columns, into.border.unknowns, strict=True):
-            along = self.displacement_of_supports(unknown.rates)
+            along = self.supports.displacement(unknown.rates)
             supports = bool(along.any())
             for term in self.terms:
                 moves = term.moves_with(unknown.rates)
@@ -199,10 +216,10 @@ class Evaluated(Assembled):
             for term in self.terms:
                 term.recover(du[: self.u.size], mixed)
 
-    def prepare(self) -> None:
-        """Recover enhanced parameters from the converged state after a failed attempt."""
+    def prepare(self, goal: State | None = None) -> None:
+        """Recover enhanced parameters from the converged state, on the way to a goal, after a failed attempt."""
         if self.ranks.any(not all(body.block.keeps_blocks for body in self.bodies if len(body.cells))):
-            self.evaluate(self.x)
+            self.evaluate(goal or self.state)
 
     def follow(self) -> None:
         """After an evaluation of forces only: let :meth:`recover` use them, with the previous tangent."""

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.model.control import Control
+from umform.model.state import State
 from umform.model.term import Border, Found, Term
 from umform.ranks import Ranks
 
@@ -24,12 +25,10 @@ class Evaluation:
 
     Attributes
     ----------
-    x : ndarray, shape (3 n + k,)
-        Displacement, followed by the scalar unknowns.
-    time : float
-        Time.
+    state : State
+        Where it was made.
     controls : mapping of Control to float
-        Values of the controls.
+        Values of the controls there.
     residual : ndarray, shape (3 n + k,)
         Internal and contact forces minus loads at all degrees of freedom; reactions at those that are held, prescribed
         or tied; then the residuals of the equations of scalar unknowns.
@@ -54,8 +53,7 @@ class Evaluation:
         Counter of the evaluations of the model.
     """
 
-    x: Floats
-    time: float
+    state: State
     controls: Mapping[Control, float]
     residual: Floats
     values: Floats
@@ -67,6 +65,16 @@ class Evaluation:
     found: dict[Term, Any]
     border: Border
     number: int
+
+    @property
+    def x(self) -> Floats:
+        """Displacement, followed by the scalar unknowns, shape (3 n + k,)."""
+        return self.state.x
+
+    @property
+    def time(self) -> float:
+        """Time."""
+        return self.state.time
 
     @property
     def u(self) -> Floats:

@@ -54,12 +54,12 @@ def _without(model: Evaluated, gone: Sequence[Support]) -> Iterator[None]:
     for support in gone:
         support.removed = True
     try:
-        model.hold_again()
+        model.supports.hold_again()
         yield
     finally:
         for support in gone:
             support.removed = False
-        model.hold_again()
+        model.supports.hold_again()
 
 
 def _dofs(model: Evaluated, nodes: Ids) -> Ids:
@@ -75,7 +75,7 @@ def _dofs(model: Evaluated, nodes: Ids) -> Ids:
             remedy="instead_of=... with the supports that the step Free takes away, or do without it",
         )
     dofs = (3 * np.asarray(nodes)[:, None] + np.arange(3)).ravel()
-    dofs = dofs[~model.constrained()[dofs]]
+    dofs = dofs[~model.supports.constrained()[dofs]]
     held = free @ modes[:, dofs]
     _, r, order = qr(held, mode="economic", pivoting=True)
     sizes = np.abs(np.diag(r))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import count
 from typing import TypeVar
 
@@ -14,7 +14,9 @@ from umform.mesh import Ids, Mesh
 from umform.mesh.numbers import common
 from umform.model.constraints import Groups, Rows
 from umform.model.control import Control, OnDofs, Prescribed
-from umform.model.controls import Controlled
+from umform.model.controls import Controls
+from umform.model.now import Now
+from umform.model.state import State
 from umform.model.support import Support
 from umform.model.ties import Tie, split_ties
 
@@ -24,34 +26,39 @@ _C = TypeVar("_C", bound=Control)
 HELD = "fix or symmetry"
 
 
-class Held(Controlled):
-    """The supports of a model, individually and combined.
+class Held:
+    """The supports of a model, individually and combined: a sequence of the active ones, without those of controls.
 
     Parameters
     ----------
     mesh : Mesh
         Points and cells.
+    controls : Controls
+        Controls of the model, some of which prescribe displacements.
+    now : Now
+        The present state of the model.
     """
 
-    u: Floats
-
-    def __init__(self, mesh: Mesh) -> None:
-        super().__init__()
-        self.mesh = mesh
+    def __init__(self, mesh: Mesh, controls: Controls, now: Now) -> None:
+        self.mesh, self.controls, self.now = mesh, controls, now
         self.ties: list[Tie] = []
         #: Constraints in local axes.
         self.rows: list[Rows] = []
-        self._fixed = np.zeros(3 * len(mesh.points), dtype=bool)
+        self.fixed = np.zeros(3 * len(mesh.points), dtype=bool)
         self._holders: list[Support] = []
         self._split: tuple[Ids, Groups] | None = None
 
-    @property
-    def supports(self) -> list[Support]:
-        """Active supports in the order of activation, without those of controls."""
-        return [support for support in self.all_supports if not support.removed]
+    def __iter__(self) -> Iterator[Support]:
+        return iter([support for support in self.all if not support.removed])
+
+    def __len__(self) -> int:
+        return len(list(iter(self)))
+
+    def __getitem__(self, number: int) -> Support:
+        return list(iter(self))[number]
 
     @property
-    def all_supports(self) -> list[Support]:
+    def all(self) -> list[Support]:
         """The supports, including removed ones."""
         return [holder for holder in self._holders if holder.control is None]
 
@@ -59,6 +66,10 @@ class Held(Controlled):
     def holders(self) -> list[Support]:
         """All objects that hold nodes: supports and controls, including removed ones."""
         return self._holders
+
+    def take(self, holders: list[Support], fixed: NDArray[np.bool_], ties: list[Tie]) -> None:
+        """Take the supports of a share, which the whole model has checked."""
+        self._holders, self.fixed, self.ties = holders, fixed, ties
 
     def hold_again(self) -> None:
         """Apply the supports again after one of them has been removed, restored or moved."""
@@ -73,7 +84,7 @@ class Held(Controlled):
 
     def constrained(self) -> NDArray[np.bool_]:
         """Mask of degrees of freedom that are held or prescribed, without tied ones and those in local axes."""
-        return _constrained(self._fixed, self.of_kind(Prescribed))
+        return _constrained(self.fixed, self.controls.of_kind(Prescribed))
 
     @property
     def pairs(self) -> Ids:
@@ -91,7 +102,7 @@ class Held(Controlled):
         groups = self.groups
         return int((~self.constrained()).sum()) - len(self.pairs) - len(groups.dofs) + groups.count
 
-    def displacement_of_supports(self, values: Mapping[Control, float]) -> Floats:
+    def displacement(self, values: Mapping[Control, float]) -> Floats:
         """Displacement that supports prescribe for given values of the controls (others zero); zero elsewhere.
 
         Parameters
@@ -106,9 +117,9 @@ class Held(Controlled):
         """
         return self._displacement(values, self.controls, self.groups)
 
-    def prescribed_displacement(self) -> Floats:
-        """Displacement that supports prescribe at the present values of the controls; zero elsewhere."""
-        values = {control: control.value for control in self.controls}
+    def prescribed(self, goal: State | None = None) -> Floats:
+        """Displacement that supports prescribe at a goal, by default at the present values of the controls."""
+        values = {c: c.value for c in self.controls} if goal is None else self.controls.values_at(goal)
         return self._displacement(values, self.controls, self.groups, _acting(self._holders))
 
     def _displacement(
@@ -119,7 +130,7 @@ class Held(Controlled):
         holders: Sequence[Support] = (),
     ) -> Floats:
         """Displacement that controls prescribe; with holders, also that of the supports at the nodes."""
-        u = np.zeros(self._fixed.size)
+        u = np.zeros(self.fixed.size)
         for control in controls:
             control.displace(u, values.get(control, 0.0))
         for holder in holders:
@@ -143,7 +154,7 @@ class Held(Controlled):
         if name in taken:
             raise InvalidValue("the name of a support is taken", value=name, remedy="give it another name")
         free = next(text for k in count(1) if (text := f"support{k}") not in taken)
-        return Support(name or free, kind, directions or "all", nodes, base=self.u.copy() if base else None)
+        return Support(name or free, kind, directions or "all", nodes, base=self.now.u.copy() if base else None)
 
     def _hold(self, support: Support) -> Support:
         """Activate a support."""
@@ -153,7 +164,7 @@ class Held(Controlled):
 
     def refuse_taken(self, support: Support) -> None:
         """Reject an inactive support if another one holds its degrees of freedom."""
-        fixed = self._fixed.copy()
+        fixed = self.fixed.copy()
         fixed[support.held] = True
         taken = self._taken([tie.without_held(fixed) for tie in self.ties])
         if support.kind == HELD:  # holding a node twice is harmless
@@ -167,14 +178,14 @@ class Held(Controlled):
         before = self._holders
         self._support(before if holder is None else [*before, holder], [control])
         try:
-            return self._add(control)
+            return self.controls.add(control)
         except InvalidValue:
             self._support(before)
             raise
 
     def _support(self, holders: list[Support], controls: Sequence[Control] = ()) -> None:
         """Activate these supports and those of new controls, unless they contradict each other."""
-        acting, fixed = _acting(holders), np.zeros_like(self._fixed)
+        acting, fixed = _acting(holders), np.zeros_like(self.fixed)
         for holder in acting:
             fixed[holder.held] = True
         ties = [tie.without_held(fixed) for holder in acting for tie in holder.ties]
@@ -182,8 +193,8 @@ class Held(Controlled):
         every = [*self.controls, *controls]
         split = _split(_constrained(fixed, [c for c in every if isinstance(c, Prescribed)]), ties, rows)
         self._refuse_contradictions(split[1], every, acting)
-        self._fixed, self.ties, self.rows, self._split, self._holders = fixed, ties, rows, split, holders
-        self._assembled = None
+        self.fixed, self.ties, self.rows, self._split, self._holders = fixed, ties, rows, split, holders
+        self.now.restructured()
         for control in every:
             if isinstance(control, OnDofs):  # a control may move more than its degrees of freedom
                 control.along = self._displacement({control: 1.0}, every, split[1]) if rows else None
@@ -204,8 +215,8 @@ class Held(Controlled):
 
     def _taken(self, ties: Sequence[Tie]) -> dict[str, Ids]:
         """Degrees of freedom that are already held or prescribed, and by which support."""
-        taken = {HELD: np.flatnonzero(self._fixed).astype(np.int32)}
-        taken |= {control.name: control.dofs for control in self.of_kind(Prescribed)}
+        taken = {HELD: np.flatnonzero(self.fixed).astype(np.int32)}
+        taken |= {control.name: control.dofs for control in self.controls.of_kind(Prescribed)}
         for tie in ties:
             by = "hinge" if tie.control is None else tie.control.name
             taken[by] = np.concatenate([taken.get(by, np.empty(0, dtype=np.int32)), tie.dofs.ravel()])

@@ -38,10 +38,10 @@ class Global:
     value: float = 0.0
     what: str = "a scalar unknown"
 
-    def move(self, values: dict[Control, float], value: float) -> None:
-        """Write the values of the dependent controls for a value of the unknown."""
+    def move(self, values: dict[Control, float], before: float, value: float) -> None:
+        """Write the values of the dependent controls for a value of the unknown, from those for the value before."""
         for control, rate in self.rates.items():
-            values[control] += rate * (value - self.value)
+            values[control] += rate * (value - before)
 
     def strip(self, bare: Global, twins: Twins) -> None:
         """The same for the twins of its controls."""

@@ -2,22 +2,36 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from umform.mesh import Mesh, Selector
 from umform.model import forces
-from umform.model.controls import Controlled
+from umform.model.controls import Controls
 from umform.model.dead_load import Load
 from umform.model.pressure import Pressure
 
 Floats = NDArray[np.float64]
 
 
-class Loaded(Controlled):
-    """Loads on the nodes, faces and edges of a mesh."""
+class Loads:
+    """Loads on the nodes, faces and edges of a mesh: a sequence of the dead ones.
 
-    mesh: Mesh
+    Parameters
+    ----------
+    mesh : Mesh
+        Points and cells.
+    controls : Controls
+        Controls of the model, to which loads are added.
+    """
+
+    def __init__(self, mesh: Mesh, controls: Controls) -> None:
+        self.mesh, self.controls = mesh, controls
+
+    def __iter__(self) -> Iterator[Load]:
+        return iter(self.controls.of_kind(Load))
 
     def force(self, nodes: Selector, force: ArrayLike, name: str = "") -> Load:
         """The same dead force on each node of a set.
@@ -36,7 +50,7 @@ class Loaded(Controlled):
         Load
             The control whose value steps move.
         """
-        return self._load(forces.nodal_forces(self.mesh, nodes, force), name or self._name("force"))
+        return self._load(forces.nodal_forces(self.mesh, nodes, force), name or self.controls.free_name("force"))
 
     def traction(self, faces: Selector, traction: ArrayLike, name: str = "") -> Load:
         """Dead traction on faces of the cells, lateral ones too.
@@ -55,7 +69,9 @@ class Loaded(Controlled):
         Load
             The control whose value steps move.
         """
-        return self._load(forces.traction_forces(self.mesh, faces, traction), name or self._name("traction"))
+        return self._load(
+            forces.traction_forces(self.mesh, faces, traction), name or self.controls.free_name("traction")
+        )
 
     def line_load(self, faces: Selector, side: str, load: ArrayLike, name: str = "") -> Load:
         """Dead load on the lower or upper edge of lateral faces.
@@ -76,7 +92,9 @@ class Loaded(Controlled):
         Load
             The control whose value steps move.
         """
-        return self._load(forces.edge_forces(self.mesh, faces, side, load), name or self._name("line_load"))
+        return self._load(
+            forces.edge_forces(self.mesh, faces, side, load), name or self.controls.free_name("line_load")
+        )
 
     def body_force(self, force: ArrayLike, name: str = "") -> Load:
         """Dead force in the volume.
@@ -93,7 +111,7 @@ class Loaded(Controlled):
         Load
             The control whose value steps move.
         """
-        return self._load(forces.body_forces(self.mesh, force), name or self._name("body_force"))
+        return self._load(forces.body_forces(self.mesh, force), name or self.controls.free_name("body_force"))
 
     def pressure(self, faces: Selector, name: str = "") -> Pressure:
         """Follower pressure on lower or upper faces, against their outward normal; it makes the tangent unsymmetric.
@@ -110,11 +128,13 @@ class Loaded(Controlled):
         Pressure
             The control whose value (force per current area) steps move.
         """
-        return self._add(Pressure.on(name or self._name("pressure"), self.mesh, self.mesh.face_set(faces)))
+        return self.controls.add(
+            Pressure.on(name or self.controls.free_name("pressure"), self.mesh, self.mesh.face_set(faces))
+        )
 
-    def add_load(self, load: Load) -> Load:
+    def add(self, load: Load) -> Load:
         """Add an existing load."""
-        return self._add(load)
+        return self.controls.add(load)
 
     def _load(self, vector: Floats, name: str) -> Load:
-        return self._add(Load(name, vector=vector))
+        return self.controls.add(Load(name, vector=vector))

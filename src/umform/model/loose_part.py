@@ -31,9 +31,9 @@ def loose_part(model: Evaluated, motion: Floats) -> str:
         return "no node"
     count = int((sizes > _MOVES * sizes[most]).sum())
     place = model.mesh.points[most] + model.u.reshape(-1, 3)[most]
-    along = ways[most] / sizes[most]
+    along, number = ways[most] / sizes[most], model.whole.node_number(most)
     return (
-        f"{count} of {len(sizes)} nodes can move, most of all node {model.node_number(most)} at ({_three(place)}) "
+        f"{count} of {len(sizes)} nodes can move, most of all node {number} at ({_three(place)}) "
         f"along ({_three(along)})"
     )
 

@@ -1,9 +1,10 @@
-"""The model: mesh, bodies, supports, loads and tools; residual and tangent at a displacement; its state."""
+"""The model: mesh, bodies, supports, loads and tools; residual and tangent at a state."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from functools import wraps
+from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,23 +15,48 @@ from umform.materials import Material
 from umform.mesh import Mesh, Selector
 from umform.mesh.numbers import unique
 from umform.model import removal
+from umform.model.assembled import Parts
+from umform.model.beads import Beads
+from umform.model.bodies import Bodies
 from umform.model.body import Body
-from umform.model.checks import check_model
 from umform.model.contact import Contact
+from umform.model.contacts import Contacts
 from umform.model.dead_load import Load
 from umform.model.gauge import gauge_dofs
-from umform.model.kept_gap import check_kept_gaps, stop_at_gap
+from umform.model.kept_gap import stop_at_gap
+from umform.model.loads import Loads
+from umform.model.moved_names import MOVED, moved
 from umform.model.opening import put_tool_back
 from umform.model.press import check_stiffness
 from umform.model.rest import Rest
-from umform.model.standing import Standing
+from umform.model.state import State
 from umform.model.support import Support
+from umform.model.supports import Supports
+from umform.model.system import System
 from umform.model.tool import Tool
 from umform.model.tool_controls import ToolForce
+from umform.model.tools import Tools
 from umform.spec import takes
 
+Floats = NDArray[np.float64]
+_P = ParamSpec("_P")
+_R = TypeVar("_R")
 
-class Model(Standing):
+
+def _of(part: str, method: Callable[Concatenate[Any, _P], _R]) -> Callable[Concatenate[Model, _P], _R]:
+    """The method of a part as one of the model, with its text."""
+    name = method.__name__
+
+    @wraps(method)
+    def thin(self: Model, /, *arguments: _P.args, **named: _P.kwargs) -> _R:
+        found: _R = getattr(getattr(self, part), name)(*arguments, **named)
+        return found
+
+    thin.__qualname__ = f"Model.{name}"
+    return thin
+
+
+class Model:
     """Solid-shells with supports, loads and rigid tools.
 
     Parameters
@@ -61,6 +87,22 @@ class Model(Standing):
 
     Attributes
     ----------
+    mesh : Mesh
+        Points and cells.
+    bodies : Bodies
+        Its bodies, a list; ``bodies.only`` of a model with one.
+    supports : Supports
+        The active supports; held and prescribed degrees of freedom.
+    controls : Controls
+        Quantities that steps can move, a list.
+    loads : Loads
+        Dead loads.
+    tools : Tools
+        Rigid tools, a list.
+    contacts : Contacts
+        Pairs of faces and tools, a list.
+    system : System
+        Terms and unknowns, their evaluation, and the converged state: what Newton's method uses.
     carries_loose_sheet : bool
         Whether a run supports an initially loose sheet by weak springs until tools hold it, see :meth:`rest`.
 
@@ -89,12 +131,48 @@ class Model(Standing):
         rolling: Rolling | None = None,
         **options: Any,
     ) -> None:
-        super().__init__(mesh)
         if bodies is None:
             bodies = [Body(element, material=material, rolling=rolling, **options)]  # type: ignore[arg-type]
         elif material is not None:
             raise InvalidValue("give bodies, or element and material", where="Model", remedy="leave one of them away")
-        self._embody(bodies)
+        self._consist_of(System(Parts.on(mesh, Bodies.on(mesh, bodies))))
+        self.system.whole.described = self
+
+    def _consist_of(self, system: System) -> None:
+        """Take the parts of a system."""
+        self.system, self.mesh, self.bodies = system, system.mesh, system.bodies
+        self.controls, self.supports, self.tools = system.controls, system.supports, system.tools
+        self.contacts, self.loads, self._beads = system.contacts, Loads(system.mesh, system.controls), Beads(system)
+
+    fix, symmetry = _of("supports", Supports.fix), _of("supports", Supports.symmetry)
+    hinge, hold_director = _of("supports", Supports.hinge), _of("supports", Supports.hold_director)
+    prescribe = _of("supports", Supports.prescribe)
+    prescribe_midline = _of("supports", Supports.prescribe_midline)
+
+    force, traction = _of("loads", Loads.force), _of("loads", Loads.traction)
+    line_load, pressure = _of("loads", Loads.line_load), _of("loads", Loads.pressure)
+
+    contact, bead = _of("contacts", Contacts.contact), _of("_beads", Beads.bead)
+    tool, drive, turn = _of("tools", Tools.tool), _of("tools", Tools.drive), _of("tools", Tools.turn)
+    press, press_turn = _of("tools", Tools.press), _of("tools", Tools.press_turn)
+    spring, stop = _of("tools", Tools.spring), _of("tools", Tools.stop)
+    attach, set_motion = _of("tools", Tools.attach), _of("tools", Tools.set_motion)
+
+    add, evaluate = _of("system", System.add), _of("system", System.evaluate)
+
+    @property
+    def u(self) -> Floats:
+        """Displacement of the converged state, shape (3 n,)."""
+        return self.system.u
+
+    @u.setter
+    def u(self, value: Floats) -> None:
+        self.system.u = value
+
+    @property
+    def state(self) -> State:
+        """The present state: unknowns, time and values of the controls."""
+        return self.system.state
 
     def remove(self, thing: Support | Contact) -> Load:
         """Remove a support or a contact; its forces remain as a dead load of factor 1.
@@ -118,7 +196,7 @@ class Model(Standing):
         InvalidValue
             If it does not belong to the model, or is already removed.
         """
-        return removal.remove(self, thing)
+        return removal.remove(self.system, thing)
 
     def unbalanced(self, name: str = "unbalanced") -> Load:
         """A load of the unbalanced forces at the present state, for an operation that begins there.
@@ -141,7 +219,7 @@ class Model(Standing):
         InvalidValue
             If supports hold nodes away from their present positions, or the name is taken.
         """
-        return removal.balancing(self, name)
+        return removal.balancing(self.system, name)
 
     def put_back(self, thing: Support | Tool, *, here: bool = True) -> None:
         """Restore a removed support, or contact with an opened tool.
@@ -154,9 +232,9 @@ class Model(Standing):
             Hold the nodes of a support where they are now, not where they were in the undeformed mesh.
         """
         if isinstance(thing, Tool):
-            put_tool_back(self, thing)
+            put_tool_back(self.system, thing)
         else:
-            removal.put_back(self, thing, here=here)
+            removal.put_back(self.system, thing, here=here)
 
     def hold_rigid(
         self, nodes: Selector = "all", name: str = "", *, instead_of: Support | Sequence[Support] = ()
@@ -183,8 +261,8 @@ class Model(Standing):
         everything = isinstance(nodes, str) and nodes == "all"
         ids = np.arange(len(self.mesh.points), dtype=np.int32) if everything else self.mesh.nodes(nodes)
         gone = [instead_of] if isinstance(instead_of, Support) else list(instead_of)
-        dofs = gauge_dofs(self, ids, gone)
-        return self.wait(unique(dofs // 3).astype(np.int32), dofs, name)
+        dofs = gauge_dofs(self.system, ids, gone)
+        return self.supports.wait(unique(dofs // 3).astype(np.int32), dofs, name)
 
     def rest(self, stiffness: float | None = None, name: str = "rest", *, motions: str = "") -> Rest:
         """Support a loose sheet by weak springs, removed for good once tools hold it.
@@ -203,10 +281,10 @@ class Model(Standing):
             For the note of a run: the rigid-body motions for which it added the springs.
         """
         if stiffness is None:
-            stiffness = 1e-12 * self.largest_entry(self.evaluate(self.x).values)
+            stiffness = 1e-12 * self.system.largest_entry(self.evaluate(self.state).values)
         check_stiffness(stiffness, 0.0, f"rest {name}", "displacement")
         term = Rest(name, self.u, stiffness, motions)
-        self.add(term)
+        self.system.add(term)
         return term
 
     def keep_gap(self, force: ToolForce, to: Contact | Tool, gap: float) -> None:
@@ -230,18 +308,19 @@ class Model(Standing):
             If the tools do not face each other, are already nearer, or move apart from each other.
         """
         other = to if isinstance(to, Tool) else to.tool
-        press = self.press_of(force)
-        at, below = stop_at_gap(self, press, other, gap)
-        self.stop(force, at, below=below)
+        press = self.tools.press_of(force)
+        at, below = stop_at_gap(self.system, press, other, gap)
+        self.tools.stop(force, at, below=below)
         press.gaps.append(other)
 
-    def check(self, gauge: Support | None = None) -> None:
-        """Reject a model that cannot be solved, before the run starts, see :func:`umform.model.checks.check_model`."""
-        check_model(self, gauge)
-        check_kept_gaps(self)
+    if not TYPE_CHECKING:
 
-    def mechanism(self, values: NDArray[np.float64], motion: NDArray[np.float64]) -> NDArray[np.float64] | None:
-        """What can move although a tangent looks singular; None for a very thin sheet that is held. eq. (5.99)"""
-        from umform.model.mechanisms import mechanism
+        def __getattr__(self, name: str) -> Any:
+            """Old names, with a warning that says the new one."""
+            return getattr(*moved(self, name))
 
-        return mechanism(self, values, motion)
+        def __setattr__(self, name: str, value: Any) -> None:
+            if name in MOVED:
+                setattr(*moved(self, name), value)
+            else:
+                super().__setattr__(name, value)

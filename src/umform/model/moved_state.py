@@ -79,9 +79,9 @@ def move_state(whole: Model, sheet: Sheet, x: Floats, layer: Layer, made: Fitted
             weights = Weights.between(sheet, x, sources, corners[own], body.element.surface_rule, body.through[0])
             of = np.searchsorted(old.cells, sheet.cells[weights.stacks, k])
             moves.append(_Layer(old, of, body, np.searchsorted(body.cells, cells[own]), own, weights))
-    state, plastic = model.snapshot(), _plastic(moves, len(stacks))
+    state, plastic = model.system.snapshot(), _plastic(moves, len(stacks))
     for with_history in (plastic, np.ones_like(plastic)):
-        model.restore(state)
+        model.system.restore(state)
         _transfer(whole, model, moves, with_history)
         _settle(model, made)
         problem = _changed_energy(whole, model, moves)

@@ -18,8 +18,8 @@ from umform.model.tool import Tool
 def fading_tool(model: Evaluated, tool: Tool) -> Load:
     """The control of the forces that replace a tool once it is open; zero before."""
     if tool.load is None:
-        name = model.free_name(f"{tool.name}_left")
-        tool.load = model.add_load(Load(name, vector=np.zeros_like(model.u)))
+        name = model.controls.free_name(f"{tool.name}_left")
+        tool.load = model.controls.add(Load(name, vector=np.zeros_like(model.u)))
     return tool.load
 
 

@@ -164,7 +164,7 @@ class ModelPart:
                 value=name,
                 remedy="one of " + (", ".join(self.contacts) or "none: the stage before had no friction"),
             )
-        self.model.evaluate(self.model.x)
+        self.model.evaluate(self.model.system.x)
         contact.begin()
         return self.contacts[name].put(contact)
 
@@ -182,19 +182,19 @@ _KINDS = ("elastic", "plastic")
 
 def _model(whole: Model, mesh: Mesh, parents: Numbers, u: Floats) -> Model:
     """A model of a mesh whose cells have the state of their parents."""
-    before = whole.snapshot()
+    before = whole.system.snapshot()
     bodies = {body.key: kept for body in whole.bodies if (kept := _kept_body(body, parents)) is not None}
     model = Model(mesh, bodies=[made for made, _ in bodies.values()])
     terms = {
         key: {name: values[rows] for name, values in before.terms[key].items()} for key, (_, rows) in bodies.items()
     }
-    model.restore(Snapshot(np.ascontiguousarray(u).ravel(), before.time, terms=terms, began=before.began))
+    model.system.restore(Snapshot(np.ascontiguousarray(u).ravel(), before.time, terms=terms, began=before.began))
     return model
 
 
 def _contacts(whole: Model, parents: Numbers, same: NDArray[np.bool_]) -> dict[str, KeptContact]:
     """Histories of the contacts with friction."""
-    return {pair.name: KeptContact.of(pair).left(parents, same) for pair in whole.pairs_of_tools() if pair.rubs}
+    return {pair.name: KeptContact.of(pair).left(parents, same) for pair in whole.system.pairs_of_tools() if pair.rubs}
 
 
 def _removed(whole: Model, model: Model) -> Energies:

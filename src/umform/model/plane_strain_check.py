@@ -26,7 +26,7 @@ def check_plane_strain(model: Evaluated) -> None:
     """
     problem = None
     try:
-        held = model.constrained().reshape(-1, 3)
+        held = model.supports.constrained().reshape(-1, 3)
         for body in model.bodies:
             if body.element.plane_strain and len(body.cells):
                 _check_body(body, held)

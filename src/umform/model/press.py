@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -87,6 +89,15 @@ class Press:
         pushes = [stop.push(way) for stop in self.stops]
         force = self.stiffness * (way - self.free) - sum(push for push, _ in pushes) - sheet
         return force, self.stiffness + sum(slope for _, slope in pushes)
+
+    @contextmanager
+    def driven(self) -> Iterator[None]:
+        """Prescribe the travel within this block; the force is then its reaction."""
+        self.held = True
+        try:
+            yield
+        finally:
+            self.held = False
 
     @property
     def rigid(self) -> bool:

@@ -56,11 +56,11 @@ def remove(model: Evaluated, thing: Support | Contact) -> Load:
     before, value = load.vector, load.value
     load.value, thing.removed = 0.0, True
     try:
-        model.hold_again()
+        model.supports.hold_again()
         load.vector = unbalanced(model)
     except BaseException:
         load.vector, load.value, thing.removed = before, value, False
-        model.hold_again()
+        model.supports.hold_again()
         raise
     load.value = 1.0
     return load
@@ -74,7 +74,7 @@ def put_back(model: Evaluated, support: Support, *, here: bool = True) -> None:
     InvalidValue
         If it is active, or contradicts a support that was added since.
     """
-    if support not in model.all_supports or not support.removed:
+    if support not in model.supports.all or not support.removed:
         raise InvalidValue(
             "the support has not been removed",
             where="put_back()",
@@ -82,12 +82,12 @@ def put_back(model: Evaluated, support: Support, *, here: bool = True) -> None:
             cause="it acts, or belongs to another model",
             remedy="put back what remove() or a step Free has taken away",
         )
-    model.refuse_taken(support)
+    model.supports.refuse_taken(support)
     before = support.base
     support.hold_at(model.u.copy() if here else None)
     support.removed = False
     try:
-        model.hold_again()
+        model.supports.hold_again()
     except BaseException:
         support.hold_at(before)
         support.removed = True
@@ -100,7 +100,7 @@ def fading(model: Evaluated, support: Support) -> Load:
     """The control of the forces that replace a support after its removal; zero before."""
     if support.load is None:
         zero = np.zeros_like(model.u)
-        support.load = model.add_load(Load(model.free_name(support.name), vector=zero))
+        support.load = model.controls.add(Load(model.controls.free_name(support.name), vector=zero))
     return support.load
 
 
@@ -112,7 +112,7 @@ def states_of_supports(model: Evaluated) -> dict[str, Any]:
             "base": None if support.base is None else support.base.copy(),
             "vector": None if support.load is None else support.load.vector.copy(),
         }
-        for support in model.all_supports
+        for support in model.supports.all
         if support.load is not None or support.waits
     }
 
@@ -120,7 +120,7 @@ def states_of_supports(model: Evaluated) -> dict[str, Any]:
 def put_supports(model: Evaluated, states: Mapping[str, Any]) -> None:
     """Restore the supports to a state from :func:`states_of_supports`."""
     changed = False
-    for support in model.all_supports:
+    for support in model.supports.all:
         if support.name not in states:
             continue
         state = states[support.name]
@@ -133,7 +133,7 @@ def put_supports(model: Evaluated, states: Mapping[str, Any]) -> None:
         changed, support.removed = True, removed
         support.hold_at(base)
     if model.ranks.any(changed):
-        model.hold_again()
+        model.supports.hold_again()
 
 
 def _same(one: NDArray[np.float64] | None, other: NDArray[np.float64] | None) -> bool:
@@ -149,23 +149,25 @@ def _remove_contact(model: Evaluated, contact: Contact) -> Load:
             cause="it has been removed already, or belongs to another model",
             remedy="take what contact() of this model returned",
         )
-    contacts, others, tools, controls, tool = model.contacts, model.others, model.tools, model.controls, contact.tool
-    load = Load(model.free_name(contact.name), vector=np.zeros_like(model.u))
-    model.contacts = [other for other in contacts if other is not contact]
-    model.others = [other for other in others if other is not contact]
+    lists: list[list[Any]] = [model.contacts, model.others, model.tools, model.controls]
+    before, tool = [list(one) for one in lists], contact.tool
+    load = Load(model.controls.free_name(contact.name), vector=np.zeros_like(model.u))
+    model.contacts[:] = [other for other in model.contacts if other is not contact]
+    model.others[:] = [other for other in model.others if other is not contact]
     tool.pairs.remove(contact)
     if not tool.pairs:
         gone = [*tool.ways, *(press.force for press in tool.presses)]
-        model.tools = [other for other in tools if other is not tool]
-        model.controls = [control for control in controls if control not in gone]
-    model.forget_assembly()
+        model.tools[:] = [other for other in model.tools if other is not tool]
+        model.controls[:] = [control for control in model.controls if control not in gone]
+    model.now.restructured()
     try:
         load.vector = unbalanced(model)
-        load = model.add_load(load)
+        load = model.controls.add(load)
     except BaseException:
-        model.contacts, model.others, model.tools, model.controls = contacts, others, tools, controls
+        for one, had in zip(lists, before, strict=True):
+            one[:] = had
         tool.pairs.append(contact)
-        model.forget_assembly()
+        model.now.restructured()
         raise
     load.value = 1.0
     return load
@@ -179,7 +181,7 @@ def balancing(model: Evaluated, name: str) -> Load:
     InvalidValue
         If supports hold nodes away from their present positions, or the name is taken.
     """
-    prescribed = model.prescribed_displacement() - model.u
+    prescribed = model.supports.prescribed() - model.u
     away = prescribed - model.extend(model.coefficients(prescribed))
     if np.abs(away).max() > _AT_REST * model.extent:
         node = int(np.abs(away).argmax()) // 3
@@ -190,7 +192,7 @@ def balancing(model: Evaluated, name: str) -> Load:
             cause="a support that holds nodes where they were in the undeformed mesh",
             remedy="here=True in fix(), hinge() or hold_director(); tools or loads where nodes are to be moved",
         )
-    load = model.add_load(Load(name, vector=np.zeros_like(model.u)))
+    load = model.controls.add(Load(name, vector=np.zeros_like(model.u)))
     load.vector = unbalanced(model)
     load.value = 1.0
     return load
@@ -200,5 +202,5 @@ def unbalanced(model: Evaluated) -> NDArray[np.float64]:
     """Unbalanced forces on the unknowns at the present state."""
     residual: NDArray[np.float64] = model.extend(model.restrict(model.evaluate(model.x).residual))
     forces = np.zeros((model.u.size // 3, 3))
-    forces[model.owned] = residual[: model.u.size].reshape(-1, 3)[model.owned]  # a shared node counts once
+    forces[model.whole.owned] = residual[: model.u.size].reshape(-1, 3)[model.whole.owned]  # a shared node counts once
     return forces.ravel()

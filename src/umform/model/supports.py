@@ -16,7 +16,7 @@ from umform.model.ties import MidLine, node_pairs
 Floats = NDArray[np.float64]
 
 
-class Supported(Held):
+class Supports(Held):
     """Supports of the nodes of a mesh."""
 
     def fix(
@@ -207,7 +207,7 @@ class Supported(Held):
             If a displacement is held, prescribed or tied already, or the name is taken.
         """
         ids = self.mesh.nodes(nodes)
-        control = Prescribed(name or self._name("displacement"))
+        control = Prescribed(name or self.controls.free_name("displacement"))
         if axes is not None:
             _, vectors = directions_of(axes, direction, None, self.mesh.points[ids])
             rows = [rows_of_nodes(ids, vector, control.name, control, None) for vector in vectors]
@@ -252,7 +252,7 @@ class Supported(Held):
         >>> lift = model.prescribe_midline("x1", "z", "lift")
         >>> result = solve(model, Move(lift, 0.5, steps=2))
         """
-        control, pairs = MidLine(name or self._name("midline")), node_pairs(self.mesh, nodes)
+        control, pairs = MidLine(name or self.controls.free_name("midline")), node_pairs(self.mesh, nodes)
         holder = Support(control.name, control.name, direction, unique(pairs), control=control)
         if axes is not None:
             _, vectors = directions_of(axes, direction, None, self.mesh.points[pairs].mean(axis=1))

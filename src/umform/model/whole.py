@@ -14,18 +14,21 @@ Floats = NDArray[np.float64]
 
 
 class Whole:
-    """A model on one process."""
+    """A model on one process.
 
-    #: Whether the ranks of a run hold the history of its elements and contacts.
-    elsewhere = False
+    Parameters
+    ----------
+    described : Model, optional
+        The complete model, if available.
+    """
 
     #: Nodes that count on this rank where each must count once.
     owned: slice | NDArray[np.int64] = slice(None)
 
-    @property
-    def described(self) -> Any:
-        """The complete model, if available: this one."""
-        return self
+    def __init__(self, described: Any = None) -> None:
+        self.described = described
+        #: Whether the ranks of a run hold the history of its elements and contacts.
+        self.elsewhere = False
 
     def node_number(self, node: int) -> int:
         """Number of a node in the mesh of the model."""
@@ -35,11 +38,11 @@ class Whole:
         """Sum of nodal values, shape (n, k), over the elements of all ranks."""
         return shares
 
-    def whole_frame(self, frame: Frame) -> Frame | None:
+    def frame(self, frame: Frame) -> Frame | None:
         """A frame over all nodes, cells and contact points, on the first rank."""
         return frame
 
-    def whole_state(self, tree: dict[str, Any]) -> dict[str, Any]:
+    def state(self, tree: dict[str, Any]) -> dict[str, Any]:
         """The state of a run for checkpoints, over all nodes, cells and contact points, on the first rank."""
         return tree
 

@@ -91,8 +91,8 @@ class Cutting:
         whole, owners = self._whole, self._owners
         owned = np.flatnonzero(owners.node[nodes] == rank)
         cut = Cut(nodes, owned, self._node, self._cell)
-        things: list[Any] = [*whole.bodies, *whole.controls, *whole.tools, *whole.contacts, *whole.others]
-        things += whole.holders
+        things: list[Any] = [*whole.bodies, *whole.controls, *whole.tools, *whole.contacts, *whole.system.others]
+        things += whole.supports.holders
         number = owners.equation.reshape(-1, 3)[nodes].ravel()
         parcel = Parcel(
             cells=cells,
@@ -101,9 +101,9 @@ class Cutting:
             points=whole.mesh.points[nodes],
             connectivity=self._node[whole.mesh.connectivity[cells]],
             owned=owned,
-            fixed=whole._fixed.reshape(-1, 3)[nodes].ravel(),
+            fixed=whole.supports.fixed.reshape(-1, 3)[nodes].ravel(),
             pieces=[thing.piece(cut) for thing in things],
-            ties=[cut.dofs(tie.dofs)[(self._node[tie.dofs // 3] >= 0).all(axis=1)] for tie in whole.ties],
+            ties=[cut.dofs(tie.dofs)[(self._node[tie.dofs // 3] >= 0).all(axis=1)] for tie in whole.supports.ties],
             numbers=np.concatenate([number[number >= 0], owners.tie[tied]]),
             node_numbers=self._consecutive[nodes],
             own=int(owners.own[rank]),
@@ -121,7 +121,7 @@ class Cutting:
         known = self._node[self._pairs // 3] >= 0
         tied: NDArray[np.bool_] = np.logical_or(known[:, 0], known[:, 1])
         self._node[nodes] = -1
-        later = [tie.dofs // 3 for holder in self._whole.holders for tie in holder.ties]  # if others are freed
+        later = [tie.dofs // 3 for holder in self._whole.supports.holders for tie in holder.ties]  # if others are freed
         partners = np.concatenate([self._pairs[tied] // 3, *(pair[np.isin(pair, nodes).any(axis=1)] for pair in later)])
         return tied, np.union1d(nodes, partners).astype(np.int64)
 

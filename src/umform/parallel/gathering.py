@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.model import Body
 from umform.model.contact import Contact, ContactPoints
 from umform.model.frame import Frame
 from umform.model.term import Term, Tree
@@ -32,12 +31,14 @@ class Part(Protocol):
     """Position of a share in the whole model."""
 
     ranks: MpiRanks
-    bodies: list[Body]
-    contacts: list[Contact]
     u: Floats
     nodes: NDArray[np.int64]
     cells: NDArray[np.int64]
     owned: NDArray[np.int64]
+
+    @property
+    def contacts(self) -> Sequence[Contact]:
+        """Its contacts."""
 
     @property
     def terms(self) -> list[Term]:

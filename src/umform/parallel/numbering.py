@@ -86,7 +86,7 @@ class Owners:
         for rank in reversed(range(len(cells))):
             node[model.mesh.connectivity[cells[rank]]] = rank
         pairs = tied_pairs(model)
-        constrained = model.constrained()
+        constrained = model.supports.constrained()
         constrained[pairs] = True
         free = np.flatnonzero(~constrained)
         owner = np.concatenate([node[free // 3], node[pairs[:, 0] // 3]])
@@ -105,4 +105,4 @@ class Owners:
 
 def tied_pairs(model: Model) -> Ids:
     """Pairs (lower, upper) of tied degrees of freedom of all ties, shape (k, 2)."""
-    return np.concatenate([np.empty((0, 2), dtype=np.int32), *[tie.dofs for tie in model.ties]])
+    return np.concatenate([np.empty((0, 2), dtype=np.int32), *[tie.dofs for tie in model.supports.ties]])

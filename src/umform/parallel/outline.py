@@ -52,14 +52,14 @@ class Outline:
         """Remove from a model all data that grow with its mesh."""
         twins = Twins()
         return cls(
-            twins.of(model.now),
+            twins.of(model.system.now),
             [twins.of(body) for body in model.bodies],
             [twins.of(control) for control in model.controls],
             [twins.of(tool) for tool in model.tools],
             [twins.of(contact) for contact in model.contacts],
-            [_own(term, twins) for term in model.others],
-            [None if tie.control is None else twins.of(tie.control) for tie in model.ties],
-            [twins.of(holder) for holder in model.holders],
+            [_own(term, twins) for term in model.system.others],
+            [None if tie.control is None else twins.of(tie.control) for tie in model.supports.ties],
+            [twins.of(holder) for holder in model.supports.holders],
             [_moving(step, twins) for step in steps],
         )
 

@@ -97,7 +97,9 @@ def _outline(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> Outline:
                 cause="the load is one more unknown, and critical points are looked for in the whole tangent",
                 remedy="another solver in one process, or Move and Release",
             )
-    asked_by = {part.by for part in model.rows} | {str(holder) for holder in model.holders if len(holder.rows)}
+    asked_by = {part.by for part in model.supports.rows} | {
+        str(holder) for holder in model.supports.holders if len(holder.rows)
+    }
     if asked_by:
         raise InvalidValue(
             "supports in local axes do not work with the solver petsc",
@@ -107,7 +109,7 @@ def _outline(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> Outline:
             remedy="another solver in one process, or supports along x, y and z",
         )
     _refuse_what_cannot_be_cut(model)
-    if model.elsewhere:
+    if model.system.whole.elsewhere:
         raise not_here("the history of the elements")
     if ranks.rank == 0:
         check_nodes(model.mesh)
@@ -116,7 +118,7 @@ def _outline(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> Outline:
 
 def _refuse_what_cannot_be_cut(model: Model) -> None:
     """Reject terms that cannot be distributed."""
-    for term in model.others:
+    for term in model.system.others:
         if not term.shareable:
             raise InvalidValue(
                 "a term cannot be shared with the solver petsc",
@@ -128,10 +130,10 @@ def _refuse_what_cannot_be_cut(model: Model) -> None:
 
 def _check_alike(model: Model, ranks: MpiRanks) -> None:
     """Reject models that differ between the ranks."""
-    mesh, loads = model.mesh, [load.vector for load in model.of_kind(Load)]
+    mesh, loads = model.mesh, [load.vector for load in model.controls.of_kind(Load)]
     facets = [contact.facets for contact in model.contacts]
-    coupled = [part.ids for term in model.others for part in term.couples()]
-    mine = digest(mesh.points, mesh.connectivity, model.constrained(), *loads, *facets, *coupled)
+    coupled = [part.ids for term in model.system.others for part in term.couples()]
+    mine = digest(mesh.points, mesh.connectivity, model.supports.constrained(), *loads, *facets, *coupled)
     first = ranks.comm.bcast(mine)
     if ranks.any(mine != first):
         raise InvalidValue(
@@ -157,21 +159,21 @@ def hand_out(outline: Outline, model: Model | None, ranks: MpiRanks) -> Share:
 
 def _give_back(share: Share, result: History | None) -> None:
     """Leave the whole model at the last converged state: nodal data on the first rank, NaN on the others."""
-    gathering, whole = share.gathering, share.whole
-    u, supports = gathering.displacement(share.u), gathering.supports(states_of_supports(share))
+    gathering, whole = share.system.gathering, share.whole
+    u, supports = gathering.displacement(share.u), gathering.supports(states_of_supports(share.system))
     loads = [None if tool.load is None else gathering.displacement(tool.load.vector) for tool in share.tools]
     if whole is None:
         return
-    whole.u, whole.time = np.full_like(whole.u, np.nan) if u is None else u, share.time
+    whole.u, whole.system.time = np.full_like(whole.u, np.nan) if u is None else u, share.system.time
     for control, own in zip(whole.controls, share.controls, strict=True):
         control.value = own.value
     for tool, own_tool, vector in zip(whole.tools, share.tools, loads, strict=True):
         _give_back_tool(tool, own_tool, vector)
-    put_supports(whole, supports)
-    for unknown, own_unknown in zip(whole.unknowns, share.unknowns, strict=True):
+    put_supports(whole.system, supports)
+    for unknown, own_unknown in zip(whole.system.unknowns, share.system.unknowns, strict=True):
         unknown.value = own_unknown.value
-    whole.elsewhere = True
-    for thing in (*whole.bodies, *whole.contacts, *whole.others):
+    whole.system.whole.elsewhere = True
+    for thing in (*whole.bodies, *whole.contacts, *whole.system.others):
         thing.elsewhere = True
         for made in ("block", "_areas", "_no_multipliers"):
             vars(thing).pop(made, None)

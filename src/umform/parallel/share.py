@@ -7,7 +7,7 @@ A share is a model like any other. It uses PETSc or the ranks only for sums over
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
@@ -17,14 +17,23 @@ from numpy.typing import NDArray
 
 from umform.errors import UmformError
 from umform.mesh import Mesh
-from umform.model import Body, Model
+from umform.model import Model
+from umform.model.assembled import Parts
+from umform.model.bodies import Bodies
 from umform.model.checks import check_held, middle
+from umform.model.contacts import Contacts
 from umform.model.control import Control
+from umform.model.controls import Controls
 from umform.model.evaluation import Evaluation
 from umform.model.forces import rigid_body_modes
 from umform.model.frame import Frame
+from umform.model.state import State
 from umform.model.support import Support
+from umform.model.supports import Supports
+from umform.model.system import System
 from umform.model.ties import Tie
+from umform.model.tools import Tools
+from umform.model.whole import Whole
 from umform.parallel.cutting import Parcel
 from umform.parallel.exchange import Exchange
 from umform.parallel.gathering import Gathering
@@ -36,50 +45,83 @@ from umform.solvers import Pattern
 Floats = NDArray[np.float64]
 
 
-class Share(Model):
-    """What one rank has of a model.
+class SharedSupports(Supports):
+    """Supports of a share; the ranks number their unknowns again when supports change."""
+
+    renumber: Callable[[], None]
+
+    def hold_again(self) -> None:
+        """Apply the supports again, and renumber the unknowns of all ranks."""
+        super().hold_again()
+        self.renumber()
+
+
+class SharedWhole(Whole):
+    """The whole model of a share.
 
     Parameters
     ----------
-    outline : Outline
-        Common part of the model; the share uses its controls and contacts.
+    described : Model, optional
+        The model, if available.
+    system : SharedSystem
+        Equations of the share.
+    parcel : Parcel
+        Part of this rank.
+    """
+
+    def __init__(self, described: Model | None, system: SharedSystem, parcel: Parcel) -> None:
+        super().__init__(described)
+        self._system, self._nodes, self.owned = system, parcel.nodes, parcel.owned
+
+    def node_number(self, node: int) -> int:
+        """Number of a node in the whole mesh."""
+        return int(self._nodes[node])
+
+    def sum_at_nodes(self, shares: Floats) -> Floats:
+        """Sums over the ranks at the nodes, shape (n, k)."""
+        at_nodes = self._system.at_nodes
+        return np.stack([at_nodes.spread(at_nodes.sum(column)) for column in shares.T], axis=1)
+
+    def frame(self, frame: Frame) -> Frame | None:
+        """The frame over the whole model, on the first rank."""
+        return self._system.gathering.frame(frame)
+
+    def state(self, tree: dict[str, Any]) -> dict[str, Any]:
+        """The state of a run over the whole model, on the first rank."""
+        return self._system.gathering.state(tree)
+
+    def own_state(self, read: Callable[[], dict[str, Any]]) -> dict[str, Any]:
+        """The local part of the state of a run, which the first rank reads."""
+        return self._system.gathering.own_state(read)
+
+
+class SharedSystem(System):
+    """Equations of a share: its sums run over all ranks.
+
+    Parameters
+    ----------
+    parts : Parts
+        Parts of the share.
     parcel : Parcel
         Part of this rank.
     ranks : MpiRanks
         Those that share the model.
-    whole : Model, optional
-        The model, if available.
 
     Attributes
     ----------
-    whole : Model or None
-        The model.
     cells, nodes : ndarray of int
         Numbers in the whole mesh of the cells and nodes that are here. A node may be on several ranks.
+    at_nodes : Exchange
+        Sums at the nodes over the ranks.
     """
 
     ranks: MpiRanks
-    owned: NDArray[np.int64]
 
-    def __init__(self, outline: Outline, parcel: Parcel, ranks: MpiRanks, whole: Model | None = None) -> None:
-        mesh = Mesh(parcel.points, {parcel.cell: parcel.connectivity})
-        for thing, piece in zip(outline.pieces_for(), parcel.pieces, strict=True):
-            thing.fill(piece, mesh)
-        super().__init__(mesh, bodies=outline.bodies)
-        self.whole, self.ranks = whole, ranks
-        self.cells, self.nodes, self.owned = parcel.cells, parcel.nodes, parcel.owned
-        self.now, self.tools, self.contacts = outline.now, outline.tools, outline.contacts
-        self.controls, self.others, self._fixed = outline.controls, outline.others, parcel.fixed
-        self._holders = outline.holders
-        self.ties = [Tie(dofs, control) for dofs, control in zip(parcel.ties, outline.tied, strict=True)]
-        self._at_nodes = Exchange(parcel.node_numbers, len(parcel.owned), self.ranks)
+    def __init__(self, parts: Parts, parcel: Parcel, ranks: MpiRanks) -> None:
+        super().__init__(parts)
+        self.ranks, self.cells, self.nodes, self.owned = ranks, parcel.cells, parcel.nodes, parcel.owned
+        self.at_nodes = Exchange(parcel.node_numbers, len(parcel.owned), ranks)
         self._number(parcel.numbers, parcel.own, parcel.before, parcel.count)
-        self.u = parcel.u
-        self._began = self._converged_time = self.time
-
-    def _embody(self, bodies: Sequence[Body]) -> None:
-        """Take the bodies as they are: they stand on the cells of this rank."""
-        self.bodies = list(bodies)
 
     def _number(self, numbers: NDArray[np.int64], own: int, before: int, count: int) -> None:
         """Set global numbers of the local unknowns, and prepare the sums of partial values."""
@@ -90,10 +132,9 @@ class Share(Model):
         self._owned_numbers = number[self._owned_places]
         self._shared: SharedPattern | None = None
 
-    def hold_again(self) -> None:
-        """Apply the supports again, and renumber the unknowns of all ranks."""
-        super().hold_again()
-        constrained, pairs = self.constrained(), self.pairs
+    def renumber(self) -> None:
+        """Number the unknowns of all ranks after a change of supports."""
+        constrained, pairs = self.supports.constrained(), self.supports.pairs
         constrained[pairs] = True
         owned = np.zeros((len(self.nodes), 3), dtype=bool)
         owned[self.owned] = True
@@ -104,15 +145,8 @@ class Share(Model):
         before = int(counts[: self.ranks.rank].sum())
         number = np.full((len(self.nodes), 3), -1.0)
         number.ravel()[mine] = before + np.arange(len(mine))
-        known = np.stack([self._at_nodes.spread(column) for column in number[self.owned].T], axis=1)
+        known = np.stack([self.at_nodes.spread(column) for column in number[self.owned].T], axis=1)
         self._number(known.ravel()[places].astype(np.int64), len(mine), before, int(counts.sum()))
-
-    # Whole model ---------------------------------------------------------------------------------------------
-
-    @property
-    def described(self) -> Model | None:
-        """The whole model, if available."""
-        return self.whole
 
     @cached_property
     def gathering(self) -> Gathering:
@@ -122,27 +156,6 @@ class Share(Model):
     def check(self, gauge: Support | None = None) -> None:
         """Reject a model that cannot be solved; all ranks check their nodes and contact points."""
         check_held(self, gauge)
-
-    def node_number(self, node: int) -> int:
-        """Number of a node in the whole mesh."""
-        return int(self.nodes[node])
-
-    def sum_at_nodes(self, shares: Floats) -> Floats:
-        """Sums over the ranks at the nodes, shape (n, k)."""
-        sums = [self._at_nodes.spread(self._at_nodes.sum(column)) for column in shares.T]
-        return np.stack(sums, axis=1)
-
-    def whole_frame(self, frame: Frame) -> Frame | None:
-        """The frame over the whole model, on the first rank."""
-        return self.gathering.frame(frame)
-
-    def whole_state(self, tree: dict[str, Any]) -> dict[str, Any]:
-        """The state of a run over the whole model, on the first rank."""
-        return self.gathering.state(tree)
-
-    def own_state(self, read: Callable[[], dict[str, Any]]) -> dict[str, Any]:
-        """The local part of the state of a run, which the first rank reads."""
-        return self.gathering.own_state(read)
 
     # Newton's method -----------------------------------------------------------------------------------------
 
@@ -177,11 +190,11 @@ class Share(Model):
         """Size of the largest entry; the diagonal ones, among which it is, are summed over the ranks."""
         pattern = self.pattern
         diagonal = self._unknowns.sum(values[pattern.indices == pattern.rows])
-        return self.ranks.max(max(super(Share, self).largest_entry(part) for part in (diagonal, values)))
+        return self.ranks.max(max(super(SharedSystem, self).largest_entry(part) for part in (diagonal, values)))
 
     def evaluate(
         self,
-        x: Floats,
+        state: State | Floats,
         du: Floats | None = None,
         rates: Mapping[Control, float] | None = None,
         until: float | None = None,
@@ -192,7 +205,7 @@ class Share(Model):
         """Local parts of residual and tangent; scale, round-off, failed cell and errors are global."""
         problem, found = None, None
         try:
-            found = super().evaluate(x, du, rates, until, tangent=tangent, keep=keep)
+            found = super().evaluate(state, du, rates, until, tangent=tangent, keep=keep)
         except UmformError as error:
             problem = error
         self.ranks.agree(problem)
@@ -206,3 +219,46 @@ class Share(Model):
             failure = self.ranks.text(found.failure if mine else "")
         scale, round_off = float(scale), float(round_off)
         return replace(found, force_scale=scale, round_off=round_off, failed=failed, failure=failure)
+
+
+class Share(Model):
+    """What one rank has of a model.
+
+    Parameters
+    ----------
+    outline : Outline
+        Common part of the model; the share uses its controls and contacts.
+    parcel : Parcel
+        Part of this rank.
+    ranks : MpiRanks
+        Those that share the model.
+    whole : Model, optional
+        The model, if available.
+
+    Attributes
+    ----------
+    whole : Model or None
+        The model.
+    """
+
+    system: SharedSystem
+
+    def __init__(self, outline: Outline, parcel: Parcel, ranks: MpiRanks, whole: Model | None = None) -> None:
+        mesh = Mesh(parcel.points, {parcel.cell: parcel.connectivity})
+        for thing, piece in zip(outline.pieces_for(), parcel.pieces, strict=True):
+            thing.fill(piece, mesh)
+        now = outline.now
+        now.u = parcel.u
+        now.began = now.converged = now.time
+        controls, bodies = Controls(now), Bodies(outline.bodies)
+        tools, supports = Tools(controls, now), SharedSupports(mesh, controls, now)
+        contacts = Contacts(mesh, bodies, tools)
+        controls[:], tools[:], contacts[:] = outline.controls, outline.tools, outline.contacts
+        ties = [Tie(dofs, control) for dofs, control in zip(parcel.ties, outline.tied, strict=True)]
+        supports.take(outline.holders, parcel.fixed, ties)
+        parts = Parts(mesh, bodies, controls, supports, tools, contacts, now, Whole())
+        system = SharedSystem(parts, parcel, ranks)
+        system.others[:] = outline.others
+        system.whole, supports.renumber = SharedWhole(whole, system, parcel), system.renumber
+        self.whole = whole
+        self._consist_of(system)

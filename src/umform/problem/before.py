@@ -82,9 +82,9 @@ class Before(Part):
                 remedy=f"run {self.deck} again",
             )
         if self.control is None:  # a run of its own
-            model.restore(Snapshot(tree["u"], terms=tree["bodies"]))
+            model.system.restore(Snapshot(tree["u"], terms=tree["bodies"]))
         else:
-            model.restore(Snapshot(tree["u"], tree["time"], terms=tree["bodies"], began=tree["began"]))
+            model.system.restore(Snapshot(tree["u"], tree["time"], terms=tree["bodies"], began=tree["began"]))
 
     def kept(self, folder: File) -> dict[str, KeptContact]:
         """The friction of the contacts that keep it.
@@ -126,7 +126,7 @@ class Before(Part):
                     value=name,
                     remedy="one of " + (", ".join(contacts) or "none: there is no contact"),
                 )
-            model.evaluate(model.x)
+            model.evaluate(model.system.x)
             contacts[name].begin()
             friction.put(contacts[name])
 
@@ -153,9 +153,9 @@ class Placement(Part):
 
     def apply(self, model: Model) -> None:
         """Move a model that has no tools and supports yet."""
-        state = model.snapshot()
+        state = model.system.snapshot()
         motion = RigidMotion(np.array(self.rotation), np.array(self.shift))
-        model.restore(replace(state, u=motion.displacement(model.mesh.points, state.u)))
+        model.system.restore(replace(state, u=motion.displacement(model.mesh.points, state.u)))
 
 
 class Cut(Part):
@@ -179,9 +179,9 @@ class Cut(Part):
 
 def write_state(model: Model, path: File, tables: Mapping[str, Any]) -> None:
     """Write displacements, the history of all bodies, and the data of this deck, for the next operation."""
-    state = model.snapshot()
+    state = model.system.snapshot()
     bodies = {body.key: state.terms[body.key] for body in model.bodies}
-    rubbed = {pair.name: KeptContact.of(pair) for pair in model.pairs_of_tools() if pair.rubs}
+    rubbed = {pair.name: KeptContact.of(pair) for pair in model.system.pairs_of_tools() if pair.rubs}
     contacts = {
         name: {
             "faces": kept.faces,

@@ -184,10 +184,10 @@ class _Builder(SheetBuilder):
                 _ = [body.block for body in model.bodies]  # the elements check the rolling direction
         if not self.errors:
             with self.at("supports"):
-                _ = model.pattern
+                _ = model.system.pattern
         if not self.errors:
             with self.at("solution", "solver"):
-                _ = Newton(model, options, self.solver).solver
+                _ = Newton(model.system, options, self.solver).solver
         return options
 
     def _steps(self, named: Named) -> list[Step]:

@@ -94,7 +94,7 @@ def supports(problem: Prepared) -> Finding:
     if motions:
         return ok("supports", f"free until tools hold the sheet, which rests on weak springs: {'; '.join(motions)}")
     try:
-        problem.model.check()
+        problem.model.system.check()
     except (RigidBodyMotion, ToolSwallowsSheet) as refusal:
         text = "; ".join(part for part in (refusal.what, refusal.where, str(refusal.value or "")) if part)
         return error("supports" if isinstance(refusal, RigidBodyMotion) else "tools", text, refusal.remedy)
@@ -113,7 +113,7 @@ def drawings(problem: Prepared) -> Iterator[Finding]:
 
 def forming_limit(contents: Contents, problem: Prepared) -> Iterator[Finding]:
     """Refuse the curve of Keeler and Brazier without a flow curve that gives its n."""
-    if isinstance(contents.output.forming_limit, str) and not isinstance(problem.model.material, Plastic):
+    if isinstance(contents.output.forming_limit, str) and not isinstance(problem.model.bodies.only.material, Plastic):
         text = f"{contents.output.forming_limit} needs the hardening of one plastic material"
         yield error("output", text, "forming_limit = [[-0.2, 0.5], [0.0, 0.3], [0.2, 0.4]], strains of a test")
 
@@ -149,19 +149,19 @@ def unmoved(about: str, part: ControlPart) -> Finding:
 def effort(contents: Contents, problem: Prepared) -> Finding:
     """Estimated time of the run, from one evaluation and one factorisation."""
     model = problem.model
-    newton = Newton(model, problem.options, problem.solver)
+    newton = Newton(model.system, problem.options, problem.solver)
     try:
         solver = newton.ready_solver()
         seconds = np.inf
         for _ in range(2):  # the first one is slow: new memory, lazy libraries
             start = clock.perf_counter()
-            solver.factor(model.evaluate(model.x))
+            solver.factor(model.evaluate(model.system.x))
             seconds = min(seconds, clock.perf_counter() - start)
     except (SingularMatrix, NotFinite) as refusal:
         remedy = "let tools touch the sheet at the start, or hold it"
         return warning("effort", f"there is no tangent at the start: {refusal.what}", remedy)
     finally:
-        model.revert()
+        model.system.revert()
     increments = sum(step.expected for step in contents.steps)
     adapts = any(isinstance(step, Move) and step.increments is None for step in contents.steps)
     about = "at least" if adapts else "about"  # contact may halve an increment many times

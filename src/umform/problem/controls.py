@@ -117,7 +117,7 @@ class BodyForce(Part):
 
     def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
         """The control."""
-        return model.body_force(self.force, name)
+        return model.loads.body_force(self.force, name)
 
 
 class _OfTool(Part):

@@ -54,7 +54,7 @@ def of_model(
 def mesh(model: Model) -> Finding:
     """Size of the model, and its most distorted cell."""
     points, cells = model.mesh.points, model.mesh.connectivity
-    text = f"{len(cells)} {model.mesh.cell}, {len(points)} nodes, {model.unknown_count} unknowns"
+    text = f"{len(cells)} {model.mesh.cell}, {len(points)} nodes, {model.supports.unknown_count} unknowns"
     J = jacobians(points, cells)
     ratios = J.min(axis=1) / J.max(axis=1)
     worst = int(np.argmin(ratios))

@@ -21,7 +21,7 @@ def r_values(model: Model) -> Iterator[Finding]:
     model : Model
         The model, which is unchanged.
     """
-    material: object = model.material
+    material: object = model.bodies.only.material
     if not isinstance(material, Metal) or not material.yield_function.directional:
         return
     values = {angle: float(uniaxial(material.yield_function, angle)[1]) for angle in _ANGLES}

@@ -63,8 +63,8 @@ def bends(deck: Problem, problem: Prepared) -> Iterator[Finding]:
         yield element_size(problem.contacts[name], problem.model, tool, radius)
         if radius > 0 and (sharpest is None or radius < sharpest[0]):
             sharpest = (radius, part.tool)
-    if sharpest is not None and isinstance(problem.model.material, Plastic):
-        yield from through_thickness(problem.model, problem.model.material, h, *sharpest)
+    if sharpest is not None and isinstance(problem.model.bodies.only.material, Plastic):
+        yield from through_thickness(problem.model, problem.model.bodies.only.material, h, *sharpest)
 
 
 def coarse(deck: Problem, problem: Prepared) -> list[str]:
@@ -113,18 +113,18 @@ def element_size(contact: Contact, model: Model, tool: Tool, radius: float) -> F
 def through_thickness(model: Model, material: Plastic, h: float, radius: float, tool: str) -> Iterator[Finding]:
     """Thickness points and thickness order against the strain that the smallest radius asks for."""
     strain, layers = h / (2.0 * radius + h), layers_of(model, h)
-    order, stiffness = max(model.element.thickness_order, 1), material.kappa / first_yield(material)
+    order, stiffness = max(model.bodies.only.element.thickness_order, 1), material.kappa / first_yield(material)
     follows = min(order, HIGHEST)
     text = f"the radius {radius:.4g} of {tool} strains a sheet of {h:.4g} by {100 * strain:.3g} %"
     if locking_moment(follows, strain, stiffness, layers) > LOCKING:
-        remedy = against_locking(model.element, strain, stiffness, layers)
+        remedy = against_locking(model.bodies.only.element, strain, stiffness, layers)
         yield warning("element", f"{text}: at thickness order {order} it locks", remedy)
     else:
         note = "; one layer makes the springback of so sharp a bend 2 to 6 % too large: four layers where it matters"
         sharp = layers == 1 and radius + 0.5 * h < _STRAIGHT * h
         yield ok("element", f"{text}: thickness order {order} can follow{note if sharp else ''}")
     least = _SHARP_POINTS if strain > _SHARP else _POINTS
-    points = layers * model.body.section_points
+    points = layers * model.bodies.only.section_points
     if points < least and strain > first_yield(material) / material.E:
         remedy = f"take {math.ceil(least / layers)}" + (" in each layer" if layers > 1 else "")
         yield warning("element", f"{points} thickness points for a strain of {100 * strain:.3g} %", remedy)

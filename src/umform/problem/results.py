@@ -111,7 +111,7 @@ class _Forming:
         mesh = result.model.mesh
         limit: FormingLimit | None = None
         if isinstance(wanted, str):
-            limit = KeelerBrazier.of(sheet_thickness(mesh), cast("Plastic", result.model.material))
+            limit = KeelerBrazier.of(sheet_thickness(mesh), cast("Plastic", result.model.bodies.only.material))
         elif wanted is not None:
             limit = LimitTable(*zip(*wanted, strict=True))
         add_forming_fields(result, limit)

@@ -41,7 +41,7 @@ def units(model: Model, *, millimetres: bool = False) -> Iterator[Finding]:
         Units are known to be mm, N and MPa.
     """
     yield extent(model)
-    material: object = model.material
+    material: object = model.bodies.only.material
     if not isinstance(material, Elastic):
         return
     yield elastic_constants(model, material, millimetres=millimetres)

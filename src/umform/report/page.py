@@ -76,7 +76,7 @@ def write_report(
     """
     parts.check_name(path)
     model = result.model
-    size = f"{model.element.name}: {len(model.mesh.connectivity)} elements, {len(result) - 1} increments"
+    size = f"{model.bodies.only.element.name}: {len(model.mesh.connectivity)} elements, {len(result) - 1} increments"
     effort = (
         f"{result.summary()['iterations']} Newton iterations in {result.seconds:.1f} s, sparse solver {result.solver}"
     )
@@ -192,13 +192,13 @@ def _attempts(attempts: Attempts) -> str:
 def settings(result: History) -> dict[str, object]:
     """Model of a run as text."""
     model = result.model
-    options = ", ".join(f"{name}={value}" for name, value in model.element.options.items())
+    options = ", ".join(f"{name}={value}" for name, value in model.bodies.only.element.options.items())
     rows: dict[str, object] = {
         "mesh": model.mesh,
-        "element": f"{model.element.name} ({options})" if options else model.element.name,
-        "thickness points": f"{model.thickness_points} {model.thickness_rule}",
-        "material": material_text(model.material),
-        "degrees of freedom": f"{model.unknown_count} unknown of {model.u.size}",
+        "element": f"{model.bodies.only.element.name} ({options})" if options else model.bodies.only.element.name,
+        "thickness points": f"{model.bodies.only.thickness_points} {model.bodies.only.thickness_rule}",
+        "material": material_text(model.bodies.only.material),
+        "degrees of freedom": f"{model.supports.unknown_count} unknown of {model.u.size}",
     }
     return rows | {f"contact {pair.name}": str(pair.tool.surface) for pair in model.contacts}
 

@@ -182,7 +182,7 @@ def _displacements(result: History) -> Floats:
 def _marks(result: History) -> list[dict[str, float]]:
     """Row of the history and time of each frame."""
     if not result.frames:
-        return [{"row": len(result) - 1, "time": float(result.model.time)}]
+        return [{"row": len(result) - 1, "time": float(result.model.system.time)}]
     return [{"row": frame.number, "time": float(frame.time)} for frame in result.frames]
 
 

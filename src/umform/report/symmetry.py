@@ -55,7 +55,7 @@ def mirrors(model: Model) -> list[Mirror]:
     model : Model
         The model.
     """
-    points, held = model.mesh.points, model.constrained().reshape(-1, 3)
+    points, held = model.mesh.points, model.supports.constrained().reshape(-1, 3)
     hair = _HAIR * float(np.ptp(points, axis=0).max())
     found: list[Mirror] = []
     for axis in range(3):

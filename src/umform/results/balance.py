@@ -40,10 +40,10 @@ def energies(model: Model, evaluation: Evaluation) -> Energies:
         The evaluation there.
     """
     total = [0.0] * 4
-    for term in model.terms:
+    for term in model.system.terms:
         own = term.energies(evaluation.found[term], model.u)
         total = [sum(pair) for pair in zip(total, (own.elastic, own.plastic, own.contact, own.friction), strict=True)]
-    return Energies(*(model.ranks.sum(part) for part in total))
+    return Energies(*(model.system.ranks.sum(part) for part in total))
 
 
 @dataclass(frozen=True)
@@ -225,12 +225,12 @@ class ExternalWork:
         self._before: _State | None = None
         self._largest = 0.0  # sum of the magnitudes of the external forces
         distances = np.linalg.norm(model.mesh.points + model.u.reshape(-1, 3), axis=1)
-        self._length = model.ranks.max(float(distances.max()))
+        self._length = model.system.ranks.max(float(distances.max()))
 
     def advance(self, evaluation: Evaluation) -> None:
         """Continue to the converged state of the model at which the evaluation was made."""
         model = self.model
-        tools = [_Tool.of(tool, evaluation, model.ranks) for tool in model.tools]
+        tools = [_Tool.of(tool, evaluation, model.system.ranks) for tool in model.tools]
         state = _State(model.u.copy(), *self._nodal_forces(evaluation), tools)
         self.energies = energies(model, evaluation)
         if self._before is None:
@@ -251,7 +251,7 @@ class ExternalWork:
     def begin_anew(self, evaluation: Evaluation) -> None:
         """Continue from the same state with loads that replace the contact forces of removed tools."""
         model, before = self.model, self.energies
-        tools = [_Tool.of(tool, evaluation, model.ranks) for tool in model.tools]
+        tools = [_Tool.of(tool, evaluation, model.system.ranks) for tool in model.tools]
         self._before = _State(model.u.copy(), *self._nodal_forces(evaluation), tools)
         self.energies = energies(model, evaluation)
         self.value += self.energies.contact - before.contact
@@ -296,27 +296,27 @@ class ExternalWork:
         """Dead loads, pressures and reactions on the nodes; and the same with the forces of foundations."""
         model = self.model
         forces = evaluation.residual[: model.u.size].copy()  # reactions and hinge forces
-        forces[model.free] = 0.0
+        forces[model.system.free] = 0.0
         at = At(model.u, evaluation.time, evaluation.controls)
-        for term in model.terms:
+        for term in model.system.terms:
             own = term.external_forces(at)
             if own is not None:
                 forces += own
-        held = [own for term in model.others if (own := term.support_forces(at)) is not None]
+        held = [own for term in model.system.others if (own := term.support_forces(at)) is not None]
         return forces, sum(held, start=forces)
 
     def _works(self, before: _State, state: _State) -> list[float]:
         """Work of loads and supports, of contact beyond the mean, of each tool. eqs. (5.31), (5.104), (5.32)"""
-        nodes = 0.5 * self.model.ranks.dot(before.forces + state.forces, state.u - before.u)
+        nodes = 0.5 * self.model.system.ranks.dot(before.forces + state.forces, state.u - before.u)
         above = sum(tool.above_mean for tool in state.tools) - sum(tool.above_mean for tool in before.tools)
         above += sum(tool.of_touch for tool in state.tools)
         return [nodes, above, *map(_Tool.work_since, state.tools, before.tools)]
 
     def _imbalance(self, state: _State) -> tuple[float, float]:
         """Resultants in the current configuration, relative to the largest magnitudes so far. eq. (5.34)"""
-        ranks, owned = self.model.ranks, self.model.owned
+        ranks, owned = self.model.system.ranks, self.model.system.whole.owned
         x = (self.model.mesh.points + state.u.reshape(-1, 3))[owned]
-        forces = self.model.sum_at_nodes(state.all_forces.reshape(-1, 3))[owned]
+        forces = self.model.system.whole.sum_at_nodes(state.all_forces.reshape(-1, 3))[owned]
         force, moment = ranks.sum(forces.sum(axis=0)), ranks.sum(moment_of(x, forces))
         magnitude = ranks.sum(float(np.sqrt((forces * forces).sum(axis=1)).sum()))
         for tool in state.tools:

@@ -95,7 +95,7 @@ def squeezed(model: Model, tool: Any, found: Mapping[Any, Any]) -> float:
         there = np.flatnonzero(np.isfinite(far))
         across = np.einsum("ni,ni->n", opposite[near[there]] - x[there], normal[there]) / thickness
         answered = float(force[there[(across > _ACROSS[0]) & (across < _ACROSS[1])]].sum())
-    return float(model.ranks.sum(answered) / max(model.ranks.sum(float(force.sum())), 1e-300))
+    return float(model.system.ranks.sum(answered) / max(model.system.ranks.sum(float(force.sum())), 1e-300))
 
 
 def bottoms(model: Model, tool: Any, found: Mapping[Any, Any]) -> bool:

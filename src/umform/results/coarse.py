@@ -13,7 +13,7 @@ _LIMIT = 0.03
 
 def warn_of_volume(model: Model, result: History) -> None:
     """Warn if the mesh has gained or lost more volume than metal can; its strains by themselves keep it."""
-    if model.ranks.size > 1 or not all(isinstance(body.material, Plastic) for body in model.bodies):
+    if model.system.ranks.size > 1 or not all(isinstance(body.material, Plastic) for body in model.bodies):
         return  # a rank has a part of the sheet only; laws of users may change the volume
     change = volume_change(model)
     gained = change.mesh - change.elastic

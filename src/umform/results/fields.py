@@ -120,7 +120,7 @@ class PointFields:
 
 def point_fields(model: Model) -> PointFields:
     """Fields at the Gauss points of the converged state of a model of one body."""
-    return body_fields(model.body, model.u)
+    return body_fields(model.bodies.only, model.u)
 
 
 def body_fields(body: Body, u: Floats) -> PointFields:
@@ -232,7 +232,7 @@ def _thickness(model: Model, x: Floats) -> Floats:
     for side in (cells[:, :half].ravel(), cells[:, half:].ravel()):
         shares[:, 0] += np.bincount(side, distance, len(x))
         shares[:, 1] += np.bincount(side, minlength=len(x))
-    total, count = model.sum_at_nodes(shares).T
+    total, count = model.system.whole.sum_at_nodes(shares).T
     thickness: Floats = total / np.maximum(count, 1.0)
     return thickness
 
@@ -254,7 +254,7 @@ def contact_at_nodes(model: Model, evaluation: Evaluation | None = None) -> tupl
     pressure, gap = np.zeros(len(model.mesh.points)), np.full(len(model.mesh.points), np.nan)
     for contact in model.contacts:
         found = contact.found if evaluation is None else evaluation.found[contact]
-        here, distance = contact.found_at_nodes(found, model.u, model.mesh, model.sum_at_nodes)
+        here, distance = contact.found_at_nodes(found, model.u, model.mesh, model.system.whole.sum_at_nodes)
         pressure += here
         gap = np.fmin(gap, distance)
     return pressure, gap
@@ -278,11 +278,11 @@ def friction_at_nodes(model: Model, evaluation: Evaluation | None = None) -> tup
         Of points that are held.
     """
     traction, slip = np.zeros((len(model.mesh.points), 3)), np.zeros(len(model.mesh.points))
-    for contact in model.pairs_of_tools():
+    for contact in model.system.pairs_of_tools():
         if not contact.rubs:
             continue
         found = contact.found if evaluation is None else evaluation.found[contact]
-        here, way = contact.friction_at_nodes(found, model.mesh, model.sum_at_nodes)
+        here, way = contact.friction_at_nodes(found, model.mesh, model.system.whole.sum_at_nodes)
         traction += here
         slip = np.maximum(slip, way)
     return traction, slip

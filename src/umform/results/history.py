@@ -63,7 +63,7 @@ class History:
         self.seconds = 0.0
         self._work = ExternalWork(model)
         self._ahead: tuple[Evaluation, ExternalWork] | None = None  # the work with a state that is not kept yet
-        self._writes = model.ranks.rank == 0  # one rank writes for all
+        self._writes = model.system.ranks.rank == 0  # one rank writes for all
 
     def add(self, evaluation: Evaluation, iterations: list[Iteration], *, step: int = 0, frame: bool = True) -> None:
         """Add the converged state of the model, which the evaluation was made at, to the history."""
@@ -72,10 +72,10 @@ class History:
 
     def _add(self, evaluation: Evaluation, iterations: list[Iteration], step: int, frame: bool) -> None:
         model = self.model
-        row: dict[str, float] = {"step": step, "time": model.time}
+        row: dict[str, float] = {"step": step, "time": model.system.time}
         for control in model.controls:
             row[control.name] = control.value
-            row[f"{control.name}_force"] = control.force(evaluation, model.ranks)
+            row[f"{control.name}_force"] = control.force(evaluation, model.system.ranks)
         row |= self._term_columns(evaluation)
         row |= self._energy_columns(evaluation)
         row["iterations"] = len(iterations)
@@ -84,7 +84,7 @@ class History:
         log.info(
             "step %d  time %.4f  %s  iterations %d",
             step,
-            model.time,
+            model.system.time,
             "  ".join(f"{c.name} {c.value:.6g} force {row[c.name + '_force']:.6g}" for c in model.controls),
             len(iterations),
         )
@@ -93,7 +93,7 @@ class History:
 
     def add_frame(self, evaluation: Evaluation) -> None:
         """Keep the state of the last row as a frame."""
-        whole = self.model.whole_frame(self._frame(evaluation))
+        whole = self.model.system.whole.frame(self._frame(evaluation))
         if whole is not None:
             self.frames.append(whole)
 
@@ -102,12 +102,12 @@ class History:
         model, row = self.model, dict[str, float]()
         pairs = [pair for tool in model.tools for pair in tool.pairs]
         for tool in model.tools:
-            row |= tool.resultant_columns(evaluation.found, model.ranks)
+            row |= tool.resultant_columns(evaluation.found, model.system.ranks)
             for pair in tool.pairs:
-                row |= pair.columns(evaluation.found[pair], model.ranks)
-        for term in model.terms:
+                row |= pair.columns(evaluation.found[pair], model.system.ranks)
+        for term in model.system.terms:
             if term not in pairs:
-                row |= term.columns(evaluation.found[term], model.ranks)
+                row |= term.columns(evaluation.found[term], model.system.ranks)
         return row
 
     def _energy_columns(self, evaluation: Evaluation) -> dict[str, float]:
@@ -214,8 +214,8 @@ class History:
 
     def _frame(self, evaluation: Evaluation) -> Frame:
         model, residual = self.model, evaluation.residual[: self.model.u.size]
-        reaction = model.sum_at_nodes(residual.reshape(-1, 3)).copy()
-        reaction.ravel()[model.free] = 0.0
+        reaction = model.system.whole.sum_at_nodes(residual.reshape(-1, 3)).copy()
+        reaction.ravel()[model.system.free] = 0.0
         points = {
             "displacement": model.u.reshape(-1, 3).copy(),
             "reaction": reaction,
@@ -223,10 +223,10 @@ class History:
         }
         if model.contacts:
             points["contact_pressure"], points["contact_gap"] = fields.contact_at_nodes(model, evaluation)
-        if any(pair.rubs for pair in model.pairs_of_tools()):
+        if any(pair.rubs for pair in model.system.pairs_of_tools()):
             points["friction_traction"], points["slip"] = fields.friction_at_nodes(model, evaluation)
         contacts = {contact.name: evaluation.found[contact].points() for contact in model.contacts}
-        return Frame(len(self.rows) - 1, model.time, points, fields.cell_fields(model), contacts)
+        return Frame(len(self.rows) - 1, model.system.time, points, fields.cell_fields(model), contacts)
 
     def __len__(self) -> int:
         return len(self.rows)

@@ -20,7 +20,7 @@ def tell_of_rest(model: Model, result: History) -> None:
     result : History
         Gets the note or the warning.
     """
-    for term in model.others:
+    for term in model.system.others:
         if not isinstance(term, Rest):
             continue
         last = result.rows[-1]

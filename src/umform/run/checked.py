@@ -71,7 +71,7 @@ def _refuse_to_free(model: Model, step: Free, earlier: Sequence[Step], where: st
     freed = [thing for other in earlier if isinstance(other, Free) for thing in other.things]
     put = [other.on for other in earlier if isinstance(other, Free)]
     for number, thing in enumerate(step.things):
-        there = thing in model.tools if isinstance(thing, Tool) else thing in model.all_supports
+        there = thing in model.tools if isinstance(thing, Tool) else thing in model.supports.all
         if not there or thing in freed or thing in step.things[:number]:
             raise InvalidValue(
                 "a step frees a support or a tool that the model does not have then",
@@ -80,7 +80,7 @@ def _refuse_to_free(model: Model, step: Free, earlier: Sequence[Step], where: st
                 cause="it belongs to another model, or an earlier step has freed it",
                 remedy="use what fix(), symmetry(), hinge(), hold_director() or tool() of this model returned, once",
             )
-    if step.on is not None and (step.on not in model.all_supports or not step.on.removed or step.on in put):
+    if step.on is not None and (step.on not in model.supports.all or not step.on.removed or step.on in put):
         raise InvalidValue(
             "a step puts a support in place that does not wait then",
             where=where,

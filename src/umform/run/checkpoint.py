@@ -163,10 +163,10 @@ def take_up(run: Run, checkpoints: Checkpoints) -> dict[str, Any] | None:
         _refuse_another_run(checkpoints.path, whole["fingerprint"], checkpoints.fingerprint)
         return whole
 
-    tree = run.model.own_state(read)
+    tree = run.model.system.whole.own_state(read)
     checkpoints.note = tree["note"]
-    run.model.restore(Snapshot(**tree["model"]))
-    run.evaluation = run.model.repeat(tree["before"])
+    run.model.system.restore(Snapshot(**tree["model"]))
+    run.evaluation = run.model.system.repeat(tree["before"])
     run.number, run.statistics = tree["number"], StrategyStatistics(**tree["statistics"])
     run.trail = None if tree["trail"] is None else Trail(**tree["trail"])
     solver = run.newton.ready_solver().solver.solver
@@ -179,14 +179,16 @@ def take_up(run: Run, checkpoints: Checkpoints) -> dict[str, Any] | None:
 
 def _tree(run: Run) -> dict[str, Any]:
     model, solver = run.model, run.newton.ready_solver().solver.solver
-    return model.whole_state(
+    return model.system.whole.state(
         {
             "number": run.number,
             # After an indefinite matrix, a solver with state uses other factors than those of Cholesky.
             "factors": solver.memory() if isinstance(solver, Remembering) else None,
             "loop": None if run.loop is None else run.loop.memory(),
-            "model": vars(model.snapshot()),
-            "before": {term.key: term.before for term in model.terms if model.ranks.any(term.before.size > 0)},
+            "model": vars(model.system.snapshot()),
+            "before": {
+                term.key: term.before for term in model.system.terms if model.system.ranks.any(term.before.size > 0)
+            },
             "trail": None if run.trail is None else vars(run.trail),
             "statistics": vars(run.statistics),
             "result": _result_tree(run.result),

@@ -21,7 +21,7 @@ def ended_early(run: Run, checkpoints: Checkpoints | None, error: BaseException)
     The frame is not in the checkpoint: a run that is continued has the frames of an uninterrupted one. A state after
     the last row, whose row has failed, is in neither.
     """
-    ranks, result = run.model.ranks, run.result
+    ranks, result = run.model.system.ranks, run.result
     if not (ranks.size == 1 or isinstance(error, NoConvergence | Stopped)) or not _at_last_row(run):
         return  # what keeps states needs all ranks
     try:
@@ -40,4 +40,4 @@ def _at_last_row(run: Run) -> bool:
     if not run.result.rows:
         return False
     row, model = run.result.rows[-1], run.model
-    return row["time"] == model.time and all(row[control.name] == control.value for control in model.controls)
+    return row["time"] == model.system.time and all(row[control.name] == control.value for control in model.controls)

@@ -43,11 +43,11 @@ def fingerprint(model: Model, steps: Sequence[object], newton: Newton, frames: i
     """
     mesh = model.mesh
     supports = [
-        np.flatnonzero(model.constrained()),
-        [(tie.dofs, tie.control) for tie in model.ties],
-        [(part.dofs, part.weights, part.control, part.offsets) for part in model.rows],
+        np.flatnonzero(model.supports.constrained()),
+        [(tie.dofs, tie.control) for tie in model.supports.ties],
+        [(part.dofs, part.weights, part.control, part.offsets) for part in model.supports.rows],
         [(support.name, support.base) for support in model.supports if support.base is not None],
-        [(support.name, support.held) for support in model.all_supports if support.waits],
+        [(support.name, support.held) for support in model.supports.all if support.waits],
     ]
     return {
         "version of umform": umform.__version__,
@@ -59,7 +59,7 @@ def fingerprint(model: Model, steps: Sequence[object], newton: Newton, frames: i
         "supports and loads": text([supports, [_control(control) for control in model.controls]]),
         "contacts": text([_contact(contact) for contact in model.contacts]),
         "tools": text([_tool(tool) for tool in model.tools]),
-        "other terms": text([_term(term) for term in model.others]),
+        "other terms": text([_term(term) for term in model.system.others]),
         "steps": text(list(steps)),
         "options": text(newton.options),
         "solver": newton.solver,

@@ -39,6 +39,6 @@ def _way(model: Model, press: Press, way: ToolMotion) -> float:
         point = int(at.gap.argmin())
         nearest = min(nearest, (float(at.gap[point]), float(at.normal[point] @ way.direction)))
     gap, along = nearest
-    if not gap <= _FLUSH * model.thickness or abs(along) < _FACES:
+    if not gap <= _FLUSH * model.system.thickness or abs(along) < _FACES:
         return 0.0
-    return (gap + _OVERLAP * model.thickness) / along
+    return (gap + _OVERLAP * model.system.thickness) / along

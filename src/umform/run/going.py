@@ -41,12 +41,12 @@ _LOOPS: dict[type, Any] = {Release: Releasing, Arc: Following, Free: Freeing, Cl
 def ready(result: Result, solver: str, options: NewtonOptions | None, frames: int, steps: Sequence[Step] = ()) -> Run:
     """Refuse an invalid model, and make the run at its first state; a first step may hold the sheet."""
     model, timing = result.model, result.timing
-    model.timing = timing
+    model.system.timing = timing
     first = steps[0] if steps else None
-    model.check(first.on if isinstance(first, Free) else None)
-    evaluation = model.evaluate(model.x, tangent=False)  # history and frames need forces only
-    model.begin(evaluation)
-    run = Run(model, Newton(model, options, solver, timing), result, evaluation, frames=frames)
+    model.system.check(first.on if isinstance(first, Free) else None)
+    evaluation = model.evaluate(model.system.x, tangent=False)  # history and frames need forces only
+    model.system.begin(evaluation)
+    run = Run(model, Newton(model.system, options, solver, timing), result, evaluation, frames=frames)
     run.result.solver = run.newton.solver
     note_springs(model, result)
     return run
@@ -72,14 +72,14 @@ def checkpoints_of(
     from umform.run.checkpoint import Checkpoints  # imported late: few runs need it
     from umform.run.fingerprint import fingerprint
 
-    whole = run.model.described  # the first rank writes and compares
+    whole = run.model.system.whole.described  # the first rank writes and compares
     marks = {} if whole is None else fingerprint(whole, steps, run.newton, run.frames)
-    return Checkpoints(path, every, marks, note, run.model.ranks)
+    return Checkpoints(path, every, marks, note, run.model.system.ranks)
 
 
 def go_on(run: Run, steps: Sequence[Step], progress: Show, checkpoints: Checkpoints | None) -> None:
     """Continue to the end from the present state."""
-    talks = run.model.ranks.rank == 0
+    talks = run.model.system.ranks.rank == 0
     with progress_bar(progress if talks else False) as tick:
         taken(run, steps, tick, checkpoints, last=True)
 
@@ -133,7 +133,7 @@ def _finish(run: Run, step: Step) -> None:
 
 def _pause(run: Run, start: float, checkpoints: Checkpoints | None, stop: Interrupt, *, last: bool = False) -> None:
     """Between two increments: write a checkpoint if it is due, and stop on request."""
-    run.result.seconds, ranks = clock.perf_counter() - start, run.model.ranks
+    run.result.seconds, ranks = clock.perf_counter() - start, run.model.system.ranks
     show(run)
     asked = ranks.any(stop.asked)
     if checkpoints is not None and (last or asked or ranks.any(checkpoints.due())):

@@ -37,7 +37,7 @@ def carry_loose_sheet(model: Model, steps: Sequence[Step]) -> Rest | None:
     motions = carried_motions(model, steps)
     if not motions:
         return None
-    taken = {name for term in model.others for name in term.column_names()}
+    taken = {name for term in model.system.others for name in term.column_names()}
     free = (name for name in chain(["rest"], (f"rest{k}" for k in count(2))) if f"{name}_acts" not in taken)
     return model.rest(name=next(free), motions="; ".join(motions))
 
@@ -50,8 +50,8 @@ def carried(model: Model, steps: Sequence[Step]) -> Iterator[None]:
         yield
     finally:
         if springs is not None:
-            model.others.remove(springs)
-            model.forget_assembly()
+            model.system.others.remove(springs)
+            model.system.now.restructured()
 
 
 def carried_motions(model: Model, steps: Sequence[Step]) -> list[str]:
@@ -59,16 +59,16 @@ def carried_motions(model: Model, steps: Sequence[Step]) -> list[str]:
     if not model.carries_loose_sheet or not model.contacts or not _brings_tools(model, steps):
         return []
     try:
-        free = free_now(model)
+        free = free_now(model.system)
     except ModelError:  # the check of the model reports the details
         return []
-    return free if free and not free_in_touch(model) else []
+    return free if free and not free_in_touch(model.system) else []
 
 
 def note_springs(model: Model, result: History) -> None:
     """Note in the events that a run added springs under the sheet."""
-    for term in model.others:
-        if isinstance(term, Rest) and term.motions and term.acts(model.ranks):
+    for term in model.system.others:
+        if isinstance(term, Rest) and term.motions and term.acts(model.system.ranks):
             result.note(
                 f"{term.name}: the sheet is loose, free: {term.motions}; it rests on weak springs until tools hold "
                 f"it (columns {term.name}_acts, {term.name}_energy)"

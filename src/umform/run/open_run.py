@@ -124,9 +124,9 @@ class OpenRun:
         """The present state, to which the run can return."""
         run, solver = self._run, self._run.newton.ready_solver().solver.solver
         factors = solver.memory() if isinstance(solver, Remembering) else None
-        before = {term.key: term.before for term in run.model.terms if term.before.size > 0}
+        before = {term.key: term.before for term in run.model.system.terms if term.before.size > 0}
         return Mark(
-            run.model.snapshot(),
+            run.model.system.snapshot(),
             before,
             list(self.steps),
             run.trail,
@@ -138,8 +138,8 @@ class OpenRun:
     def go_back(self, mark: Mark) -> None:
         """Return to a state of any branch, with its steps and result."""
         run, solver = self._run, self._run.newton.ready_solver().solver.solver
-        run.model.restore(mark.snapshot)
-        run.evaluation = run.model.repeat(mark.before)
+        run.model.system.restore(mark.snapshot)
+        run.evaluation = run.model.system.repeat(mark.before)
         run.trail, run.loop, run.number = mark.trail, None, len(mark.steps) + 1
         if isinstance(solver, Remembering) and mark.factors is not None:
             solver.recall(mark.factors)

@@ -194,8 +194,8 @@ def continued(model: Model, before: Result, motion: RigidMotion | None = None) -
             remedy="build the model from the mesh and the bodies of the stage before; values on another mesh are not "
             "interpolated",
         )
-    state = old.snapshot()
+    state = old.system.snapshot()
     terms = {body.key: state.terms[body.key] for body in old.bodies}
     u = state.u if motion is None else motion.displacement(old.mesh.points, state.u)
-    model.restore(Snapshot(u, terms=terms))
+    model.system.restore(Snapshot(u, terms=terms))
     return model

@@ -74,7 +74,7 @@ def tipping(model: Model, steps: Sequence[Step]) -> Tipping | None:
         terms might balance it.
     """
     free = _free(model)
-    if len(free) == 0 or free_now(model):
+    if len(free) == 0 or free_now(model.system):
         return None
     values = {control: control.value for control in model.controls}
     anywhere = {tool for tool in model.tools if tool.motion is not None or tool.presses}
@@ -83,7 +83,9 @@ def tipping(model: Model, steps: Sequence[Step]) -> Tipping | None:
             return None
         before = [values[control] for control in step.moved()]
         begun, ended = (dict(zip(step.moved(), step.values(part, before), strict=True)) for part in (_BEGIN, 1.0))
-        poses = [(tool, tool.pose(values, model.time), _next_pose(model, tool, values, begun)) for tool in model.tools]
+        poses = [
+            (tool, tool.pose(values, model.system.time), _next_pose(model, tool, values, begun)) for tool in model.tools
+        ]
         moved = {tool for tool, pose, then in poses if not all(map(np.array_equal, pose, then))}
         for tool, pose, then in poses:
             found = None
@@ -98,13 +100,13 @@ def tipping(model: Model, steps: Sequence[Step]) -> Tipping | None:
 
 def _free(model: Model) -> Floats:
     """Rigid-body motions (k, 6) that supports and springs leave free; none if loads or unknown terms act."""
-    unknown = [term for term in model.others if not isinstance(term, Rest)]
+    unknown = [term for term in model.system.others if not isinstance(term, Rest)]
     if unknown or any(isinstance(control, Load | Pressure) for control in model.controls):
         return np.empty((0, 6))
     points = model.mesh.points + model.u.reshape(-1, 3)
-    centre, size = middle(model, points)
-    rows = [motion_along(x, n, centre, size) for x, n in sprung(model)]
-    return left_free(model, rigid_body_modes(points, centre, size), rows)
+    centre, size = middle(model.system, points)
+    rows = [motion_along(x, n, centre, size) for x, n in sprung(model.system)]
+    return left_free(model.system, rigid_body_modes(points, centre, size), rows)
 
 
 def _arrives(model: Model, tool: Tool, pose: Pose, values: Mapping[Control, float]) -> bool:
@@ -112,7 +114,7 @@ def _arrives(model: Model, tool: Tool, pose: Pose, values: Mapping[Control, floa
     if tool.presses or not tool.pairs or tool.open:
         return True
     points = _Points.of(model, tool, pose)
-    along = np.einsum("ij,ij->i", _way(points, pose, tool.pose(values, model.time)), points.n)
+    along = np.einsum("ij,ij->i", _way(points, pose, tool.pose(values, model.system.time)), points.n)
     return bool((along >= points.gap).any())
 
 
@@ -122,8 +124,8 @@ def _next_pose(model: Model, tool: Tool, values: Mapping[Control, float], begun:
     for control in begun:
         if isinstance(control, ToolForce):
             sense = np.sign(begun[control] - values[control])
-            then[control.way] = values[control.way] + float(sense) * _A_LITTLE * model.thickness
-    return tool.pose(then, model.time)
+            then[control.way] = values[control.way] + float(sense) * _A_LITTLE * model.system.thickness
+    return tool.pose(then, model.system.time)
 
 
 @dataclass(frozen=True)
@@ -148,7 +150,7 @@ class _Points:
 
     def forces(self, model: Model, free: Floats) -> Floats:
         """Work of forces in the free motions (m, k): normals, or edges of a pyramid around each cone of friction."""
-        centre, size = middle(model, model.mesh.points + model.u.reshape(-1, 3))
+        centre, size = middle(model.system, model.mesh.points + model.u.reshape(-1, 3))
         across = np.cross(self.n, np.eye(3)[np.abs(self.n).argmin(axis=1)])
         across /= np.linalg.norm(across, axis=1, keepdims=True)
         other, known = np.cross(self.n, across), ~np.isnan(self.friction)
@@ -173,7 +175,7 @@ def _unbalanced(
     tool, pose, then = pushing
     if not tool.pairs or tool.open:
         return None
-    first, near = _Points.of(model, tool, pose), _NEAR * model.thickness
+    first, near = _Points.of(model, tool, pose), _NEAR * model.system.thickness
     first = first.part(first.gap <= first.gap.min(initial=np.inf) + near)
     pushed = _pushed(first, pose, then)
     if len(first.gap) == 0 or not pushed[first.gap.argmin()]:

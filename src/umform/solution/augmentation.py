@@ -45,7 +45,7 @@ def augmented(model: Model, newton: Newton, converged: Converged) -> Converged:
         parts = {contact: np.zeros(model.u.size) for contact in pairs}
         for contact, part in parts.items():
             contact.augment(found[contact], part)
-        change = changed_residual(model, converged.evaluation, parts)
+        change = changed_residual(model.system, converged.evaluation, parts)
         again = newton.go_on(converged, change)
         converged = replace(converged, evaluation=again.evaluation, passes=converged.passes + again.iterations)
         log.debug("    pass %d of the multipliers, %d iterations", number, len(again.iterations))
@@ -53,4 +53,4 @@ def augmented(model: Model, newton: Newton, converged: Converged) -> Converged:
 
 
 def _anywhere(model: Model, flag: bool | np.bool_) -> bool:
-    return model.ranks.any(bool(flag))
+    return model.system.ranks.any(bool(flag))

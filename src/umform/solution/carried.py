@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from umform.model import Evaluation, Model
 from umform.model.control import Control
+from umform.model.state import State
 from umform.model.tool import Tool
 
 Floats = NDArray[np.float64]
@@ -62,13 +63,15 @@ class Screw:
         return np.asarray(x @ self.Q.T + self.s - x + relative @ self.Q.T - way)
 
 
-def carried(model: Model, last: Evaluation, increment: Floats) -> Floats | None:
+def carried(model: Model, goal: State, last: Evaluation, increment: Floats) -> Floats | None:
     """Correction of a straight increment if the sheet rotates with a tool; None if it does not.
 
     Parameters
     ----------
     model : Model
-        With the controls and the time of the increment.
+        The model.
+    goal : State
+        The goal of the increment.
     last : Evaluation
         Evaluation at the last converged state.
     increment : ndarray, shape (3 n + k,)
@@ -79,7 +82,7 @@ def carried(model: Model, last: Evaluation, increment: Floats) -> Floats | None:
     ndarray, shape (3 n + k,), or None
         Zero for bodies that rotate with no tool, and where supports or ties prevent the rotation.
     """
-    tools = _turning(model, last, increment)
+    tools = _turning(model, goal, last, increment)
     if not tools:
         return None
     n = model.u.size
@@ -94,17 +97,17 @@ def carried(model: Model, last: Evaluation, increment: Floats) -> Floats | None:
     if not found:
         return None
     whole = np.concatenate([beyond.ravel(), np.zeros(increment.size - n)])
-    taken = float(np.abs(model.extend(model.coefficients(whole)) - whole).max(initial=0.0))
-    held = model.ranks.max(taken) > _ROUND_OFF * model.ranks.max(float(np.abs(whole).max(initial=0.0)))
+    taken = float(np.abs(model.system.extend(model.system.coefficients(whole)) - whole).max(initial=0.0))
+    held = model.system.ranks.max(taken) > _ROUND_OFF * model.system.ranks.max(float(np.abs(whole).max(initial=0.0)))
     return None if held else whole
 
 
-def leaves_arc(model: Model, last: Evaluation, increment: Floats) -> bool:
+def leaves_arc(model: Model, goal: State, last: Evaluation, increment: Floats) -> bool:
     """Whether an extrapolated increment is that of a body that rotated with a tool: it leaves the arc.
 
     Parameters as of `carried`.
     """
-    tools = _turning(model, last, increment)
+    tools = _turning(model, goal, last, increment)
     if not tools:
         return False
     x, way = _places(model, last), increment[: model.u.size].reshape(-1, 3)
@@ -122,24 +125,22 @@ def _bodies(model: Model, x: Floats) -> list[Floats]:
     return [np.bincount(body.connectivity.ravel(), minlength=len(x)).astype(float) for body in model.bodies]
 
 
-def _turning(model: Model, last: Evaluation, increment: Floats) -> list[Screw]:
+def _turning(model: Model, goal: State, last: Evaluation, increment: Floats) -> list[Screw]:
     """Motions of the rotating tools with friction that touch the sheet."""
-    values = {control: control.value for control in model.controls}
-    for unknown, change in zip(model.unknowns, increment[model.u.size :].tolist(), strict=True):
-        unknown.move(values, unknown.value + change)
+    values = model.controls.values_at(model.system.state_at(goal.x + increment, goal))
     screws = []
     for tool in model.tools:
         pairs = [pair for pair in tool.pairs if pair.rubs and not tool.open]
-        if not pairs or not model.ranks.any(any(bool(last.found[pair].active.any()) for pair in pairs)):
+        if not pairs or not model.system.ranks.any(any(bool(last.found[pair].active.any()) for pair in pairs)):
             continue
-        Q, s = _motion(tool, last, values, model.time)
+        Q, s = _motion(tool, last, values, goal.time)
         if np.trace(Q) < 3.0 - 1e-15:
             screws.append(Screw.of(Q, s))
     return screws
 
 
 def _motion(tool: Tool, last: Evaluation, values: dict[Control, float], time: float) -> tuple[Floats, Floats]:
-    """Rigid motion of a tool from the converged to the present state."""
+    """Rigid motion of a tool from the converged state to given values of the controls."""
     (before, at), (after, then) = tool.pose(last.controls, last.time), tool.pose(values, time)
     Q = after @ before.T
     return Q, then - Q @ at
@@ -147,7 +148,7 @@ def _motion(tool: Tool, last: Evaluation, values: dict[Control, float], time: fl
 
 def _goes_round(model: Model, screw: Screw, goes: Floats, x: Floats, way: Floats, weights: Floats) -> bool:
     """Whether the weighted displacement of points, those of the cells of a body, is that of a motion. eq. (4.179)"""
-    sums = model.ranks.sum(np.concatenate([[weights.sum()], weights @ x]))
+    sums = model.system.ranks.sum(np.concatenate([[weights.sum()], weights @ x]))
     turn, relative = np.cross(screw.w, x - sums[1:] / max(sums[0], 1.0)), way - goes
-    squares = model.ranks.sum(np.array([weights @ (relative**2).sum(axis=1), weights @ (turn**2).sum(axis=1)]))
+    squares = model.system.ranks.sum(np.array([weights @ (relative**2).sum(axis=1), weights @ (turn**2).sum(axis=1)]))
     return bool(squares[1] > 0.0 and squares[0] <= _DIFFERENT**2 * squares[1])

@@ -54,7 +54,7 @@ def within_allowed(
     """
     penalties = {contact: contact.penalty for contact in model.contacts}
     for growth in _GROWTHS:
-        if not model.too_deep(converged.evaluation):
+        if not model.system.too_deep(converged.evaluation):
             break
         try:
             with newton.timing.attempts.trying("stiffer penalties"):
@@ -64,7 +64,7 @@ def within_allowed(
                 contact.use_penalty(penalty)
             if not yields:  # a smaller increment is nearer to its pressures
                 raise
-            model.prepare()
+            model.system.prepare(converged.goal)
             converged = again()
     return converged
 
@@ -93,14 +93,14 @@ def _grown(model: Model, newton: Newton, converged: Converged, growth: float, mo
     mode = mode or newton.mode()
     for number in range(1, _PASSES + 1):
         found = converged.evaluation.found
-        excess = model.too_deep(converged.evaluation)
+        excess = model.system.too_deep(converged.evaluation)
         if not excess:
             break
         parts = {contact: np.zeros(model.u.size) for contact in excess}
         for contact, part in parts.items():
             grown = min(excess[contact] / _AIM, growth) * contact.penalty
             contact.stiffen(found[contact], min(grown, contact.largest_penalty), part)
-        change = converged.evaluation.residual + changed_residual(model, converged.evaluation, parts)
+        change = converged.evaluation.residual + changed_residual(model.system, converged.evaluation, parts)
         again = newton.go_on(converged, change, replace(mode, grows=number < _PASSES))
         converged = replace(converged, evaluation=again.evaluation, passes=converged.passes + again.iterations)
         log.debug("    pass %d of the penalties, %d iterations", number, len(again.iterations))

@@ -12,7 +12,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.solution.system import Evaluation, System
+from umform.solution.system import Evaluation, State, System
 
 Floats = NDArray[np.float64]
 
@@ -26,7 +26,14 @@ _STILL_DOWNHILL, _DOUBLINGS = 0.5, 6
 
 
 def shortened(
-    system: System, u: Floats, du: Floats, r: Floats, evaluation: Evaluation, length: float, near: float = 0.0
+    system: System,
+    goal: State,
+    u: Floats,
+    du: Floats,
+    r: Floats,
+    evaluation: Evaluation,
+    length: float,
+    near: float = 0.0,
 ) -> tuple[Evaluation, float]:
     """The evaluation where the slope along the increment has decreased, and the accepted part of the increment.
 
@@ -34,6 +41,8 @@ def shortened(
     ----------
     system : System
         It has recovered this part of the increment.
+    goal : State
+        The goal of the increment.
     u, du : ndarray, shape (3 n + k,)
         Start of the increment, and the full increment.
     r : ndarray
@@ -55,12 +64,12 @@ def shortened(
         part = min(max(1.0 / (1.0 + overshoot), _SHORTEST), _LONGEST)  # the secant of the slope
         system.shorten(part)
         length *= part
-        evaluation = system.evaluate(u + length * du)
+        evaluation = system.evaluate(system.state_at(u + length * du, goal))
     return evaluation, length
 
 
 def lengthened(
-    system: System, u: Floats, du: Floats, r: Floats, evaluation: Evaluation, length: float
+    system: System, goal: State, u: Floats, du: Floats, r: Floats, evaluation: Evaluation, length: float
 ) -> tuple[Evaluation, float]:
     """The same, after doubling the increment as long as the slope along it hardly decreases.
 
@@ -74,8 +83,8 @@ def lengthened(
             break
         system.shorten(2.0)
         length *= 2.0
-        evaluation = system.evaluate(u + length * du)
-    return shortened(system, u, du, r, evaluation, length)
+        evaluation = system.evaluate(system.state_at(u + length * du, goal))
+    return shortened(system, goal, u, du, r, evaluation, length)
 
 
 def _overshoot(system: System, along: Floats, slope: float, evaluation: Evaluation) -> float:

@@ -10,8 +10,10 @@ import logging
 import math
 import time as clock
 from collections.abc import Callable
+from copy import copy
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TypeVar
+from typing import Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +26,7 @@ from umform.solution.line_search import lengthened, shortened
 from umform.solution.options import IndefiniteTangent, IterationMode, NewtonOptions
 from umform.solution.recorder import Recorder
 from umform.solution.records import Cause, Converged, Failed, First, Iteration
-from umform.solution.system import Evaluation, System
+from umform.solution.system import Evaluation, State, System
 from umform.solution.tangent import Tangent
 from umform.solution.timed_solver import TimedSolver
 from umform.solvers import Pattern, make_solver
@@ -43,6 +45,14 @@ _NEAR = 1e-2
 _CLOSE = 30.0
 
 
+@dataclass
+class _Analysed:
+    """A solver, and the pattern that it has analysed; methods with other tolerances share it."""
+
+    solver: Bordered | None = None
+    pattern: Pattern | None = None
+
+
 class Newton:
     """Newton's method with a solver that keeps its symbolic factorisation while the pattern is unchanged."""
 
@@ -57,13 +67,31 @@ class Newton:
         self.timing = timing or Timing()
         self.options = options or NewtonOptions()
         self.solver_name = solver
-        self._solver: Bordered | None = None
-        self._pattern: Pattern | None = None
+        self._analysed = _Analysed()
         self.callbacks: list[Callable[[Iteration], None]] = []
         #: Whether the sheet springs back, nearly elastic, even if its laws have a history. docs/theory, 5.13
         self.springs_back = False
         #: Relative residual at which iterations end, above the tolerance; zero: none. eq. (5.131)
         self.settled = 0.0
+
+    def but(
+        self, *, residual: float | None = None, settled: float | None = None, springs_back: bool | None = None
+    ) -> Self:
+        """The same method with other tolerances, or for a sheet that springs back; it shares the sparse solver.
+
+        Parameters
+        ----------
+        residual : float, optional
+            Tolerance of the residual.
+        settled, springs_back : optional
+            The attributes.
+        """
+        other = copy(self)
+        if residual is not None:
+            other.options = replace(self.options, residual=residual)
+        other.settled = self.settled if settled is None else settled
+        other.springs_back = self.springs_back if springs_back is None else springs_back
+        return other
 
     @property
     def solver(self) -> str:
@@ -115,18 +143,21 @@ class Newton:
 
     def solve(
         self,
+        goal: State | None = None,
         extrapolation: Floats | None = None,
         mode: IterationMode | None = None,
         beyond: Floats | None = None,
         keep: bool = False,
     ) -> Converged:
-        """Find the equilibrium at the present loads, supports and tools, starting from the converged state.
+        """Find the equilibrium at the loads, supports and tools of a goal, starting from the converged state.
 
         Parameters
         ----------
+        goal : State, optional
+            The converged state with the time and the controls of the increment; default: without a change of them.
         extrapolation : ndarray, shape (3 n,), optional
             Predicted increment; prescribed entries are overwritten. Without it the first increment is that of the
-            tangent. It is recovered with the blocks of the last evaluation, which must be at ``system.u``.
+            tangent. It is recovered with the blocks of the last evaluation, which must be at the converged state.
         mode : IterationMode, optional
             Mode of the iterations; default: from the options.
         beyond : ndarray, shape (3 n + k,), optional
@@ -139,7 +170,8 @@ class Newton:
         Failed
             If it does not converge; the system is reverted.
         """
-        return self.guarded(lambda: self._solve(extrapolation, mode or self.mode(), beyond, keep))
+        goal = self.system.state if goal is None else goal
+        return self.guarded(lambda: self._solve(goal, extrapolation, mode or self.mode(), beyond, keep))
 
     def go_on(self, converged: Converged, change: Floats, mode: IterationMode | None = None) -> Converged:
         """Find the equilibrium again after a change of forces in the system at fixed loads, supports and tools.
@@ -163,7 +195,7 @@ class Newton:
             solver = self.ready_solver()
             solver.factor(converged.evaluation)
             du = self.system.extend(solver.solve(-self.system.restrict(change)))
-            return self.correct(converged.x, du, mode or self.mode())
+            return self.correct(converged.goal, converged.x, du, mode or self.mode())
 
         return self.guarded(work)
 
@@ -184,38 +216,42 @@ class Newton:
             raise Failed(what, [], cause, getattr(error, "motion", None)) from error
         except BaseException as error:  # errors of a user's function and interrupts also leave the system unchanged
             self.system.revert()
-            if isinstance(error, Failed) and error.motion is None and self._solver is not None:
-                error.motion = self._solver.weak
+            solver = self._analysed.solver
+            if isinstance(error, Failed) and error.motion is None and solver is not None:
+                error.motion = solver.weak
             raise
 
-    def _solve(self, extrapolation: Floats | None, mode: IterationMode, beyond: Floats | None, keep: bool) -> Converged:
+    def _solve(
+        self, goal: State, extrapolation: Floats | None, mode: IterationMode, beyond: Floats | None, keep: bool
+    ) -> Converged:
         """First increment from the extrapolation, or from the tangent by eq. (5.6); then corrections."""
         system = self.system
         solver = self.ready_solver()
         start = clock.perf_counter()
-        u = system.x.copy()
-        du, of_tangent = self.prescribed_increment(u), None
+        u = goal.x.copy()
+        du, of_tangent = self.prescribed_increment(goal, u), None
         if extrapolation is not None:
             du += system.extend(system.coefficients(extrapolation))
         else:
-            first = system.evaluate(u, du)
+            first = system.evaluate(system.state_at(u, goal), du)
             self.check_domain(first, [])
             factors = solver.factor(first)
             if not first.border.unknowns:
                 of_tangent = First(factors, system.largest_entry(first.values))
             du += system.extend(solver.solve(-system.restrict(first.residual + first.predictor)))
             del first  # with its tangent
-        return self.correct(u, du, mode, start, of_tangent, beyond, keep)
+        return self.correct(goal, u, du, mode, start, of_tangent, beyond, keep)
 
-    def prescribed_increment(self, u: Floats) -> Floats:
-        """Increment of the supports from ``u`` to their prescribed values; zero at the unknowns."""
+    def prescribed_increment(self, goal: State, u: Floats) -> Floats:
+        """Increment of the supports from ``u`` to their values at a goal; zero at the unknowns."""
         gap = np.zeros_like(u)
-        prescribed = self.system.prescribed_displacement()
+        prescribed = self.system.prescribed_displacement(goal)
         gap[: prescribed.size] = prescribed - u[: prescribed.size]
         return gap - self.system.extend(self.system.coefficients(gap))
 
     def correct(
         self,
+        goal: State,
         u: Floats,
         du: Floats,
         mode: IterationMode,
@@ -232,7 +268,7 @@ class Newton:
         criteria = Criteria(system, options.residual, options.increment, self.settled)
         iterations = recorder.iterations
 
-        du, evaluation = self._predicted(u, du, mode, beyond, keep=keep, forces=tangent.forces_first)
+        du, evaluation = self._predicted(goal, u, du, mode, beyond, keep=keep, forces=tangent.forces_first)
         increment, length = self._relative(du, evaluation), 1.0
         while len(iterations) < guard.iteration_limit(options.max_iterations):
             self.check_domain(evaluation, iterations)
@@ -246,28 +282,36 @@ class Newton:
                 recorder.add(evaluation, residual, increment, 0.0, length, tangent.pivots)
                 self._check_flight(evaluation, iterations)
                 tangent.follow()
-                return Converged(evaluation, iterations, jumped=guard.jumps)
+                return Converged(evaluation, iterations, goal, jumped=guard.jumps)
 
             longest, moved = guard.longest_step(evaluation, norm, iterations), recorder.moved(evaluation)
-            evaluation = tangent.factor(evaluation, residual, increment, iterations, moved=moved)
+            evaluation = tangent.factor(goal, evaluation, residual, increment, iterations, moved=moved)
             du = system.extend(solver.solve(-r))
             energy = abs(system.ranks.dot(r, system.coefficients(du)))
             recorder.add(evaluation, residual, increment, energy, length, tangent.pivots)
             tangent.plan(evaluation)
             evaluation = evaluation.without_tangent()  # factors exist: release the memory of the tangent
-            evaluation, length = self._advanced(evaluation.x, du, r, mode, longest, tangent)
+            evaluation, length = self._advanced(goal, evaluation.x, du, r, mode, longest, tangent)
             increment = length * self._relative(du, evaluation)
         raise Failed(f"no convergence in {len(iterations)} iterations", iterations, Cause.ITERATIONS)
 
     def _predicted(
-        self, u: Floats, du: Floats, mode: IterationMode, beyond: Floats | None, *, keep: bool, forces: bool
+        self,
+        goal: State,
+        u: Floats,
+        du: Floats,
+        mode: IterationMode,
+        beyond: Floats | None,
+        *,
+        keep: bool,
+        forces: bool,
     ) -> tuple[Floats, Evaluation]:
         """The first increment, and the evaluation at its end."""
         system = self.system
         if system.ranks.max(float(np.abs(du).max(initial=0.0))) <= EPS * system.extent:
-            du = self.prescribed_increment(u)  # the rest would shake a sheet without forces off its tools
+            du = self.prescribed_increment(goal, u)  # the rest would shake a sheet without forces off its tools
         system.recover(du, mode.mixed)
-        end = u + du if beyond is None else u + du + beyond
+        end = system.state_at(u + du if beyond is None else u + du + beyond, goal)
         return du, system.evaluate(end, keep=True) if keep else system.evaluate(end, tangent=not forces)
 
     def _accepts(
@@ -281,29 +325,29 @@ class Newton:
         return done or (near and bool(self.system.too_deep(evaluation)))
 
     def _advanced(
-        self, u: Floats, du: Floats, r: Floats, mode: IterationMode, longest: float, tangent: Tangent
+        self, goal: State, u: Floats, du: Floats, r: Floats, mode: IterationMode, longest: float, tangent: Tangent
     ) -> tuple[Evaluation, float]:
         """The evaluation after the increment, or after a part of it if it is too long; this part. eq. (5.12)"""
         system, length = self.system, longest
         system.recover(du, mode.mixed)
         if length < 1.0:
             system.shorten(length)
-        evaluation = system.evaluate(u + length * du, tangent=not tangent.forces_first)
+        evaluation = system.evaluate(system.state_at(u + length * du, goal), tangent=not tangent.forces_first)
         if tangent.shifted:
-            return lengthened(system, u, du, r, evaluation, length)
+            return lengthened(system, goal, u, du, r, evaluation, length)
         if tangent.searches:
-            return shortened(system, u, du, r, evaluation, length, near=_CLOSE * self.options.residual)
+            return shortened(system, goal, u, du, r, evaluation, length, near=_CLOSE * self.options.residual)
         return evaluation, length
 
     def ready_solver(self) -> Bordered:
         """Return the solver that has analysed the present pattern."""
-        pattern = self.system.pattern
-        if self._solver is None or self._pattern is not pattern:
+        pattern, analysed = self.system.pattern, self._analysed
+        if analysed.solver is None or analysed.pattern is not pattern:
             with self.timing.analysis:
                 solver = TimedSolver(make_solver(pattern, self.solver_name), self.timing)
-                self._solver = Bordered(self.system, solver)
-            self._pattern = pattern
-        return self._solver
+                analysed.solver = Bordered(self.system, solver)
+            analysed.pattern = pattern
+        return analysed.solver
 
     @staticmethod
     def check_domain(evaluation: Evaluation, iterations: list[Iteration]) -> None:

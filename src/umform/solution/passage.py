@@ -33,10 +33,10 @@ def same_side(model: Model, last: Evaluation, converged: Converged) -> Converged
     Failed
         If a point has; the model is reverted.
     """
-    found, least = converged.evaluation.found, _OVER_AN_EDGE * model.thickness
+    found, least = converged.evaluation.found, _OVER_AN_EDGE * model.system.thickness
     pairs = [contact for contact in model.contacts if not contact.tool.open]
-    if model.ranks.any(any(_through(last.found[contact], found[contact], least) for contact in pairs)):
-        model.revert()
+    if model.system.ranks.any(any(_through(last.found[contact], found[contact], least) for contact in pairs)):
+        model.system.revert()
         raise Failed("the sheet goes through a tool", converged.iterations, Cause.PASSAGE)
     return converged
 

@@ -90,6 +90,8 @@ class Converged:
         At the equilibrium.
     iterations, passes : list of Iteration
         Iterations, and those of augmentations at the same loads.
+    goal : State
+        The goal of the increment.
     jumped : bool
         Whether the sheet jumped to another stable state, since none was near. eq. (5.102)
     missed : float
@@ -98,6 +100,7 @@ class Converged:
 
     evaluation: Any
     iterations: list[Iteration]
+    goal: Any = None
     passes: list[Iteration] = field(default_factory=list)
     jumped: bool = False
     missed: float = 0.0

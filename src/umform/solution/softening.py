@@ -12,6 +12,7 @@ import numpy as np
 from umform.model import Model
 from umform.model.changed_forces import changed_residual
 from umform.model.contact import Contact
+from umform.model.state import State
 from umform.solution.newton import Newton
 from umform.solution.options import IterationMode
 from umform.solution.records import Cause, Converged, Failed
@@ -25,6 +26,7 @@ _SOFTER = (3, 6)
 def softened(
     model: Model,
     newton: Newton,
+    goal: State,
     start: Callable[[], Converged],
     accept: Callable[[Converged], Converged],
     mode: IterationMode | None = None,
@@ -36,9 +38,11 @@ def softened(
     Parameters
     ----------
     model : Model
-        With contacts, and with the controls and the time of the increment.
+        With contacts.
     newton : Newton
         Method.
+    goal : State
+        The goal of the increment.
     start : callable
         Finds the equilibrium with the present penalties of the contacts.
     accept : callable
@@ -65,7 +69,7 @@ def softened(
     except Failed as failure:
         if touched and failure.cause is not Cause.SINGULAR:
             raise
-        model.prepare()
+        model.system.prepare(goal)
         return accept(_stiffened(model, newton, start, softest, mode))
 
 
@@ -82,7 +86,7 @@ def _stiffened(
             parts = {contact: np.zeros(model.u.size) for contact in penalties}
             for contact, penalty in penalties.items():
                 contact.stiffen(evaluation.found[contact], 10.0**-power * penalty, parts[contact])
-            change = changed_residual(model, evaluation, parts)
+            change = changed_residual(model.system, evaluation, parts)
             again = newton.go_on(converged, change, mode)
             converged = replace(again, iterations=converged.iterations + again.iterations)
     log.debug("    by way of softer penalties, %d iterations", len(converged.iterations))

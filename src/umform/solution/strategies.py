@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from umform.model import Evaluation, Model
 from umform.model.control import Control
+from umform.model.state import State
 from umform.solution.carried import carried, leaves_arc
 from umform.solution.criteria import SETTLED_INCREMENT, SETTLED_RESIDUAL
 from umform.solution.newton import Newton
@@ -32,16 +33,16 @@ _AGAIN = 1.0 + 1e-9
 
 @dataclass(frozen=True)
 class Increment:
-    """An increment to solve: the controls have their new values.
+    """An increment to solve.
 
     Attributes
     ----------
     model, newton, statistics
         System, method, and statistics of earlier increments.
-    before : mapping of Control to float
-        Values of the controls at the converged state.
-    time : float
-        Time at the converged state.
+    goal : State
+        The converged state with the new values of the controls, at the new time.
+    moved : tuple of Control
+        The controls that the step moves.
     guess : ndarray, shape (3 n + k,), optional
         The last increment, extrapolated.
     last : Evaluation
@@ -55,8 +56,8 @@ class Increment:
     model: Model
     newton: Newton
     statistics: StrategyStatistics
-    before: Mapping[Control, float]
-    time: float
+    goal: State
+    moved: tuple[Control, ...]
     guess: Floats | None
     last: Evaluation
     keeps: bool = True
@@ -91,35 +92,36 @@ class Increment:
     @property
     def has_friction(self) -> bool:
         """Whether there is friction with tools that are not open."""
-        return any(pair.rubs and not pair.tool.open for pair in self.model.pairs_of_tools())
+        return any(pair.rubs and not pair.tool.open for pair in self.model.system.pairs_of_tools())
 
     @property
     def undeformed(self) -> bool:
         """Whether tools touch a sheet without forces: which points stay is the same for any size of increment."""
-        return self.touched and not self.model.ranks.any(bool(self.model.u.any()))
+        return self.touched and not self.model.system.ranks.any(bool(self.model.u.any()))
 
     @property
     def touched(self) -> bool:
         """Whether the sheet touches a tool in the converged state."""
-        return self.last.touching(self.model.ranks)
+        return self.last.touching(self.model.system.ranks)
 
     def soft(self) -> Converged:
         """The equilibrium by continuation in the penalty."""
         start, mode = self.tangent(), self.newton.mode(indefinite=self.indefinite_with_soft_tools)
-        go = lambda: self.newton.solve(start, mode, self.beyond(start))  # noqa: E731
-        return softened(self.model, self.newton, go, self.accept, mode, touched=self.touched)
+        go = lambda: self.newton.solve(self.goal, start, mode, self.beyond(start))  # noqa: E731
+        return softened(self.model, self.newton, self.goal, go, self.accept, mode, touched=self.touched)
 
     def along_extrapolation(self) -> Converged:
         """The equilibrium from the last increment, scaled."""
         mode = self.newton.mode(indefinite=self.indefinite, grows=self.grows)
-        return self.newton.solve(self.guess, mode, keep=self.keeps and self.newton.options.keep)
+        return self.newton.solve(self.goal, self.guess, mode, keep=self.keeps and self.newton.options.keep)
 
     def rigid(self) -> Converged:
         """The equilibrium by continuation in the penalty from a rigid motion of the sheet. eq. (4.260)"""
-        start = rigid_start(self.model)
+        start = rigid_start(self.model, self.goal)
         if start is None:
             raise Failed("no rigid motion brings the sheet between its tools", [])
-        return softened(self.model, self.newton, lambda: self.newton.solve(start), self.accept)
+        go = lambda: self.newton.solve(self.goal, start)  # noqa: E731
+        return softened(self.model, self.newton, self.goal, go, self.accept)
 
     def along_tangent(self, *, consistent: bool = False) -> Converged:
         """The equilibrium from the increment along the tangent, corrected for rotation with a tool by friction."""
@@ -128,16 +130,16 @@ class Increment:
         mode = self.newton.mode(
             consistent=consistent, indefinite=self.indefinite, friction=friction, extended=extended, grows=self.grows
         )
-        return self.newton.solve(start, mode, self.beyond(start))
+        return self.newton.solve(self.goal, start, mode, self.beyond(start))
 
     def beyond(self, start: Floats | None) -> Floats | None:
         """Correction of the straight increment for a sheet that rotates with a tool. eq. (4.178)"""
-        return None if start is None or not self.has_friction else carried(self.model, self.last, start)
+        return None if start is None or not self.has_friction else carried(self.model, self.goal, self.last, start)
 
     @property
     def leaves_arc(self) -> bool:
         """Whether the last increment is that of a sheet that rotated with a tool: its extrapolation leaves the arc."""
-        return self.guess is not None and self.has_friction and leaves_arc(self.model, self.last, self.guess)
+        return self.guess is not None and self.has_friction and leaves_arc(self.model, self.goal, self.last, self.guess)
 
     def tangent(self) -> Floats | None:
         """Increment along the tangent of the converged state: the sheet follows the tools that touch it. eq. (4.36)
@@ -148,23 +150,20 @@ class Increment:
         if not self.touches:
             return None
         model, newton = self.model, self.newton
-        after, time_after = {control: control.value for control in self.before}, model.time
-        rates = {control: after[control] - value for control, value in self.before.items()}
+        state = model.state
+        rates = {c: self.goal.controls[c.name] - state.controls[c.name] for c in self.moved}
 
         def increment() -> Floats:
-            evaluation = model.evaluate(model.x, rates=rates, until=time_after)
+            evaluation = model.evaluate(state, rates=rates, until=self.goal.time)
             newton.check_domain(evaluation, [])
             solver = newton.ready_solver()
             solver.factor(evaluation)
-            return model.extend(solver.solve(-model.restrict(evaluation.residual + evaluation.predictor)))
+            return model.system.extend(solver.solve(-model.system.restrict(evaluation.residual + evaluation.predictor)))
 
-        _put(self.before, self.time, model)
         try:
             return newton.guarded(increment)
         except Failed:
             return None
-        finally:
-            _put(after, time_after, model)
 
 
 @dataclass(frozen=True)
@@ -213,7 +212,7 @@ STRATEGIES = (
     # Tools may hold an undeformed sheet only in another position, where it has no tangent until it is there.
     Strategy(
         "rigid motion",
-        lambda at: at.undeformed and at.model.ranks.size == 1,
+        lambda at: at.undeformed and at.model.system.ranks.size == 1,
         lambda at: at.rigid(),
     ),
 )
@@ -222,7 +221,7 @@ _SOFT = ("softer penalties", "rigid motion")
 
 
 def equilibrium(increment: Increment) -> Converged:
-    """Equilibrium at the present values of the controls, by the first strategy that converges.
+    """Equilibrium at the goal of an increment, by the first strategy that converges.
 
     Raises
     ------
@@ -271,16 +270,13 @@ def _settled(increment: Increment, failures: Mapping[str, Failed]) -> Converged 
                 least, best = record.residual, strategy
     if best is None:
         return None
-    newton = increment.newton
-    newton.settled = _AGAIN * least
-    increment.model.prepare()
+    again = replace(increment, newton=increment.newton.but(settled=_AGAIN * least))
+    increment.model.system.prepare(increment.goal)
     try:
-        with newton.timing.attempts.trying("settled contact"):
-            converged = increment.accept(best.attempt(increment))
+        with again.newton.timing.attempts.trying("settled contact"):
+            converged = again.accept(best.attempt(again))
     except Failed:
         return None
-    finally:
-        newton.settled = 0.0
     last = converged.iterations[-1]
     increment.statistics.record(failed={}, won=best.name, negative_pivots=last.negative_pivots)
     return replace(converged, missed=last.residual)
@@ -300,9 +296,3 @@ def _cause(strategy: str, failure: Failed, touched: bool) -> str:
     if strategy == "extrapolation":
         return f"extrapolation too far: {failure.cause}"
     return str(failure.cause)
-
-
-def _put(values: Mapping[Control, float], time: float, model: Model) -> None:
-    for control, value in values.items():
-        control.value = value
-    model.time = time

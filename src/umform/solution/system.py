@@ -34,6 +34,14 @@ class Border(Protocol):
         """Derivatives of their equations with respect to each of them, shape (k, k)."""
 
 
+class State(Protocol):
+    """Where a system is evaluated, or the goal of an increment, see :class:`umform.model.state.State`."""
+
+    @property
+    def x(self) -> Floats:
+        """Displacement and scalar unknowns; of a goal those of the converged state."""
+
+
 class Evaluation(Protocol):
     """Data of an evaluation that Newton's method uses."""
 
@@ -96,8 +104,11 @@ class System(Protocol):
     """Operations of a model that Newton's method uses."""
 
     @property
-    def x(self) -> Floats:
-        """Displacement and scalar unknowns of the converged state."""
+    def state(self) -> Any:
+        """The converged state."""
+
+    def state_at(self, x: Floats, goal: Any) -> Any:
+        """A goal with other unknowns."""
 
     @property
     def ranks(self) -> Ranks:
@@ -132,8 +143,8 @@ class System(Protocol):
     def extend(self, x: Floats) -> Floats:
         """Displacement of all degrees of freedom and scalar unknowns from the unknowns. eqs. (5.17), (5.46)"""
 
-    def prescribed_displacement(self) -> Floats:
-        """Displacement that the supports prescribe, zero elsewhere, shape (3 n,)."""
+    def prescribed_displacement(self, goal: Any) -> Floats:
+        """Displacement that the supports prescribe at a goal, zero elsewhere, shape (3 n,)."""
 
     def displacement_of_supports(self, values: Mapping[Any, float]) -> Floats:
         """Displacement that supports prescribe for given values of their controls, shape (3 n,)."""
@@ -144,8 +155,8 @@ class System(Protocol):
     def largest_entry(self, values: Floats) -> float:
         """Size of the largest entry of the tangent."""
 
-    def evaluate(self, x: Floats, du: Floats | None = None, *, tangent: bool = True, keep: bool = False) -> Evaluation:
-        """Residual and tangent, or the residual alone, which leaves the blocks of enhanced parameters unchanged.
+    def evaluate(self, state: Any, du: Floats | None = None, *, tangent: bool = True, keep: bool = False) -> Evaluation:
+        """Residual and tangent at a state, or the residual alone, which leaves blocks of enhanced parameters unchanged.
 
         With ``keep`` tools hold all points that they hold in the converged state, whatever the gap. eq. (4.230)
         """

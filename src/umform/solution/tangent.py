@@ -8,7 +8,7 @@ from umform.solution.factor_reuse import Reuse
 from umform.solution.options import IterationMode, NewtonOptions
 from umform.solution.records import First, Iteration
 from umform.solution.shift import Shift
-from umform.solution.system import Evaluation, System
+from umform.solution.system import Evaluation, State, System
 
 
 class Tangent:
@@ -58,12 +58,21 @@ class Tangent:
         return self._mode.line_search or self._guard.jumps
 
     def factor(
-        self, evaluation: Evaluation, residual: float, increment: float, iterations: list[Iteration], *, moved: bool
+        self,
+        goal: State,
+        evaluation: Evaluation,
+        residual: float,
+        increment: float,
+        iterations: list[Iteration],
+        *,
+        moved: bool,
     ) -> Evaluation:
         """Factorise the tangent, unless the previous factors will do; return its evaluation.
 
         Parameters
         ----------
+        goal : State
+            Time and controls of the increment.
         evaluation : Evaluation
             The present one, perhaps of forces only.
         residual, increment : float
@@ -83,7 +92,7 @@ class Tangent:
             self.follow()
             return evaluation
         if self.forces_first:
-            evaluation = system.evaluate(evaluation.x)
+            evaluation = system.evaluate(system.state_at(evaluation.x, goal))
         pivots = self._reuse.remember(self._solver.factor(evaluation))
         guard.check_pivots(pivots, residual, iterations)
         asked = guard.needs_symmetric_part(residual)

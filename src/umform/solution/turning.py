@@ -40,7 +40,7 @@ def follows(model: Model, last: Evaluation, converged: Converged) -> Converged:
             continue
         chord = _chord(model, pair, last, converged.evaluation)
         if chord > _LONGEST:
-            model.revert()
+            model.system.revert()
             angle = np.degrees(2.0 * np.arcsin(min(0.5 * chord, 1.0)))
             reason = f"the sheet turns on {pair.name} by {angle:.0f} degrees, too far for the direction of its slip"
             raise Failed(reason, converged.iterations, Cause.TURN)
@@ -51,11 +51,11 @@ def _chord(model: Model, pair: Contact, last: Evaluation, now: Evaluation) -> fl
     """Displacement of the points in contact minus its mean, relative to their distance from their mean."""
     both = last.found[pair].active & now.found[pair].active
     before, behind = (_in_frame_of_tool(pair, evaluation)[both] for evaluation in (last, now))
-    sums = model.ranks.sum(np.concatenate([[float(both.sum())], before.sum(axis=0), behind.sum(axis=0)]))
+    sums = model.system.ranks.sum(np.concatenate([[float(both.sum())], before.sum(axis=0), behind.sum(axis=0)]))
     if sums[0] == 0.0:
         return 0.0
     arms, ways = before - sums[1:4] / sums[0], behind - before - (sums[4:] - sums[1:4]) / sums[0]
-    squares = model.ranks.sum(np.array([(ways**2).sum(), (arms**2).sum()]))
+    squares = model.system.ranks.sum(np.array([(ways**2).sum(), (arms**2).sum()]))
     return float(np.sqrt(squares[0] / squares[1])) if squares[1] > 0.0 else 0.0
 
 

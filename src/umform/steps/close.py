@@ -128,11 +128,11 @@ class Closing:
     def begin(cls, run: Run, step: Close) -> Self:
         """The loop at the beginning of the step."""
         model = run.model
-        press = model.press_of(step.control)
-        hair = _as_way(run, press, _HAIR * model.thickness)
-        far = max(_gap(run, press), 0.0) + model.extent
+        press = model.tools.press_of(step.control)
+        hair = _as_way(run, press, _HAIR * model.system.thickness)
+        far = max(_gap(run, press), 0.0) + model.system.extent
         limit = _as_way(run, press, far) if step.way is None else step.way
-        return cls(model.time, press.way.value, _takes(run, press), limit, hair, hair)
+        return cls(model.system.time, press.way.value, _takes(run, press), limit, hair, hair)
 
     @classmethod
     def recall(cls, run: Run, step: Close, memory: dict[str, Any]) -> Self:
@@ -146,7 +146,7 @@ class Closing:
 
     def advance(self, run: Run, step: Close) -> None:
         """Try one increment: of the travel, or the last one of the force."""
-        press = run.model.press_of(step.control)
+        press = run.model.tools.press_of(step.control)
         force, touches = _takes(run, press), _touches(run, press)
         sense = math.copysign(1.0, step.force - self.start_force)
         ahead = self._ahead(press, force, step.force)
@@ -185,15 +185,13 @@ class Closing:
         mark = attempts.mark()
         extrapolation = None if self.taken is None else way / self.taken
         travelled = abs(value + way - self.start_way) / self.limit
-        press.held = True
         try:
-            time = self.start_time + 0.99 * step.time * travelled
-            converged = take_increment(run, [value + way], [press.way], time, extrapolation)
+            with press.driven():
+                time = self.start_time + 0.99 * step.time * travelled
+                converged = take_increment(run, [value + way], [press.way], time, extrapolation)
         except Failed as failure:
             self._shorten(run, step, 0.25, touched, failure)
             return
-        finally:
-            press.held = False
         found = _takes(run, press)
         if (found - step.force) * (step.force - self.start_force) > 0.0:
             attempts.take_back(mark, "closed beyond the force")
@@ -214,9 +212,8 @@ class Closing:
         run.trail = None
         step.control.value = _takes(run, press)
         try:
-            with tightened(run, _EXACT * abs(step.force)):
-                end = self.start_time + step.time
-                converged = take_increment(run, [step.force], [step.control], end, None)
+            newton, end = tightened(run, _EXACT * abs(step.force)), self.start_time + step.time
+            converged = take_increment(run, [step.force], [step.control], end, None, newton=newton)
         except Failed as failure:
             self._shorten(run, step, 0.25, _touches(run, press), failure)
             return
@@ -238,7 +235,7 @@ class Closing:
             raise no_convergence(run, failure, [step.control], [step.force]) from None
 
     def _no_answer(self, run: Run, step: Close, force: float) -> NoConvergence:
-        press = run.model.press_of(step.control)
+        press = run.model.tools.press_of(step.control)
         found = _touches(run, press)
         return NoConvergence(
             "nothing answers the force that a tool is closed with",
@@ -253,20 +250,22 @@ class Closing:
 
 def _takes(run: Run, press: Press) -> float:
     """Force of the press for equilibrium of its tool in the present position."""
-    return press.takes(press.way.value, press.way.of_sheet(run.evaluation, run.model.ranks))[0]
+    return press.takes(press.way.value, press.way.of_sheet(run.evaluation, run.model.system.ranks))[0]
 
 
 def _touches(run: Run, press: Press) -> bool:
     """Whether one of its tools touches the sheet."""
     found = run.evaluation.found
-    return run.model.ranks.any(any(bool(found[pair].active.any()) for tool in press.way.tools for pair in tool.pairs))
+    return run.model.system.ranks.any(
+        any(bool(found[pair].active.any()) for tool in press.way.tools for pair in tool.pairs)
+    )
 
 
 def _gap(run: Run, press: Press) -> float:
     """Smallest distance of its tools from the sheet."""
     found = run.evaluation.found
     gaps = [float(found[pair].gap.min(initial=np.inf)) for tool in press.way.tools for pair in tool.pairs]
-    least = -run.model.ranks.max(-min(gaps, default=math.inf))
+    least = -run.model.system.ranks.max(-min(gaps, default=math.inf))
     return least if math.isfinite(least) else 0.0
 
 
@@ -280,7 +279,7 @@ def _as_way(run: Run, press: Press, length: float) -> float:
         for pair in tool.pairs:
             arms = np.cross(axis, run.evaluation.found[pair].x - point)
             farthest = max(farthest, float(np.linalg.norm(arms, axis=1).max(initial=0.0)))
-    farthest = run.model.ranks.max(farthest)
+    farthest = run.model.system.ranks.max(farthest)
     return length / farthest if farthest > 0.0 else length
 
 

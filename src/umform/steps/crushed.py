@@ -15,7 +15,7 @@ _CRUSHED = 0.2
 
 def crushed(run: Run) -> list[str]:
     """Contacts deep in the sheet at the last converged state, with the mean pressure and the yield stress, as text."""
-    ranks, thickness, words = run.model.ranks, sheet_thickness(run.model.mesh), []
+    ranks, thickness, words = run.model.system.ranks, sheet_thickness(run.model.mesh), []
     for contact in run.model.contacts:
         found = run.evaluation.found[contact]
         deepest = ranks.max(found.penetration)
@@ -32,14 +32,14 @@ def crushed(run: Run) -> list[str]:
 
 def _mean_pressure(run: Run, contact: Contact, found: ContactFound) -> float:
     """Force over area of the held points."""
-    held, ranks = found.held, run.model.ranks
+    held, ranks = found.held, run.model.system.ranks
     areas = found.area[held.points]
     force = ranks.sum(float(np.reshape(held.pressure, -1) @ areas))
     return force / max(ranks.sum(float(areas.sum())), 1e-300)
 
 
 def _against_yield(run: Run, pressure: float) -> str:
-    material: object = run.model.material
+    material: object = run.model.bodies.only.material
     if not isinstance(material, Plastic):
         return ""
     first = material.hardening.curve()(0.0)[0]

@@ -14,6 +14,7 @@ from umform.model.opening import fading_tool, open_tool
 from umform.model.removal import fading, put_back, put_supports, remove, states_of_supports
 from umform.model.support import Support
 from umform.model.term import Tree
+from umform.solution.newton import Newton
 from umform.spec import check_fields
 from umform.spec.types import Cuts, Duration, Growth, Increments
 from umform.steps.loop import Run
@@ -87,9 +88,9 @@ class Free:
         """Make the loads that replace the removed objects, so that the history has their columns."""
         for thing in self.things:
             if isinstance(thing, Tool):
-                fading_tool(model, thing)
+                fading_tool(model.system, thing)
             else:
-                fading(model, thing)
+                fading(model.system, thing)
 
     def moved(self) -> list[Control]:
         """The loads that replace supports and tools."""
@@ -107,23 +108,24 @@ class Freeing(Marching):
     @classmethod
     def begin(cls, run: Run, step: Free) -> Self:  # type: ignore[override]
         """The loop at the beginning of the step."""
-        return cls([1.0] * len(step.things), run.model.time, 1.0 / step.steps)
+        return cls([1.0] * len(step.things), run.model.system.time, 1.0 / step.steps)
 
     @classmethod
     def recall(cls, run: Run, step: Free, memory: dict[str, object]) -> Self:  # type: ignore[override]
         """The restored loop."""
         return super().recall(run, step.move(), memory)
 
+    def _newton(self, run: Run) -> Newton:
+        return run.newton.but(springs_back=True)
+
     def advance(self, run: Run, step: Free) -> None:  # type: ignore[override]
         """Try one increment; until one has converged, supports and tools are active between attempts."""
         before = _Before(run, step) if self.fraction == 0.0 else None
-        run.newton.springs_back = True
         try:
             if before is not None:
                 _let_go(run, step)
             super().advance(run, step.move())
         finally:
-            run.newton.springs_back = False
             if before is not None and self.fraction == 0.0:
                 before.restore(run)
 
@@ -132,13 +134,13 @@ def _let_go(run: Run, step: Free) -> None:
     """Remove all; loads of factor 1 hold the sheet in equilibrium."""
     model = run.model
     for support in (thing for thing in step.things if isinstance(thing, Support)):
-        remove(model, support)
+        remove(model.system, support)
     if step.on is not None:  # it may hold nodes of the removed supports
-        put_back(model, step.on)
+        put_back(model.system, step.on)
     for tool in (thing for thing in step.things if isinstance(thing, Tool)):
-        open_tool(model, tool)
+        open_tool(model.system, tool)
     if any(isinstance(thing, Tool) for thing in step.things):
-        run.evaluation = model.evaluate(model.x, tangent=False)
+        run.evaluation = model.evaluate(model.system.x, tangent=False)
         run.result.begin_anew(run.evaluation)
 
 
@@ -147,14 +149,14 @@ class _Before:
 
     def __init__(self, run: Run, step: Free) -> None:
         self._tools = [thing for thing in step.things if isinstance(thing, Tool)]
-        self._supports = states_of_supports(run.model)
+        self._supports = states_of_supports(run.model.system)
         self._states: list[Tree] = [tool.state() for tool in self._tools]
         self._forces = {press.force: press.force.value for tool in self._tools for press in tool.presses}
         self._loads, self._evaluation, self._mark = step.moved(), run.evaluation, run.result.mark()
 
     def restore(self, run: Run) -> None:
         """Restore supports and tools."""
-        put_supports(run.model, self._supports)
+        put_supports(run.model.system, self._supports)
         for tool, state in zip(self._tools, self._states, strict=True):
             tool.restore(state)
         for force, value in self._forces.items():
@@ -164,4 +166,4 @@ class _Before:
         run.evaluation, warnings = self._evaluation, list(run.result.warnings)
         run.result.go_back(self._mark)
         run.result.warnings = warnings
-        run.model.stand(run.evaluation)
+        run.model.system.stand(run.evaluation)

@@ -16,8 +16,10 @@ from umform.model import Model
 from umform.model.checks import diagnosis
 from umform.model.control import Control
 from umform.model.loose_part import loose_part
+from umform.model.state import State
 from umform.solution.augmentation import augmented
 from umform.solution.keeping import relaxed, within_allowed
+from umform.solution.newton import Newton
 from umform.solution.records import Cause, Converged, Failed, Iteration
 from umform.solution.strategies import Increment, equilibrium
 from umform.steps.crushed import crushed
@@ -40,70 +42,67 @@ def take_increment(
     extrapolation: float | None,
     *,
     keep: bool = True,
+    newton: Newton | None = None,
 ) -> Converged:
     """One increment to new values of the controls; after a failure the previous state is restored.
 
     With ``keep`` an extrapolation keeps the contact points: not where tools are to lose the sheet. eq. (4.230)
+    Another ``newton`` than that of the run has other tolerances.
     """
-    model = run.model
-    before, time_before = [control.value for control in controls], model.time
-    for control, value in zip(controls, values, strict=True):
-        control.value = float(value)
-    model.time = time
-    x_before = model.x.copy()
+    model, newton = run.model, newton or run.newton
+    start = model.state
+    targets = {control.name: float(value) for control, value in zip(controls, values, strict=True)}
+    goal, x_before = start.toward(targets, time), start.x.copy()
     penalties = {contact: contact.penalty for contact in model.contacts}
     try:
-        starts = dict(zip(controls, before, strict=True))
         guess = None if extrapolation is None or run.trail is None else run.trail.guess(extrapolation)
-        increment = Increment(model, run.newton, run.statistics, starts, time_before, guess, run.evaluation, keep)
-        converged, x_soft = _within_allowed(run, increment)
+        increment = Increment(model, newton, run.statistics, goal, tuple(controls), guess, run.evaluation, keep)
+        converged, x_soft = _within_allowed(increment)
         try:
             with _counted(run):
-                converged = augmented(model, run.newton, converged)
-            _multipliers_stay(run, None)
+                converged = augmented(model, newton, converged)
+            _multipliers_stay(run, goal, None)
         except Failed as failure:  # a smaller increment would fail in the same pass: accept the penalty solution
-            _multipliers_stay(run, failure)
-            model.prepare()
+            _multipliers_stay(run, goal, failure)
+            model.system.prepare(goal)
             converged = equilibrium(replace(increment, guess=converged.x - x_before, grows=False))
     except BaseException as error:  # no convergence, Ctrl-C, an error of a user's function: restore the previous state
         if isinstance(error, Failed):
             run.statistics.count_penetration(kept=False)
-        for control, value in zip(controls, before, strict=True):
-            control.value = value
-        model.time = time_before
         for contact, penalty in penalties.items():
             contact.use_penalty(penalty)
-        model.revert()
+        model.system.revert()
         raise
-    if not model.too_deep(converged.evaluation):
+    if not model.system.too_deep(converged.evaluation):
         run.statistics.count_penetration(kept=True)
-    model.commit(converged.evaluation)
+    model.system.commit(converged.evaluation)
+    before = [start.controls[control.name] for control in controls]
     way = changes(model.controls, controls, np.subtract(values, before))
     earlier = run.trail if run.newton.options.extrapolate > 1 else None
-    reached = model.x if x_soft is None else x_soft
+    reached = model.system.x if x_soft is None else x_soft
     run.trail = Trail.of(reached - x_before, way, earlier, extrapolation)
     run.evaluation = converged.evaluation.without_tangent()
     return converged
 
 
-def _within_allowed(run: Run, increment: Increment) -> tuple[Converged, Floats | None]:
+def _within_allowed(increment: Increment) -> tuple[Converged, Floats | None]:
     """Equilibrium with penalties that keep the allowed penetration; if they grew, the displacement before."""
-    model, yields = run.model, run.statistics.yields
+    model, goal, yields = increment.model, increment.goal, increment.statistics.yields
     try:
         converged = equilibrium(increment)
     except Failed:
         if not (yields and relaxed(model)):
             raise
-        model.prepare()  # perhaps grown penalties are too stiff for this increment
+        model.system.prepare(goal)  # perhaps grown penalties are too stiff for this increment
         converged = equilibrium(increment)
-    if not model.too_deep(converged.evaluation):
+    if not model.system.too_deep(converged.evaluation):
         return converged, None
     x_soft = converged.x.copy()
-    again = lambda: equilibrium(replace(increment, guess=x_soft - model.x, grows=False))  # noqa: E731
-    return within_allowed(model, run.newton, converged, again, yields), x_soft
+    again = lambda: equilibrium(replace(increment, guess=x_soft - model.system.x, grows=False))  # noqa: E731
+    return within_allowed(model, increment.newton, converged, again, yields), x_soft
 
 
-def _multipliers_stay(run: Run, failure: Failed | None) -> None:
+def _multipliers_stay(run: Run, goal: State, failure: Failed | None) -> None:
     """Mark the pairs whose multipliers stay constant because an augmentation failed, and warn of it."""
     pairs = [contact for contact in run.model.contacts if contact.augmented]
     for pair in pairs:
@@ -111,7 +110,7 @@ def _multipliers_stay(run: Run, failure: Failed | None) -> None:
     if failure is not None:
         columns = ", ".join(f"{pair.name}_multipliers_stay" for pair in pairs)
         run.result.warn(
-            f"step {run.number}, time {run.model.time:.4f}: {failure.reason} in a pass of the multipliers: they stay "
+            f"step {run.number}, time {goal.time:.4f}: {failure.reason} in a pass of the multipliers: they stay "
             f"what they were, and more penetration is left (columns {columns}); smaller increments, or a softer penalty"
         )
 
@@ -132,17 +131,17 @@ def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], value
             "else take more steps, fewer contact jumps (more contact points), or a softer penalty"
         ),
     )
-    loose = diagnosis(run.model) if failure.cause is Cause.SINGULAR else None
+    loose = diagnosis(run.model.system) if failure.cause is Cause.SINGULAR else None
     if loose is not None:
         cause, remedy = f"{cause}: {loose[0]}", loose[1]
     elif failure.motion is not None and failure.cause is Cause.SINGULAR:
-        cause = f"{cause}: {loose_part(run.model, failure.motion)}"
+        cause = f"{cause}: {loose_part(run.model.system, failure.motion)}"
         remedy = (
             "hold what moves with fix(), symmetry() or hinge(), or join its nodes to those of the rest; at a limit "
             "point prescribe displacements instead of forces"
         )
     elif failure.motion is not None:  # of a very thin sheet, eq. (5.99)
-        slenderness = float(f"{run.model.extent / run.model.thickness:.2g}")
+        slenderness = float(f"{run.model.system.extent / run.model.system.thickness:.2g}")
         cause = (
             f"{cause}; the sheet is {slenderness:.0f} times as long as thick, and bending resists less than round-off"
         )
@@ -187,7 +186,7 @@ def own_parts(model: Model) -> str:
 
 def pressed_tools(run: Run) -> list[str]:
     """Number of points in contact of each force-driven tool at the last converged state, as text."""
-    ranks, found, words = run.model.ranks, run.evaluation.found, []
+    ranks, found, words = run.model.system.ranks, run.evaluation.found, []
     for press in (press for tool in run.model.tools for press in tool.presses if not press.held):
         pairs = [found[pair].active for tool in press.way.tools for pair in tool.pairs]
         touching = int(ranks.sum(float(sum(active.sum() for active in pairs))))

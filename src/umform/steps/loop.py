@@ -11,7 +11,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-from umform._core import staged_returns
 from umform.model import Evaluation, Model
 from umform.model.control import Control
 from umform.progress import Tick, silent
@@ -63,7 +62,7 @@ class Run:
     statistics : StrategyStatistics
         Statistics of earlier increments that select the first strategy.
     staged : int
-        Number of return maps in stages up to the last increment.
+        Number of return maps of the model in stages up to the last increment.
     tick, pause : callable
         Shows progress; writes checkpoints and stops the run, between increments.
     """
@@ -77,9 +76,12 @@ class Run:
     number: int = 1
     loop: Loop | None = None
     trail: Trail | None = None
-    staged: int = field(default_factory=lambda: staged_returns())
+    staged: int = field(init=False)
     tick: Tick = silent
     pause: Callable[[], None] = field(default=lambda: None)
+
+    def __post_init__(self) -> None:
+        self.staged = self._staged()
 
     def keep(
         self, converged: Converged, controls: Sequence[Control], *, name: str, fraction: float, frame: bool
@@ -91,18 +93,21 @@ class Run:
         row = self.result.rows[-1]
         for as_planned, message in lost_tools(self.model, self.result.rows[-2], row):
             tell = self.result.note if as_planned else self.result.warn
-            tell(f"step {self.number}, time {self.model.time:.4f}: {message}")
+            tell(f"step {self.number}, time {self.model.system.time:.4f}: {message}")
         forces = [f"{c.name} {row[c.name]:.5g}, force {row[f'{c.name}_force']:.5g}" for c in controls]
         self.tick(name, fraction, "; ".join([*forces, f"{row['iterations']} iterations"]))
 
+    def _staged(self) -> int:
+        return sum(body.block.staged_returns for body in self.model.bodies)
+
     def _warn_of_stages(self) -> None:
         """Count the points with return maps in stages since the last increment; warn at the first ones."""
-        before, self.staged = self.staged, staged_returns()
-        points = int(self.model.ranks.sum(float(self.staged - before)))
+        before, self.staged = self.staged, self._staged()
+        points = int(self.model.system.ranks.sum(float(self.staged - before)))
         if points == 0:
             return
         self.newton.timing.attempts.staged += points
-        when = f"step {self.number}, time {self.model.time:.4f}"
+        when = f"step {self.number}, time {self.model.system.time:.4f}"
         log.info("%s: return maps in stages at %d points, over all evaluations", when, points)
         if not any(_STAGES in warning for warning in self.result.warnings):
             self.result.warn(

@@ -13,6 +13,7 @@ import numpy as np
 
 from umform.model.control import OnDofs
 from umform.model.tool_controls import ToolWay
+from umform.solution.newton import Newton
 from umform.solution.records import Cause, Converged, Failed
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
@@ -77,7 +78,7 @@ class Moving:
     def begin(cls, run: Run, step: Move) -> Self:
         """The loop at the beginning of the step."""
         starts = [control.value for control in step.moved()]
-        return cls(starts, run.model.time, step.nominal, last_size=_size_of_last(run, step, starts))
+        return cls(starts, run.model.system.time, step.nominal, last_size=_size_of_last(run, step, starts))
 
     @classmethod
     def recall(cls, run: Run, step: Move, memory: dict[str, Any]) -> Self:
@@ -93,14 +94,14 @@ class Moving:
         target, model = self._leap(step) if self.leaps else self._target(step), run.model
         self.tried = max(self.tried, target - self.fraction)
         extrapolation = None if self.last_size is None else (target - self.fraction) / self.last_size
-        x_before, active_before = model.x.copy(), run.evaluation.active
+        x_before, active_before = model.system.x.copy(), run.evaluation.active
         if self._hopeless(step, 0.5 * (target - self.fraction)):
             run.statistics.begin_last_attempt()
         saved, trail, mark = self._saved(run), run.trail, run.newton.timing.attempts.mark()
         try:
             values = step.values(target, self.starts)
             time = self.start_time + target * step.time
-            converged = take_increment(run, values, step.moved(), time, extrapolation)
+            converged = take_increment(run, values, step.moved(), time, extrapolation, newton=self._newton(run))
         except Failed as failure:
             self._cut(run, step, failure, target)
             return
@@ -131,6 +132,10 @@ class Moving:
             self._adapt(step, converged, lambda: Happened.between(model, x_before, active_before, converged))
         frame = run.frames > 0 and (self.done or self._pictured(step, run.frames, before))
         run.keep(converged, step.moved(), name=f"step {run.number}", fraction=self.fraction, frame=frame)
+
+    def _newton(self, run: Run) -> Newton:
+        """The method of the increments."""
+        return run.newton
 
     def _saved(self, run: Run) -> Saved | None:
         """The state before the increment, if it may be repeated although it converges."""

@@ -121,7 +121,7 @@ class Happened:
         converged : Converged
             The increment.
         """
-        ranks, active = model.ranks, converged.evaluation.active
+        ranks, active = model.system.ranks, converged.evaluation.active
         changed, held = ranks.sum(float((active != active_before).sum())), ranks.sum(float(active.sum()))
         bodies = [body for body in model.bodies if len(body.cells)]
         turn = max((turned(body, x_before[: model.u.size], model.u) for body in bodies), default=0.0)

@@ -99,11 +99,13 @@ class Releasing:
     @classmethod
     def begin(cls, run: Run, step: Release) -> Self:
         """The loop at the beginning of the step; done if there is nothing to release."""
-        model, control = run.model, _moved(run, step)
+        if isinstance(step.control, ToolForce):
+            run.model.tools.press_of(step.control).held = True
+        model, control = run.model, _retracted(run, step)
         evaluation, value = run.evaluation, control.value
-        force = control.force(evaluation, model.ranks)
+        force = control.force(evaluation, model.system.ranks)
         size = -math.copysign(step.increment or abs(value) / 1000.0, value)
-        loop = cls(model.time, value, abs(force), force, size, finest=1e-6 * abs(value))
+        loop = cls(model.system.time, value, abs(force), force, size, finest=1e-6 * abs(value))
         if value == 0.0 or loop.scale <= 1e-9 * evaluation.force_scale:
             run.result.note(f"step {run.number}: nothing to release, the force of {control.name} is zero")
             loop.done = True
@@ -120,9 +122,9 @@ class Releasing:
 
     def advance(self, run: Run, step: Release) -> None:
         """Try one increment."""
-        model, control = run.model, _moved(run, step)
+        model, control = run.model, _retracted(run, step)
         before, value = run.evaluation, control.value
-        saved, touching = Saved.of(model, before), before.touching(model.ranks)
+        saved, touching = Saved.of(model, before), before.touching(model.system.ranks)
         attempts = run.newton.timing.attempts
         mark = attempts.mark()
         target = _next_release(value, self.force, self.before, self.bound, self.size, self.finest)
@@ -136,16 +138,16 @@ class Releasing:
         time = self.start_time + step.time * (1.0 - target / self.start_value)
         extrapolation = None if self.taken is None else (target - value) / self.taken
         try:
-            with tightened(run, _PART * step.tolerance * self.scale):
-                converged = take_increment(run, [target], [control], time, extrapolation, keep=False)
+            newton = tightened(run, _PART * step.tolerance * self.scale)
+            converged = take_increment(run, [target], [control], time, extrapolation, keep=False, newton=newton)
         except Failed as failure:
             self.size, self.taken, self.failures = 0.25 * self.size, None, self.failures + 1
             if self.failures > 20:
                 raise no_convergence(run, failure, [control], [target]) from None
             return
-        force = control.force(converged.evaluation, model.ranks)
+        force = control.force(converged.evaluation, model.system.ranks)
         zero = abs(force) <= step.tolerance * self.scale
-        lifted = touching and not converged.evaluation.touching(model.ranks)
+        lifted = touching and not converged.evaluation.touching(model.system.ranks)
         if lifted:
             lifted = zero = zero or abs(force) <= _hidden(run, before, converged, target - value)
         resolution = 1e-6 * abs(self.start_value)
@@ -157,7 +159,7 @@ class Releasing:
             return
         self.before, self.taken, self.force = (value, self.force), target - value, force
         if isinstance(step.control, ToolForce):
-            step.control.value = model.press_of(step.control).takes(target, -force)[0]
+            step.control.value = model.tools.press_of(step.control).takes(target, -force)[0]
         self.done = zero or target == 0.0
         if self.bound is None and abs(2.0 * self.size) <= abs(self.start_value) / 20.0 and _at_ease(converged):
             self.size *= 2.0
@@ -175,13 +177,10 @@ class Releasing:
         self.taken = None
 
 
-def _moved(run: Run, step: Release) -> Control:
-    """The control to retract: for a force-driven tool its travel, which is then prescribed."""
-    if not isinstance(step.control, ToolForce):
-        return step.control
-    press = run.model.press_of(step.control)
-    press.held = True
-    return press.way
+def _retracted(run: Run, step: Release) -> Control:
+    """The control to retract: for a force-driven tool its travel, which the step prescribes."""
+    control = step.control
+    return run.model.tools.press_of(control).way if isinstance(control, ToolForce) else control
 
 
 def _hidden(run: Run, before: Evaluation, converged: Converged, way: float) -> float:
@@ -199,8 +198,8 @@ def _hidden(run: Run, before: Evaluation, converged: Converged, way: float) -> f
         Change of the control in the increment.
     """
     model = run.model
-    r, dx = model.restrict(converged.residual), model.coefficients(converged.x - before.x)
-    return math.sqrt(model.ranks.dot(r, r) * model.ranks.dot(dx, dx)) / abs(way)
+    r, dx = model.system.restrict(converged.residual), model.system.coefficients(converged.x - before.x)
+    return math.sqrt(model.system.ranks.dot(r, r) * model.system.ranks.dot(dx, dx)) / abs(way)
 
 
 def _short_of_zero(value: float, force: float, before: Sequence[float] | None, target: float) -> float:

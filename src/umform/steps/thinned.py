@@ -14,7 +14,7 @@ _BURST = 0.5
 def thinned(run: Run) -> tuple[str, str] | None:
     """Cause and remedy if the sheet had lost half of its thickness at the last converged state; None otherwise."""
     with np.errstate(invalid="ignore", divide="ignore"):  # a face without an area has no thickness
-        loss = run.model.ranks.max(float(-thickness_change(run.model).min()))
+        loss = run.model.system.ranks.max(float(-thickness_change(run.model).min()))
     if not loss > _BURST:
         return None
     lost = f"{100.0 * loss:.0f} % of its thickness"

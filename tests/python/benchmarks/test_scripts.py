@@ -84,11 +84,11 @@ def test_the_sheet_flows_where_its_law_can(script):
     sheets = script("sheets")
     for law in sheets.LAWS:
         model, u = sheets.sheet("ANS3DEAS", law, (2, 2), side=10.0)
-        before = model.block.state.copy()
+        before = model.bodies.only.block.state.copy()
         evaluation = model.evaluate(u)
         assert evaluation.failed < 0
-        model.commit(evaluation)
-        assert (not np.array_equal(model.block.state, before)) == (law in ("J2 plastic", "J2 Voce"))
+        model.system.commit(evaluation)
+        assert (not np.array_equal(model.bodies.only.block.state, before)) == (law in ("J2 plastic", "J2 Voce"))
 
 
 def test_run(run):

@@ -289,7 +289,7 @@ def test_points_through_the_thickness_that_a_plastic_law_gets(name, given, throu
     cell = element(name).cell
     steel = uf.J2(kappa=175e3, mu=80e3, hardening=uf.Perfect(160.0))
     model = uf.Model(uf.mesh.strip(2, 1, 1, (2, 1), cell=cell), name, material=steel, **given)
-    assert (model.thickness_points, model.thickness_rule) == through
+    assert (model.bodies.only.thickness_points, model.bodies.only.thickness_rule) == through
 
 
 @pytest.mark.parametrize(
@@ -307,25 +307,25 @@ def test_points_through_the_thickness_that_a_plastic_law_gets(name, given, throu
 def test_a_plastic_law_gets_the_complete_order(name, given, order):
     steel = uf.J2(kappa=175e3, mu=80e3, hardening=uf.Perfect(160.0))
     model = uf.Model(uf.mesh.strip(2, 1, 1, (2, 1), cell=element(name).cell), name, material=steel, **given)
-    orders = {part.c for mode in model.element.modes for part in mode.polynomials if part.component == "33"}
+    orders = {part.c for mode in model.bodies.only.element.modes for part in mode.polynomials if part.component == "33"}
     assert orders == set(range(1, order + 1))
-    assert model.element.thickness_order == order
+    assert model.bodies.only.element.thickness_order == order
 
 
 @pytest.mark.parametrize("name", ["ANS3DEAS", "MINE"])
 def test_modes_of_ones_own_are_completed_unless_the_element_says_no(name):
     mine = replace(element("ANS3DEAS"), name=name, modes=elements.thickness_modes(1, 1))
     steel, sheet = uf.J2(kappa=175e3, mu=80e3, hardening=uf.Perfect(160.0)), uf.mesh.strip(2, 1, 1, (2, 1))
-    assert uf.Model(sheet, mine, material=steel).element.modes == elements.column_modes((2, 2), 11)
+    assert uf.Model(sheet, mine, material=steel).bodies.only.element.modes == elements.column_modes((2, 2), 11)
     graded = uf.Model(sheet, mine, material=steel, thickness_rule="graded")
-    assert graded.element.modes == elements.thickness_modes(1, 17)
+    assert graded.bodies.only.element.modes == elements.thickness_modes(1, 17)
     as_given = replace(mine, complete=False)
-    assert uf.Model(sheet, as_given, material=steel).element == as_given
+    assert uf.Model(sheet, as_given, material=steel).bodies.only.element == as_given
 
 
 def test_elastic_laws_need_no_more_points_than_the_order_asks_for():
     model = uf.Model(uf.mesh.strip(2, 1, 1, (2, 1)), "BEND8", material=uf.SVK(E=1.0, nu=0.3))
-    assert (model.thickness_points, model.thickness_rule) == (5, "gauss")
+    assert (model.bodies.only.thickness_points, model.bodies.only.thickness_rule) == (5, "gauss")
 
 
 @pytest.mark.parametrize(("name", "linear"), [("ANS3DEAS", 4), ("MI9K3DEAS", 9), ("DISP9K3DEAS", 9)])

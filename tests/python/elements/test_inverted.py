@@ -54,7 +54,7 @@ def test_a_sheet_pressed_through_itself_ends_with_its_cell(materials, element, l
     # The enhanced parameters of a plastic element may leave the domain of the law before it is flat.
     assert "turned inside out" in caught.value.cause or (law, element) == ("j2", "ANS3DEAS")
     assert press.value > -1.0
-    F = model.block.point_fields(model.u)[3]
+    F = model.bodies.only.block.point_fields(model.u)[3]
     assert np.linalg.det(F).min() > 0.0
 
 
@@ -65,10 +65,10 @@ def test_one_element_of_many_is_named(materials):
     evaluation = model.evaluate(u.ravel())
     assert evaluation.failed == 6
     with pytest.raises(ValueError, match="cell 6 is turned inside out"):
-        model.block.element(6, u.ravel())
+        model.bodies.only.block.element(6, u.ravel())
     with pytest.raises(ValueError, match="cell 6 is turned inside out"):
-        model.block.point_fields(u.ravel())
-    model.block.element(5, u.ravel())
+        model.bodies.only.block.point_fields(u.ravel())
+    model.bodies.only.block.element(5, u.ravel())
 
 
 def test_a_law_without_an_answer_is_told_from_an_element_inside_out():

@@ -22,7 +22,7 @@ def test_force_and_tangent_are_derivatives_of_the_energy(cell, shear, rng):
     mesh.points[:] += 0.05 * rng.normal(size=mesh.points.shape)
     model = Model(mesh, element, material=uf.SVK(E=210e3, nu=0.3))
     u = 0.05 * rng.normal(size=mesh.points.size)
-    K, f = model.block.element(0, u)
+    K, f = model.bodies.only.block.element(0, u)
     order = (3 * mesh.connectivity[0][:, None] + np.arange(3)).ravel()
     step = 1e-5
 
@@ -32,7 +32,7 @@ def test_force_and_tangent_are_derivatives_of_the_energy(cell, shear, rng):
         backward[dof] -= step
         return (function(forward) - function(backward)) / (2.0 * step)
 
-    energy_slope = np.array([difference(lambda v: model.block.energy(v)[0], dof) for dof in order])
+    energy_slope = np.array([difference(lambda v: model.bodies.only.block.energy(v)[0], dof) for dof in order])
     np.testing.assert_allclose(f, energy_slope, atol=1e-7 * np.abs(f).max())
-    columns = np.array([difference(lambda v: model.block.element(0, v)[1], dof) for dof in order]).T
+    columns = np.array([difference(lambda v: model.bodies.only.block.element(0, v)[1], dof) for dof in order]).T
     np.testing.assert_allclose(K, columns, atol=1e-7 * np.abs(K).max())

@@ -39,16 +39,16 @@ def layered(made):
 def test_own_elements_have_the_complete_order_with_a_plastic_law(made, modes):
     model = model_of(made)
     complete = modes >= 44
-    assert model.thickness_points == (5 if made.name == "none" else 12)
-    assert model.block.modes == modes
-    assert model.body.element.thickness_order == (11 if complete else made.thickness_order)
-    assert model.body.element.tying == made.tying
+    assert model.bodies.only.thickness_points == (5 if made.name == "none" else 12)
+    assert model.bodies.only.block.modes == modes
+    assert model.bodies.only.element.thickness_order == (11 if complete else made.thickness_order)
+    assert model.bodies.only.element.tying == made.tying
     others = {mode for mode in made.modes if mode.polynomials[0].component != "33"}
-    assert others <= set(model.body.element.modes)
+    assert others <= set(model.bodies.only.element.modes)
     graded = model_of(made, thickness_points=18, thickness_rule="graded")
-    assert set(made.modes) <= set(graded.body.element.modes)
-    assert not complete or graded.block.modes == 20 + len(others)
-    assert model_of(made, SVK(E=206e3, nu=0.3)).block.modes == len(made.modes)
+    assert set(made.modes) <= set(graded.bodies.only.element.modes)
+    assert not complete or graded.bodies.only.block.modes == 20 + len(others)
+    assert model_of(made, SVK(E=206e3, nu=0.3)).bodies.only.block.modes == len(made.modes)
 
 
 @pytest.mark.parametrize("name", ["ANS3DEAS", "EAS3DEAS", "MI9K3DEAS", "BEND18"])
@@ -98,7 +98,7 @@ def test_modes_are_checked_under_the_rule_in_use(modes, words):
         with pytest.raises(InvalidValue, match=words):
             build()
     else:
-        assert build().thickness_points == 5  # as the order needs
+        assert build().bodies.only.thickness_points == 5  # as the order needs
         with pytest.raises(InvalidValue, match="order 4 needs at least 5"):
             build(thickness_points=2)
 
@@ -143,7 +143,7 @@ STIFF = 1000.0 * np.eye(6)
 )
 def test_a_history_makes_a_law_plastic_and_its_points_are_honoured(law, points, modes):
     model = model_of("ANS3DEAS", UserLaw(linear, **law))
-    assert (model.thickness_points, model.block.modes) == (points, modes)
+    assert (model.bodies.only.thickness_points, model.bodies.only.block.modes) == (points, modes)
 
 
 @pytest.mark.parametrize(

@@ -114,7 +114,7 @@ def test_elastic_forces_of_a_distorted_element_are_exact(name):
     law = uf.J2(E=210e3, nu=0.3, hardening=uf.Perfect(1e9))
     K = []
     for rule in ({}, {"thickness_points": 12, "thickness_rule": "gauss"}):
-        K.append(uf.Model(mesh, name, material=law, **rule).body.block.element(0, u))
+        K.append(uf.Model(mesh, name, material=law, **rule).bodies.only.block.element(0, u))
     np.testing.assert_allclose(K[0][0], K[1][0], rtol=0.0, atol=1e-9 * np.abs(K[1][0]).max())
     np.testing.assert_allclose(K[0][1], K[1][1], rtol=0.0, atol=1e-9 * np.abs(K[1][1]).max())
 
@@ -135,7 +135,7 @@ def test_fields_are_read_by_height():
     u = np.zeros_like(mesh.points)
     x, _, z = mesh.points.T
     u[:, 0] = 1e-7 * x * (z - z.mean())
-    at = uf.fields.body_fields(model.body, u.ravel())
+    at = uf.fields.body_fields(model.bodies.only, u.ravel())
     for height, strain in (("top", 0.25), ("bottom", -0.25), (0.0, 0.0), (0.5, 0.125), (-0.999, -0.24975)):
         found = at.at_height(at.E, height)
         assert found.shape == (2, 4, 6)

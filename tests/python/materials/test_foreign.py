@@ -231,7 +231,7 @@ def test_a_run_goes_on_to_the_same_bits(kinematic, build_library, tmp_path):
     again, step = made()
     result = uf.resume(path, again, step, progress=False)
     assert np.array_equal(again.u, model.u)
-    assert np.array_equal(again.block.state, model.block.state)
+    assert np.array_equal(again.bodies.only.block.state, model.bodies.only.block.state)
     assert np.array_equal(result["tip_force"], whole["tip_force"])
     other, step = made(build_library("other", (EXAMPLES / "kinematic.c").read_text() + "\nint more = 1;\n"))
     with pytest.raises(FileProblem, match="material"):
@@ -314,14 +314,14 @@ def test_a_compiled_law_in_a_run(elastic):
     cells = uf.fields.cell_fields(model)
     assert (cells["count"] == 2.0).all()
     assert cells["clock"] == pytest.approx(1.0)
-    assert material_text(model.material) == "compiled law elastic, 5 properties, 2 state variables"
+    assert material_text(model.bodies.only.material) == "compiled law elastic, 5 properties, 2 state variables"
     mesh = uf.mesh.strip(length=2.0, width=1.0, thickness=1.0, cells=(2, 1))
     seen = uf.Model(mesh, material=compiled(elastic, sees_points=True), rolling=(0.6, 0.8, 0))
     seen.fix("x0")
     seen.evaluate(seen.u)
-    seen.block.commit()
+    seen.bodies.only.block.commit()
     # e_1 along the rolling direction: 0.6 of it along x
-    assert history_of(seen.block)["count"] == pytest.approx(1.0 + 60.0)
+    assert history_of(seen.bodies.only.block)["count"] == pytest.approx(1.0 + 60.0)
 
 
 @needs_compiler
@@ -456,7 +456,7 @@ properties = [121e3, 80e3, 1e9, 1e9, 1e9]"""
 def test_decks(kinematic, elastic):
     for text, law in ((UMAT, "Umat"), (COMPILED, "CompiledLaw")):
         problem = Problem.read(DECK % text, "deck.toml", kinematic.parent).build()
-        assert type(problem.model.material).__name__ == law
+        assert type(problem.model.bodies.only.material).__name__ == law
         result = problem.solve(progress=False)
         assert result["time"][-1] == 0.5
         assert np.isfinite(result.balance().drift).all()

@@ -371,7 +371,7 @@ def test_uniaxial_tension_of_a_bar(build, element, options):
     model, pull = build.bar(element, TENSION, area=0.2, **options)
     result = solve(model, Move(pull, 0.2, steps=10), frames=0)
     assert result["pull_force"][-1] == pytest.approx(41.760700, abs=5e-7)
-    np.testing.assert_allclose(history_of(model.block)["eqps"], 0.1811284, atol=5e-8)
+    np.testing.assert_allclose(history_of(model.bodies.only.block)["eqps"], 0.1811284, atol=5e-8)
 
 
 # Hardening --------------------------------------------------------------------------------------------------

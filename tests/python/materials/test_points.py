@@ -53,8 +53,8 @@ def test_an_orthotropic_law_does_not_see_the_numbering(build, rng, element, roll
         model.fix("x0")
     f, g = one.evaluate(u).residual, other.evaluate(u).residual
     np.testing.assert_allclose(g, f, atol=1e-11 * np.abs(f).max())
-    E, S = (values.mean(axis=1) for values in one.block.point_fields(u)[:2])
-    E2, S2 = (values.mean(axis=1)[::-1] for values in other.block.point_fields(u)[:2])
+    E, S = (values.mean(axis=1) for values in one.bodies.only.block.point_fields(u)[:2])
+    E2, S2 = (values.mean(axis=1)[::-1] for values in other.bodies.only.block.point_fields(u)[:2])
     np.testing.assert_allclose(E2, E, atol=1e-9 * np.abs(E).max())
     np.testing.assert_allclose(S2, S, atol=1e-9 * np.abs(S).max())
     without = Model(meshes[1], element, material=law)
@@ -103,9 +103,9 @@ def test_the_frame_is_the_projection_of_the_rolling_direction(build, rng):
     mesh = sheet("ANS3DEAS", build=build)
     rolling = rng.normal(size=(len(mesh.connectivity), 3)) * (1.0, 1.0, 0.2)
     model = Model(mesh, "ANS3DEAS", material=mt.SVK(E=1.0, nu=0.3), rolling=rolling)
-    frame = model.block.point_fields(model.u)[2]
+    frame = model.bodies.only.block.point_fields(model.u)[2]
     np.testing.assert_allclose(frame @ np.swapaxes(frame, -1, -2), np.broadcast_to(np.eye(3), frame.shape), atol=1e-13)
-    bare = Model(mesh, "ANS3DEAS", material=model.material).block.point_fields(model.u)[2]
+    bare = Model(mesh, "ANS3DEAS", material=model.bodies.only.material).bodies.only.block.point_fields(model.u)[2]
     np.testing.assert_allclose(frame[:, :, 2], bare[:, :, 2], atol=1e-14)
     for cell, direction in enumerate(rolling):
         normal = frame[cell, :, 2]
@@ -140,9 +140,9 @@ def test_a_law_sees_axes_size_and_step(build):
     mesh = strip(4.0, 2.0, 0.1, (2, 1))
     model = Model(mesh, "DISP3D", material=UserLaw(curious), rolling=(0, 1, 0))
     model.fix("x0")
-    model.time = 0.125  # the last increment ended at 0
+    model.system.time = 0.125  # the last increment ended at 0
     model.evaluate(model.u)
-    frame = model.block.point_fields(model.u)[2]
+    frame = model.bodies.only.block.point_fields(model.u)[2]
     assert len(seen) == 4
     assert [points.step for points in seen] == [0.125, 0.125, 0.0, 0.0]  # no time passes while fields are formed
     for cell, points in enumerate(seen[:2]):

@@ -21,14 +21,14 @@ def grown(E, state):
 
 def columns_of(model, first, end):
     """The history by its places: what the names must find."""
-    return model.block.state[..., first:end]
+    return model.bodies.only.block.state[..., first:end]
 
 
 def stretched(law):
     model = Model(strip(2.0, 1.0, 0.2, (2, 1)), "DISP3D", material=law)
     model.fix("x0")
     u = (0.02 * model.mesh.points * (1, 0, 0)).ravel()
-    model.commit(model.evaluate(u))
+    model.system.commit(model.evaluate(u))
     return model
 
 
@@ -71,11 +71,11 @@ def test_the_plastic_strain_goes_by_its_name_not_by_its_place():
 
 def test_j2_has_its_metric_and_its_plastic_strain():
     model = stretched(mt.J2(E=210e3, nu=0.3, hardening=mt.Linear(160.0, 500.0)))
-    parts = named_history(model.body)
+    parts = named_history(model.bodies.only)
     assert list(parts) == ["Cp_inv", "eqps"]
-    assert parts["Cp_inv"].shape == (2, model.block.points, 6)
+    assert parts["Cp_inv"].shape == (2, model.bodies.only.block.points, 6)
     assert parts["eqps"].min() > 0.01
-    assert model.block.quantities == {"Cp_inv": 6, "eqps": 1}
+    assert model.bodies.only.block.quantities == {"Cp_inv": 6, "eqps": 1}
 
 
 def test_initial_values_go_with_the_names():

@@ -122,7 +122,7 @@ def test_wrong_shapes_are_refused(watched, spoil, message):
         solve(model, Move(pull, 0.1, steps=1), frames=0)
     assert caught.value.where == "damage, cell 0"
     with pytest.raises(InvalidValue, match=message):
-        model.material.law().respond(np.zeros((3, 6)), np.zeros((3, 1)))
+        model.bodies.only.material.law().respond(np.zeros((3, 6)), np.zeros((3, 1)))
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf])
@@ -153,7 +153,7 @@ def test_a_law_cannot_change_strain_or_history(watched):
     np.testing.assert_array_equal(
         solve(other, Move(control, 0.2, steps=2), frames=0)["pull_force"], result["pull_force"]
     )
-    np.testing.assert_array_equal(other.block.state, model.block.state)
+    np.testing.assert_array_equal(other.bodies.only.block.state, model.bodies.only.block.state)
 
 
 # Errors -----------------------------------------------------------------------------------------------------
@@ -163,14 +163,14 @@ def test_a_law_cannot_change_strain_or_history(watched):
 def test_nan_in_the_middle_of_a_run_ends_with_its_cause_at_the_last_converged_state(watched, calls, same_state):
     function, model, pull = watched
     solve(model, Move(pull, 0.1, steps=2), frames=0)
-    before, residual = model.snapshot(), model.evaluate(model.u).residual
+    before, residual = model.system.snapshot(), model.evaluate(model.u).residual
     function.after(calls + 2, lambda answer: (answer[0] * math.nan, *answer[1:]))  # 2 of the first evaluation
     with pytest.raises(NoConvergence) as caught:
         solve(model, Move(pull, 0.3, steps=1, cuts=2), frames=0)
     assert "S of a law is not finite" in caught.value.cause
     assert len(caught.value.result) == 1
     function.hook = None
-    assert same_state(model.snapshot(), before)
+    assert same_state(model.system.snapshot(), before)
     np.testing.assert_array_equal(model.evaluate(model.u).residual, residual)
 
 
@@ -191,7 +191,7 @@ def test_a_single_nan_costs_a_cut_and_leaves_no_trace_in_the_history(watched):
     same = [Move(control, value, steps=1) for value in result["pull"][1:]]
     expected = solve(other, same, frames=0)
     np.testing.assert_allclose(result["pull_force"], expected["pull_force"], rtol=1e-7)
-    np.testing.assert_allclose(model.block.state, other.block.state, rtol=1e-7)
+    np.testing.assert_allclose(model.bodies.only.block.state, other.bodies.only.block.state, rtol=1e-7)
 
 
 @pytest.mark.parametrize(("threads", "cells"), [(1, (2, 1)), (1, (12, 8)), (2, (12, 8)), (5, (12, 8))])
@@ -207,8 +207,8 @@ def test_an_error_of_the_function_arrives_intact_at_the_last_converged_state(
     model, pull = pulled(UserLaw(function, initial=(0.0,)), cells)
     elements = len(model.mesh.connectivity)
     solve(model, Move(pull, 0.1, steps=2), frames=0)
-    before, residual = model.snapshot(), model.evaluate(model.u).residual
-    assert model.block.state.max() > 0.1
+    before, residual = model.system.snapshot(), model.evaluate(model.u).residual
+    assert model.bodies.only.block.state.max() > 0.1
     function.after(int(3.6 * elements), raised(error))  # in the middle of the third evaluation from the first one on
     with pytest.raises(type(error)) as caught:
         solve(model, Move(pull, 0.3, steps=2), frames=0)
@@ -216,7 +216,7 @@ def test_an_error_of_the_function_arrives_intact_at_the_last_converged_state(
     assert len(error.result) == 1
     assert error.result["pull"][-1] == 0.1
     function.hook = None
-    assert same_state(model.snapshot(), before)
+    assert same_state(model.system.snapshot(), before)
     assert pull.value == 0.1
     np.testing.assert_array_equal(model.evaluate(model.u).residual, residual)
     other, control = pulled(UserLaw(damage, initial=(0.0,)), cells)
@@ -225,7 +225,7 @@ def test_an_error_of_the_function_arrives_intact_at_the_last_converged_state(
             solve(m, Move(c, 0.1, steps=2), frames=0)
         solve(m, Move(c, 0.3, steps=2), frames=0)
     np.testing.assert_array_equal(model.u, other.u)
-    np.testing.assert_array_equal(model.block.state, other.block.state)
+    np.testing.assert_array_equal(model.bodies.only.block.state, other.bodies.only.block.state)
 
 
 @pytest.mark.parametrize("spoilt", [0, 5, 17])
@@ -261,7 +261,7 @@ def test_an_error_of_the_energy_says_its_cell():
 
     model, _ = pulled(UserLaw(hooke, energy=energy, name="mine"))
     with pytest.raises(ZeroDivisionError) as caught:
-        model.block.energy(model.u)
+        model.bodies.only.block.energy(model.u)
     assert caught.value.__notes__ == ["in the law 'mine', cell 0"]
 
 
@@ -270,7 +270,7 @@ def test_the_number_of_threads_changes_no_bit(threads_as_before):
         umform.set_threads(threads)
         model, pull = pulled(UserLaw(damage, initial=(0.0,)), (12, 8))
         solve(model, Move(pull, 0.2, steps=2), frames=0, solver="superlu")
-        return model.u, model.block.state
+        return model.u, model.bodies.only.block.state
 
     for a, b in zip(run(1), run(2), strict=True):
         np.testing.assert_array_equal(a, b)
@@ -282,25 +282,25 @@ def test_the_number_of_threads_changes_no_bit(threads_as_before):
 def test_history_is_committed_with_the_increment_and_not_before(watched):
     """All calls of an increment are given the history of the last converged one, whatever they answered before."""
     function, model, pull = watched
-    assert (model.block.state == 0.0).all()
+    assert (model.bodies.only.block.state == 0.0).all()
     solve(model, Move(pull, 0.1, steps=1), frames=0)
     assert all((history == 0.0).all() for history in function.histories)
-    converged = model.block.state
+    converged = model.bodies.only.block.state
     assert converged.min() > 0.1
     function.histories.clear()
     model.evaluate(2.0 * model.u)
-    model.revert()
-    np.testing.assert_array_equal(model.block.state, converged)
+    model.system.revert()
+    np.testing.assert_array_equal(model.bodies.only.block.state, converged)
     solve(model, Move(pull, 0.2, steps=1), frames=0)
     for history in function.histories:
         assert any(np.array_equal(history, of_cell.reshape(history.shape)) for of_cell in converged)
-    assert (model.block.state > converged).all()
+    assert (model.bodies.only.block.state > converged).all()
 
 
 def test_damage_stays_when_the_load_goes(watched):
     _, model, pull = watched
     result = solve(model, [Move(pull, 0.1, steps=4), Move(pull, 0.02, steps=4)], frames=0)
-    damaged = model.block.state
+    damaged = model.bodies.only.block.state
     assert np.ptp(damaged) < 1e-9 * damaged.max()
     left = 0.5 + 0.5 * math.exp(-damaged.max() / ENERGY)
     fresh, control = pulled(UserLaw(hooke))
@@ -308,18 +308,18 @@ def test_damage_stays_when_the_load_goes(watched):
     # The factor of the damage leaves the ratio of the strains alone, so that the elastic bar is its companion.
     np.testing.assert_allclose(result["pull_force"][4:], left * expected["pull_force"][4:], rtol=1e-8)
     solve(model, Move(pull, 0.1, steps=2), frames=0)
-    np.testing.assert_allclose(model.block.state, damaged, rtol=1e-8)
+    np.testing.assert_allclose(model.bodies.only.block.state, damaged, rtol=1e-8)
     solve(model, Move(pull, 0.12, steps=2), frames=0)
-    assert (model.block.state > 1.2 * damaged).all()
+    assert (model.bodies.only.block.state > 1.2 * damaged).all()
 
 
 def test_a_snapshot_holds_the_history(watched, same_state):
     _, model, pull = watched
     solve(model, Move(pull, 0.1, steps=1), frames=0)
-    saved = model.snapshot()
+    saved = model.system.snapshot()
     first = solve(model, Move(pull, 0.2, steps=2), frames=0)["pull_force"]
-    model.restore(saved)
-    assert same_state(model.snapshot(), saved)
+    model.system.restore(saved)
+    assert same_state(model.system.snapshot(), saved)
     np.testing.assert_array_equal(solve(model, Move(pull, 0.2, steps=2), frames=0)["pull_force"], first)
 
 

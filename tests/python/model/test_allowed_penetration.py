@@ -121,12 +121,12 @@ def test_a_failed_increment_takes_its_penalty_back():
 
 def test_a_snapshot_has_the_penalty():
     model, move, pair = stretched()
-    before = model.snapshot()
+    before = model.system.snapshot()
     uf.solve(model, move, frames=0, progress=False)
-    after, grown, work = model.snapshot(), pair.penalty, pair.stiffening_work
-    model.restore(before)
+    after, grown, work = model.system.snapshot(), pair.penalty, pair.stiffening_work
+    model.system.restore(before)
     assert (pair.penalty, pair.stiffening_work) == (pair.initial_penalty, 0.0)
-    model.restore(after)
+    model.system.restore(after)
     assert pair.penalty == grown == pair.block.penalty
     assert pair.stiffening_work == work
 
@@ -163,7 +163,7 @@ def test_a_penalty_that_is_far_too_soft_grows_in_several_passes():
 def out_of_balance(model):
     """Residual of the converged state, relative to the forces."""
     found = model.evaluate(model.u)
-    return float(np.linalg.norm(model.restrict(found.residual))) / found.force_scale
+    return float(np.linalg.norm(model.system.restrict(found.residual))) / found.force_scale
 
 
 def test_a_penalty_grows_before_the_iterations_converge(monkeypatch):
@@ -202,7 +202,7 @@ def failing(monkeypatch, times):
     def sometimes(*given):
         tried.append(given)
         if len(tried) <= times:
-            given[0].revert()
+            given[0].system.revert()
             raise Failed("as asked", [])
         return grown(*given)
 

@@ -268,7 +268,7 @@ def test_a_bead_goes_with_the_tool_that_is_removed():
     model, pull, bead = drawn_strip()
     solve(model, Move(pull, 0.5, steps=3))
     load = model.remove(bead)
-    assert bead not in model.terms and bead not in model.contacts[0].tool.pairs
+    assert bead not in model.system.terms and bead not in model.contacts[0].tool.pairs
     result = solve(model, Move(load, 0.0, steps=3))
     assert abs(result["pull_force"][-1]) < 1e-3
     assert "bead_work" not in result.columns()
@@ -312,7 +312,7 @@ def test_beads_that_make_no_sense_are_refused(wrong, said):
     given = {"curve": [(4, 0, 0), (4, 6, 0)], "restraint": 7.0, "width": 2.0} | wrong
     with pytest.raises(InvalidBead, match=said):
         model.bead("lower", die, **given)
-    assert not model.others and not die.pairs
+    assert not model.system.others and not die.pairs
 
 
 def test_a_bead_needs_a_tool_of_the_model_and_a_name_of_its_own():

@@ -145,7 +145,7 @@ def test_a_run_of_two_bodies_goes_on_from_its_checkpoint(tmp_path, same_state):
     solve(again, steps(again), frames=0, checkpoint=tmp_path / "all.h5", every=0.0)
     resumed = welded()
     resume(tmp_path / "all.h5", resumed, steps(resumed), frames=0)
-    assert same_state(resumed.snapshot(), whole.snapshot())
+    assert same_state(resumed.system.snapshot(), whole.system.snapshot())
 
 
 # What is refused ---------------------------------------------------------------------------------------------
@@ -169,4 +169,4 @@ def test_each_cell_belongs_to_one_body():
 
 def test_what_only_one_body_has_is_refused_by_name():
     with pytest.raises(ModelError, match="several bodies"):
-        _ = welded().material
+        _ = welded().bodies.only.material

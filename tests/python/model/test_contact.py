@@ -208,7 +208,7 @@ def test_a_tool_a_hair_away_holds_nothing(element, points):
     with pytest.raises(RigidBodyMotion) as caught:
         solve(model, Move(load, 8.0, steps=2), frames=0)
     assert caught.value.value == "free: translation z"
-    standing(-1e-9 * 0.5, element, points)[0].check()
+    standing(-1e-9 * 0.5, element, points)[0].system.check()
 
 
 # Resultants -------------------------------------------------------------------------------------------------
@@ -220,7 +220,7 @@ def test_resultant_is_the_reaction_and_the_moment_is_in_balance(build, element, 
     model = case.model
     result = solve(model, Move(case.punch, -1.0, steps=4), options=NewtonOptions(residual=1e-12), frames=0)
     residual = model.evaluate(model.u).residual.reshape(-1, 3)
-    fixed = np.setdiff1d(np.arange(model.u.size), model.free)
+    fixed = np.setdiff1d(np.arange(model.u.size), model.system.free)
     reaction = np.zeros(model.u.size)
     reaction[fixed] = residual.ravel()[fixed]
     reaction = reaction.reshape(-1, 3)
@@ -366,7 +366,7 @@ def test_lateral_faces_cannot_touch_a_tool(build):
 def test_a_motion_must_be_three_finite_numbers_or_two_times_three(build, answer, error, message):
     model, contact = contact_of(plate("hex8", build), Plane(), 2)
     model.set_motion(contact, lambda time: answer)
-    model.time = 0.5
+    model.system.time = 0.5
     with pytest.raises(error, match=message) as caught:
         model.evaluate(model.u)
     assert type(caught.value) is error
@@ -458,7 +458,7 @@ def test_an_error_of_the_users_function_arrives_intact_and_the_model_stays_where
     assert caught.value is error
     assert len(calls) == 7
     assert step.control.value in (0.0, -0.005)
-    assert model.time in (0.0, 0.5)
+    assert model.system.time in (0.0, 0.5)
     np.testing.assert_allclose(model.u[step.control.dofs], step.control.value, atol=1e-15)
 
 

@@ -117,19 +117,19 @@ def test_the_energy_balance_holds_with_multipliers():
 def test_multipliers_are_part_of_the_converged_state(curves):
     held = bent(penalty=100.0, penetration=1e-3, augmented=True, depth=1.0, steps=10)
     model, contact = held.model, held.model.contacts[0]
-    saved = model.snapshot()
+    saved = model.system.snapshot()
     assert contact.multipliers.max() > 1.0
     kept = saved.terms["contact tool"]["history"].ravel()
     np.testing.assert_array_equal(kept, contact.multipliers)
     first = solve(model, Move(held.punch, -1.5, steps=5), frames=0)["punch_force"]
     assert not np.array_equal(kept, contact.multipliers)
-    model.restore(saved)
+    model.system.restore(saved)
     np.testing.assert_array_equal(contact.block.multipliers, kept)
     np.testing.assert_array_equal(solve(model, Move(held.punch, -1.5, steps=5), frames=0)["punch_force"], first)
     before = contact.multipliers.copy()
     contact.augment(contact.found, np.zeros_like(model.u))
     assert not np.array_equal(contact.block.multipliers, before)
-    model.revert()
+    model.system.revert()
     np.testing.assert_array_equal(contact.block.multipliers, before)
 
 

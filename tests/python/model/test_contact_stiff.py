@@ -42,17 +42,17 @@ def three_points(penalty, points, *, radius=20.0, length=40.0, thickness=0.5, ce
 
 def attained(model, iterations=6):
     """Residuals of more iterations at a converged state, which nothing but round-off is left of."""
-    newton, u, norms = Newton(model), model.u.copy(), []
+    newton, u, norms = Newton(model.system), model.u.copy(), []
     solver = newton.ready_solver()
     for _ in range(iterations):
         evaluation = model.evaluate(u)
-        r = model.restrict(evaluation.residual)
+        r = model.system.restrict(evaluation.residual)
         norms.append(float(np.linalg.norm(r)))
         solver.factor(evaluation)
-        du = model.extend(solver.solve(-r))
-        model.recover(du)
+        du = model.system.extend(solver.solve(-r))
+        model.system.recover(du)
         u += du
-    model.revert()
+    model.system.revert()
     evaluation = model.evaluate(model.u)
     floor = Criteria(model, residual=1e-9, increment=1e-6).floor(np.abs(model.u).max(), evaluation)
     return max(norms[1:]), floor
@@ -144,12 +144,12 @@ def test_a_release_with_a_penalty_of_100_E_over_h_ends_where_that_of_a_soft_one_
 
 def test_softer_penalties_lead_to_the_equilibrium_of_the_penalty_itself():
     model, ram = three_points(1e5, 10)
-    ram.value = 1.0
-    model.stand(model.evaluate(model.u))
-    newton = Newton(model)
-    converged = softened(model, newton, lambda: newton.solve(), lambda found: found)
+    goal = model.state.toward({ram.name: 1.0})
+    model.system.stand(model.evaluate(goal))
+    newton = Newton(model.system)
+    converged = softened(model, newton, goal, lambda: newton.solve(goal), lambda found: found)
     assert model.contacts[0].penalty == 1e5
-    model.commit(converged.evaluation)
+    model.system.commit(converged.evaluation)
     again, other = three_points(1e5, 10)
     solve(again, Move(other, 1.0, steps=20), frames=0)
     np.testing.assert_allclose(model.u, again.u, atol=1e-7)
@@ -157,11 +157,11 @@ def test_softer_penalties_lead_to_the_equilibrium_of_the_penalty_itself():
 
 def test_penalties_are_those_of_before_when_softer_ones_lead_nowhere():
     model, ram = three_points(1e5, 10)
-    ram.value = 1.0
-    model.stand(model.evaluate(model.u))
-    newton = Newton(model, NewtonOptions(max_iterations=1))
+    goal = model.state.toward({ram.name: 1.0})
+    model.system.stand(model.evaluate(goal))
+    newton = Newton(model.system, NewtonOptions(max_iterations=1))
     with pytest.raises(Failed):
-        softened(model, newton, lambda: newton.solve(), lambda found: found)
+        softened(model, newton, goal, lambda: newton.solve(goal), lambda found: found)
     assert model.contacts[0].penalty == 1e5
 
 
@@ -171,17 +171,17 @@ def test_penalties_are_those_of_before_when_softer_ones_lead_nowhere():
 )
 def test_a_millionth_of_the_penalty_serves_first_touch_and_contact_that_is_lost(monkeypatch, touched, cause, tries):
     model, ram = three_points(1e5, 10)
-    ram.value = 1.0
+    goal = model.state.toward({ram.name: 1.0})
     penalties = []
 
-    def fail(self, extrapolation=None, mode=None, beyond=None):
+    def fail(self, goal, extrapolation=None, mode=None, beyond=None):
         penalties.append(model.contacts[0].penalty)
         raise Failed("no", [], cause)
 
     monkeypatch.setattr(Newton, "solve", fail)
-    newton = Newton(model)
+    newton = Newton(model.system)
     with pytest.raises(Failed, match="no"):
-        softened(model, newton, lambda: newton.solve(), lambda found: found, touched=touched)
+        softened(model, newton, goal, lambda: newton.solve(goal), lambda found: found, touched=touched)
     assert penalties == pytest.approx([1e2, 1e-1][:tries])
 
 
@@ -199,11 +199,11 @@ def test_the_rate_of_the_residual_with_a_tool_that_moves_in_time(build):
     solve(case.model, Move(case.punch, -1.0, steps=2), frames=0)
     model, dt = case.model, 1e-7
     model.set_motion(case.contact, rolling, about=(20.0, 0.0, -15.0))
-    model.time = 0.0
+    model.system.time = 0.0
     rate = model.evaluate(model.u, rates={}, until=dt).predictor / dt
     assert case.contact.active().any()
     before = model.evaluate(model.u).residual
-    model.time = dt
+    model.system.time = dt
     slope = (model.evaluate(model.u).residual - before) / dt
     assert np.abs(rate).max() > 1.0
     np.testing.assert_allclose(rate, slope, atol=1e-5 * np.abs(rate).max())
@@ -213,12 +213,12 @@ def test_the_way_of_a_tool_is_that_of_its_points(build):
     case = build.free_bending((8, 1))
     case.model.set_motion(case.contact, rolling, about=(20.0, 0.0, -15.0))
     ram = case.model.drive(case.contact, "z", "ram")
-    ram.value, case.model.time = 0.7, 0.5
+    ram.value, case.model.system.time = 0.7, 0.5
     rotation, shift = pose = case.contact.pose
     mark = np.array([[3.0, 4.0, 5.0], [-1.0, 0.0, 2.0]])  # in the tool's own frame
     x = mark @ rotation.T + shift
     way = case.contact._carried(x, At(case.model.u, 0.5, {ram: 0.7}, until=0.9), pose)
-    case.model.time = 0.9
+    case.model.system.time = 0.9
     rotation, shift = case.contact.pose
     np.testing.assert_allclose(x + way, mark @ rotation.T + shift, atol=1e-13)
 

@@ -87,18 +87,19 @@ def test_the_tangent_follows_a_driven_tool():
     """Its first residual is of second order in the way of the tool; at the new place of the tool it is of the first."""
     model, stroke = vdie(penalty=1e5)
     solve(model, Move(stroke, 2.0, steps=10), frames=0)
-    saved, ways, norms = model.snapshot(), (2e-4, 1e-4), []
+    saved, ways, norms = model.system.snapshot(), (2e-4, 1e-4), []
     for way in ways:
-        model.restore(saved)
+        model.system.restore(saved)
         last = model.evaluate(model.u)
-        newton = Newton(model)
-        stroke.value = 2.0 - way
-        du = Increment(model, newton, StrategyStatistics(), {stroke: 2.0}, model.time, None, last).tangent()
-        assert stroke.value == 2.0 - way  # to the last bit
-        model.recover(du)
-        norms.append(np.linalg.norm(model.restrict(model.evaluate(model.u + du).residual)))
-        model.revert()
-        stroke.value = 2.0
+        newton = Newton(model.system)
+        goal = model.state.toward({stroke.name: 2.0 - way})
+        du = Increment(model, newton, StrategyStatistics(), goal, (stroke,), None, last).tangent()
+        assert stroke.value == 2.0
+        model.system.recover(du)
+        norms.append(
+            np.linalg.norm(model.system.restrict(model.evaluate(model.system.state_at(model.u + du, goal)).residual))
+        )
+        model.system.revert()
     assert norms[0] / norms[1] == pytest.approx(4.0, rel=0.2)
 
 

@@ -33,9 +33,9 @@ def test_a_point_that_has_opened_is_held_with_tension_in_one_evaluation(friction
     model, contact, way = pressed(friction)
     held = contact.found.status > 0
     way.value = 0.9  # the tool has left all points
-    assert not model.evaluate(model.x).active.any()
-    forces = model.evaluate(model.x).residual
-    kept = model.evaluate(model.x, keep=True)
+    assert not model.evaluate(model.system.x).active.any()
+    forces = model.evaluate(model.system.x).residual
+    kept = model.evaluate(model.system.x, keep=True)
     assert kept.kept
     assert not kept.active.any()
     points = kept.found[contact]
@@ -45,7 +45,7 @@ def test_a_point_that_has_opened_is_held_with_tension_in_one_evaluation(friction
     at_points = (tension[:, None] * points.normal).reshape(len(contact.facets), -1, 3)
     np.add.at(pull, contact.facets, N @ at_points)
     np.testing.assert_allclose((kept.residual - forces).reshape(-1, 3), pull, atol=1e-9)
-    again = model.evaluate(model.x)  # once only
+    again = model.evaluate(model.system.x)  # once only
     assert not again.kept
     np.testing.assert_array_equal(again.residual, forces)
 
@@ -55,28 +55,30 @@ def test_the_tangent_of_kept_points_is_consistent(friction, build):
     """The part of them: all points have opened, so that the rest is the sheet alone."""
     model, contact, way = pressed(friction)
     way.value = 1.0 - 2.0 * contact.found.penetration
-    v = model.extend(np.random.default_rng(1).standard_normal(model.restrict(model.u).size))
+    v = model.system.extend(np.random.default_rng(1).standard_normal(model.system.restrict(model.u).size))
 
     def forces(x):
-        return model.restrict(model.evaluate(x, keep=True).residual - model.evaluate(x).residual)
+        return model.system.restrict(model.evaluate(x, keep=True).residual - model.evaluate(x).residual)
 
-    tangents = [build.dense(model.pattern, model.evaluate(model.x, keep=keep).values) for keep in (True, False)]
-    slope = build.central_difference(forces, model.x, v, h=1e-5)
+    tangents = [
+        build.dense(model.system.pattern, model.evaluate(model.system.x, keep=keep).values) for keep in (True, False)
+    ]
+    slope = build.central_difference(forces, model.system.x, v, h=1e-5)
     assert np.abs(slope).max() > 1.0
-    assert build.relative_error((tangents[0] - tangents[1]) @ model.coefficients(v), slope) < 1e-6
+    assert build.relative_error((tangents[0] - tangents[1]) @ model.system.coefficients(v), slope) < 1e-6
 
 
 def test_tools_whose_travel_is_an_unknown_and_cells_keep_nothing():
     model, contact, way = pressed(None, cells=3)
     way.value = 0.9
-    assert not model.evaluate(model.x, keep=True).kept
+    assert not model.evaluate(model.system.x, keep=True).kept
     assert not contact.keeps_points
 
 
 def test_no_state_converges_with_kept_points_and_a_release_keeps_none(monkeypatch):
     model, _, way = pressed()
     evaluate, asked, converged = Evaluated.evaluate, [], []
-    commit = model.commit
+    commit = model.system.commit
 
     def watched(self, *arguments, keep=False, **named):
         asked.append(keep)
@@ -87,7 +89,7 @@ def test_no_state_converges_with_kept_points_and_a_release_keeps_none(monkeypatc
         commit(evaluation)
 
     monkeypatch.setattr(Evaluated, "evaluate", watched)
-    model.commit = committed
+    model.system.commit = committed
     keep = NewtonOptions(keep=True)
     solve(model, Move(way, 2.0, steps=5), options=keep, frames=0, progress=False)
     assert any(asked)

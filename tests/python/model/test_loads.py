@@ -99,7 +99,7 @@ def test_consistent_forces_of_a_nine_node_face():
 def test_a_load_enters_the_residual_with_its_factor(sheet):
     model = Model(sheet, "ANS3DEAS" if sheet.cell == "hex8" else "MI9K3DEAS", material=LAW)
     load = model.traction("upper", VECTOR)
-    weight = model.body_force((0, 0, -1.0))
+    weight = model.loads.body_force((0, 0, -1.0))
     load.value, weight.value = 2.5, -1.0
     evaluation = model.evaluate(model.u)
     np.testing.assert_allclose(-evaluation.residual, 2.5 * load.vector - weight.vector, atol=1e-12)
@@ -115,7 +115,7 @@ def test_reactions_carry_the_load(build, load):
     control = {
         "traction": lambda: model.traction("upper", vector),
         "line_load": lambda: model.line_load("x1", "upper", vector),
-        "body_force": lambda: model.body_force(vector),
+        "body_force": lambda: model.loads.body_force(vector),
         "force": lambda: model.force("x1", vector),
     }[load]()
     solve(model, Move(control, 1.0, steps=2), frames=0)
@@ -145,7 +145,7 @@ def test_pressure_tangent_is_the_derivative_of_the_force(build, rng, cell, face)
         du = rng.normal(size=u.size)
         assert build.relative_error(K @ du, build.central_difference(full.force, u, du, 1e-5)) < 1e-9
     Kdu, again = np.zeros(full.size), np.zeros(full.size)
-    values = np.zeros(full.pattern.indices.size)
+    values = np.zeros(full.system.pattern.indices.size)
     block.evaluate(u, full.scatter, again, values, du, Kdu)
     np.testing.assert_array_equal(again, f)
     np.testing.assert_allclose(Kdu, K @ du, atol=1e-13)
@@ -210,7 +210,7 @@ def test_a_strip_under_pressure_converges_quadratically(cell, element):
     tip = model.u.reshape(-1, 3)[model.mesh.nodes("x1")]
     assert tip[:, 2].mean() > 4.0  # far beyond small rotations
     assert tip[:, 0].mean() < -1.0
-    assert not model.pattern.symmetric
+    assert not model.system.pattern.symmetric
     assert result["iterations"][1:].max() <= 8
     for records in result.iterations[1:]:
         before, last = records[-2].residual, records[-1].residual
@@ -218,7 +218,7 @@ def test_a_strip_under_pressure_converges_quadratically(cell, element):
     assert result["pressure"][-1] == result["pressure_force"][-1] == 0.004
     # The reactions balance the pressure on the deformed face.
     residual = model.evaluate(model.u).residual
-    residual[model.free] = 0.0
+    residual[model.system.free] = 0.0
     if cell == "hex8":
         x = (model.mesh.points + model.u.reshape(-1, 3))[model.mesh.facets("lower")]
         area = 0.5 * np.cross(x[:, 2] - x[:, 0], x[:, 3] - x[:, 1]).sum(axis=0)  # exact for bilinear faces
@@ -241,7 +241,7 @@ def test_load_vectors_need_three_finite_components(model, vector, error):
         lambda: model.force("x1", vector),
         lambda: model.traction("upper", vector),
         lambda: model.line_load("x1", "upper", vector),
-        lambda: model.body_force(vector),
+        lambda: model.loads.body_force(vector),
     ):
         with pytest.raises(error):
             load()
@@ -319,7 +319,7 @@ def test_thickness_points_must_see_the_highest_mode(order, points):
 
 def test_thickness_points_by_default_suit_material_and_order():
     def points(material, **options):
-        return Model(strip(L, W, T, (1, 1)), material=material, **options).thickness_points
+        return Model(strip(L, W, T, (1, 1)), material=material, **options).bodies.only.thickness_points
 
     assert points(LAW) == 2
     assert points(LAW, thickness_order=3) == 4
@@ -343,7 +343,7 @@ def test_rigid_body_motions_left_free_are_named(model, supports, motions):
     for nodes, directions in supports:
         model.fix(nodes, directions)
     if motions is None:
-        model.check()
+        model.system.check()
         return
     with pytest.raises(RigidBodyMotion) as caught:
         solve(model, [], frames=0)
@@ -356,43 +356,43 @@ def test_rigid_body_motions_left_free_are_named(model, supports, motions):
 
 def test_the_number_of_free_motions_is_told(model):
     with pytest.raises(RigidBodyMotion, match="in 6 ways"):
-        model.check()
+        model.system.check()
     model.symmetry("x0", "x")
     with pytest.raises(RigidBodyMotion, match="in 3 ways"):
-        model.check()
+        model.system.check()
     model.fix("y0", "y")
     with pytest.raises(RigidBodyMotion, match="in 1 way "):
-        model.check()
+        model.system.check()
     model.fix("y0_lower", "z")
     model.fix("y1_lower", "z")
-    model.check()
+    model.system.check()
 
 
 def test_friction_holds_the_sheet_along_the_tool_while_it_touches(model):
     contact = model.contact("lower", Plane((0, 0, -T / 2)), penalty=100.0, friction=0.1)
-    model.check()
+    model.system.check()
     model.set_motion(contact, lambda time: np.array([0.0, 0.0, -0.01]))
     with pytest.raises(RigidBodyMotion, match="in 6 ways"):
-        model.check()
+        model.system.check()
 
 
 def test_a_tool_in_touch_holds_the_sheet_and_one_at_a_distance_does_not(model):
     model.symmetry("x0", "x")
     model.symmetry("y0", "y")
     contact = model.contact("lower", Plane((0, 0, -T / 2)), penalty=100.0)
-    model.check()
+    model.system.check()
     model.set_motion(contact, lambda time: np.array([0.0, 0.0, -0.01]))
     with pytest.raises(RigidBodyMotion) as caught:
-        model.check()
+        model.system.check()
     assert "translation z" in caught.value.value
 
 
 def test_a_tool_on_the_wrong_side_is_refused(model):
     model.fix("x0")
     model.contact("lower", Plane((0, 0, -T / 2)), penalty=100.0, name="right")
-    model.check()
+    model.system.check()
     model.contact("upper", Plane((0, 0, T / 2), "-z"), penalty=100.0, name="from above")
-    model.check()
+    model.system.check()
     model.contact("lower", Plane((0, 0, 0.6 * T)), penalty=100.0, name="die")
     with pytest.raises(ToolSwallowsSheet) as caught:
         solve(model, [], frames=0)
@@ -405,14 +405,14 @@ def test_a_tool_that_touches_with_its_normal_into_the_sheet_is_refused(model):
     model.fix("x0")
     model.contact("lower", Plane((0, 0, -T / 2), "-z"), penalty=100.0)
     with pytest.raises(ToolSwallowsSheet):
-        model.check()
+        model.system.check()
 
 
 def test_a_contact_point_on_the_axis_of_a_tool_is_refused(model):
     model.fix("x0")
     model.contact("lower", Sphere((0, 0, -T / 2), 0.1 * T), penalty=100.0, points="nodes")
     with pytest.raises(ToolSwallowsSheet, match="no normal"):
-        model.check()
+        model.system.check()
 
 
 def test_a_node_without_a_cell_is_refused():
@@ -421,7 +421,7 @@ def test_a_node_without_a_cell_is_refused():
     model = Model(stray, material=mt.SVK(E=1000.0, nu=0.3))
     model.fix("x0")
     with pytest.raises(RigidBodyMotion, match="belongs to no cell"):
-        model.check()
+        model.system.check()
 
 
 def test_a_model_without_a_free_degree_of_freedom_is_refused(model):

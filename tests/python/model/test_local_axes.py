@@ -50,7 +50,7 @@ def shell(element="ANS3DEAS", **options):
 
 def transformation(model):
     """T, column by column."""
-    return np.stack([model.extend(unit) for unit in np.eye(model.pattern.n)], axis=1)
+    return np.stack([model.system.extend(unit) for unit in np.eye(model.system.pattern.n)], axis=1)
 
 
 # Elimination ------------------------------------------------------------------------------------------------
@@ -66,14 +66,16 @@ def test_entries_are_those_of_the_dense_product(element, pressure, build, rng):
     model.prescribe("x0_lower", "r", "push", axes=AROUND)
     u = 0.02 * rng.normal(size=model.u.size)
     found, full = model.evaluate(u), other.evaluate(u)
-    assert len(other.free) == u.size  # nothing is held: its tangent is K
-    T, K = transformation(model), build.dense(other.pattern, full.values)
-    assert model.pattern.n == model.unknown_count == T.shape[1]
-    np.testing.assert_allclose(T.T @ T, np.eye(model.pattern.n), atol=1e-14)
-    np.testing.assert_allclose(build.dense(model.pattern, found.values), T.T @ K @ T, atol=1e-13 * np.abs(K).max())
+    assert len(other.system.free) == u.size  # nothing is held: its tangent is K
+    T, K = transformation(model), build.dense(other.system.pattern, full.values)
+    assert model.system.pattern.n == model.supports.unknown_count == T.shape[1]
+    np.testing.assert_allclose(T.T @ T, np.eye(model.system.pattern.n), atol=1e-14)
+    np.testing.assert_allclose(
+        build.dense(model.system.pattern, found.values), T.T @ K @ T, atol=1e-13 * np.abs(K).max()
+    )
     np.testing.assert_array_equal(found.residual, full.residual)
-    np.testing.assert_allclose(model.restrict(full.residual), T.T @ full.residual, atol=1e-12 * np.abs(K).max())
-    np.testing.assert_allclose(model.coefficients(model.extend(T[3])), T[3], atol=1e-14)
+    np.testing.assert_allclose(model.system.restrict(full.residual), T.T @ full.residual, atol=1e-12 * np.abs(K).max())
+    np.testing.assert_allclose(model.system.coefficients(model.system.extend(T[3])), T[3], atol=1e-14)
 
 
 def test_unknowns_leave_what_is_held_where_it_is_and_everything_else_free():
@@ -93,9 +95,11 @@ def test_unknowns_leave_what_is_held_where_it_is_and_everything_else_free():
 
 def test_the_tangent_is_the_derivative_of_the_residual(build, rng):
     model = shell("DISP3D", material=mt.NeoHooke(E=1e4, nu=0.3))
-    u, x = model.extend(0.02 * rng.normal(size=model.pattern.n)), rng.normal(size=model.pattern.n)
-    slope = build.central_difference(lambda v: model.restrict(model.evaluate(v).residual), u, model.extend(x), 1e-6)
-    assert build.relative_error(build.dense(model.pattern, model.evaluate(u).values) @ x, slope) < 1e-7
+    u, x = model.system.extend(0.02 * rng.normal(size=model.system.pattern.n)), rng.normal(size=model.system.pattern.n)
+    slope = build.central_difference(
+        lambda v: model.system.restrict(model.evaluate(v).residual), u, model.system.extend(x), 1e-6
+    )
+    assert build.relative_error(build.dense(model.system.pattern, model.evaluate(u).values) @ x, slope) < 1e-7
 
 
 # Mechanics --------------------------------------------------------------------------------------------------
@@ -198,7 +202,7 @@ def test_reactions_are_normal_to_what_is_free():
     reaction = result.frames[-1].points["reaction"]
     T = transformation(model)
     supported = np.ones(model.u.size, dtype=bool)
-    supported[model.free] = False
+    supported[model.system.free] = False
     assert np.abs(T.T @ np.where(supported, reaction.ravel(), 0.0)).max() < 1e-8 * np.abs(reaction).max()
     assert result.balance().force_imbalance.max() < 1e-9
 
@@ -211,16 +215,16 @@ def test_a_sector_held_around_its_axis_may_slide_along_it():
     for edge in ("y0", "y1"):
         model.fix(edge, "rt", axes=AROUND)
     with pytest.raises(RigidBodyMotion, match="in 1 way") as caught:
-        model.check()
+        model.system.check()
     assert "translation y" in str(caught.value)
     model.hinge("x0", "a", axes=AROUND)
-    model.check()
+    model.system.check()
 
 
 def test_supports_that_contradict_each_other_are_refused_and_leave_nothing():
     model = quarter()
     model.prescribe("x0", "x", "pull")
-    before = (model.constrained(), model.unknown_count, list(model.supports))
+    before = (model.supports.constrained(), model.supports.unknown_count, list(model.supports))
     with pytest.raises(InvalidValue, match="prescribed twice"):
         model.fix("x0", normals=(1.0, 0.0, 0.0))
     with pytest.raises(InvalidValue, match="prescribed twice"):
@@ -228,10 +232,10 @@ def test_supports_that_contradict_each_other_are_refused_and_leave_nothing():
     assert [control.name for control in model.controls] == ["pull"]
     with pytest.raises(InvalidValue, match="taken"):
         model.prescribe("x1", "r", "pull", axes=AROUND)
-    assert not model.rows
+    assert not model.supports.rows
     model.fix("x0", "r", axes=AROUND)  # the radius there is z
-    np.testing.assert_array_equal(model.constrained(), before[0])
-    assert model.unknown_count == before[1] - len(model.mesh.nodes("x0"))
+    np.testing.assert_array_equal(model.supports.constrained(), before[0])
+    assert model.supports.unknown_count == before[1] - len(model.mesh.nodes("x0"))
     with pytest.raises(InvalidValue, match="prescribed twice"):
         model.prescribe("x0", "z", "lift")
     assert len(model.supports) == 1
@@ -245,8 +249,8 @@ def test_to_hold_something_twice_does_no_harm():
     other.hinge("y1", "rt", axes=AROUND)
     other.hold_director("y1", "t", axes=AROUND)
     other.fix("y1", "xz", axes=turned("x", "y"))
-    assert model.unknown_count == other.unknown_count
-    assert model.pattern.n == other.pattern.n
+    assert model.supports.unknown_count == other.supports.unknown_count
+    assert model.system.pattern.n == other.system.pattern.n
 
 
 @pytest.mark.parametrize(
@@ -279,6 +283,6 @@ def test_a_refused_support_leaves_nothing_of_itself(half):
     model = quarter()
     with pytest.raises(InvalidValue):
         half(model)
-    assert not model.ties
-    assert not model._fixed.any()
+    assert not model.supports.ties
+    assert not model.supports.fixed.any()
     assert not model.supports

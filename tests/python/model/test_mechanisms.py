@@ -70,7 +70,7 @@ def springs(share):
 
 def is_rigid(model, motion):
     """Whether the nodes of each cell keep their distances from its first one, to first order."""
-    x, u = model.mesh.points, model.extend(motion).reshape(-1, 3)
+    x, u = model.mesh.points, model.system.extend(motion).reshape(-1, 3)
     x, u = x / np.ptp(x, axis=0).max(), u / np.abs(u).max()
     cells = model.mesh.connectivity
     return all(
@@ -80,7 +80,7 @@ def is_rigid(model, motion):
 
 
 def is_held(model, tangent):
-    return model.mechanism(tangent.values, np.ones(model.pattern.n)) is None
+    return model.system.mechanism(tangent.values, np.ones(model.system.pattern.n)) is None
 
 
 @pytest.mark.parametrize(("thickness", "turned", "unit"), SIZES)
@@ -105,14 +105,14 @@ def test_a_thin_sheet_is_held_unless_a_part_can_move_rigidly(joint, hold, held, 
     """eqs. (5.99), (5.100)"""
     model, points = strip(thickness, turned, unit, joint)
     hold(model, points)
-    tangent = model.evaluate(model.x)
+    tangent = model.evaluate(model.system.x)
     for threshold in (1e-15, 1e-14, 1e-12):  # far from all of these
         monkeypatch.setattr(mechanisms, "_ROUND_OFF", threshold)
         assert is_held(model, tangent) is held
-    solver = Newton(model).ready_solver()
+    solver = Newton(model.system).ready_solver()
     if held:
         solver.factor(tangent)
-        assert np.isfinite(solver.solve(np.ones(model.pattern.n))).all()
+        assert np.isfinite(solver.solve(np.ones(model.system.pattern.n))).all()
     else:
         with pytest.raises(SingularMatrix) as caught:
             solver.factor(tangent)
@@ -126,7 +126,7 @@ def test_contact_holds_a_hinged_sheet_as_long_as_it_touches(touching, held):
     model.contact(
         "lower", uf.Plane((0.0, 0.0, points[:, 2].min() - 1e-3 + 2e-3 * touching), (0.0, 0.0, 1.0)), penalty=1
     )
-    assert is_held(model, model.evaluate(model.x)) is held
+    assert is_held(model, model.evaluate(model.system.x)) is held
 
 
 def test_a_midline_hinge_lets_a_thin_sheet_turn():
@@ -134,11 +134,11 @@ def test_a_midline_hinge_lets_a_thin_sheet_turn():
     for clamped in (True, False):
         model, _ = strip(1e-4, 0.0, 1.0)
         model.hinge("x0") if not clamped else model.fix("x0")
-        assert is_held(model, model.evaluate(model.x)) is clamped
+        assert is_held(model, model.evaluate(model.system.x)) is clamped
 
 
 def test_a_thicker_sheet_is_left_to_the_solver():
     for thickness, asked in ((1e-3, False), (4e-4, True)):
         model, points = strip(thickness, 0.0, 1.0)
         clamp(model, points)
-        assert is_held(model, model.evaluate(model.x)) is asked
+        assert is_held(model, model.evaluate(model.system.x)) is asked

@@ -93,12 +93,12 @@ def test_tangent_and_predictor_are_derivatives(kind, rng):
         model.add(Links(np.stack([model.mesh.nodes("x0_lower"), model.mesh.nodes("x1_lower")], axis=1), 30.0))
     x = 1e-2 * rng.normal(size=model.u.size)
     x.reshape(-1, 3)[foam.nodes, 2] -= 0.05  # some nodes beyond their limit, none near it
-    q = rng.normal(size=model.pattern.n)
+    q = rng.normal(size=model.system.pattern.n)
     evaluation = model.evaluate(x)
-    K = np.zeros((model.pattern.n, model.pattern.n))
-    K[model.pattern.rows, model.pattern.indices] = evaluation.values
+    K = np.zeros((model.system.pattern.n, model.system.pattern.n))
+    K[model.system.pattern.rows, model.system.pattern.indices] = evaluation.values
     K = np.triu(K) + np.triu(K, 1).T
-    expected = model.restrict(derivative(model, x, model.extend(q)))
+    expected = model.system.restrict(derivative(model, x, model.system.extend(q)))
     np.testing.assert_allclose(K @ q, expected, atol=1e-6 * np.abs(expected).max())
     du = rng.normal(size=x.size)
     predictor = model.evaluate(x, du).predictor
@@ -129,10 +129,10 @@ def test_an_evaluation_leaves_the_history_as_it_was(rng):
     assert not foam.history.any()
     assert evaluation.found[foam].history.any()
     assert evaluation.flowing.size == len(foam.nodes)
-    before = model.snapshot()
-    model.commit(evaluation)
+    before = model.system.snapshot()
+    model.system.commit(evaluation)
     np.testing.assert_array_equal(foam.history, evaluation.found[foam].history)
-    model.restore(before)
+    model.system.restore(before)
     assert not foam.history.any()
 
 
@@ -197,4 +197,4 @@ def test_what_makes_no_sense_is_refused():
         model.add(Foam([0, len(model.mesh.points)], 1.0, "far"))
     with pytest.raises(InvalidValue, match="a row of numbers"):
         Foam(np.ones((2, 2)), 1.0)
-    assert model.others == [foam]
+    assert model.system.others == [foam]

@@ -56,11 +56,11 @@ def test_supports_in_local_axes_and_hinges_are_removed_too():
     director = model.hold_director("x1", "t", axes=around)
     load = model.force("y1", (0.0, 0.1, -0.2))
     solve(model, Move(load, 1.0, steps=2), options=TIGHT)
-    count = model.unknown_count
+    count = model.supports.unknown_count
     loads = [model.remove(support) for support in (hinge, roller, director)]
-    assert model.unknown_count > count
-    assert not model.rows
-    residual = model.restrict(model.evaluate(model.u).residual)
+    assert model.supports.unknown_count > count
+    assert not model.supports.rows
+    residual = model.system.restrict(model.evaluate(model.u).residual)
     assert np.abs(residual).max() < 1e-9
     solve(model, Move(loads, [0.0] * 3, steps=4), options=TIGHT)
     other = Model(strip(10.0, 2.0, 0.3, (6, 2)), material=ELASTIC)
@@ -127,8 +127,8 @@ def test_a_run_that_frees_a_support_is_taken_up_to_the_last_bit(tmp_path, stop):
             if count[0] == until:
                 raise KeyboardInterrupt
 
-        original = model.commit
-        model.commit = lambda u: (original(u), interrupt(u))
+        original = model.system.commit
+        model.system.commit = lambda u: (original(u), interrupt(u))
         with pytest.raises(KeyboardInterrupt):
             solve(model, steps, frames=2, checkpoint=path, every=0.0)
         model, prop, push = bent(METAL)
@@ -148,13 +148,13 @@ def test_a_run_that_frees_a_support_is_taken_up_to_the_last_bit(tmp_path, stop):
 def test_a_snapshot_knows_which_supports_act():
     model, prop, push = bent()
     solve(model, [Move(push, -0.4, steps=2), Free(prop, steps=2)], options=TIGHT)
-    freed = model.snapshot()
-    u, count = model.u.copy(), model.unknown_count
+    freed = model.system.snapshot()
+    u, count = model.u.copy(), model.supports.unknown_count
     model.put_back(prop)
     solve(model, Move(push, -0.6, steps=2), options=TIGHT)
-    model.restore(freed)
+    model.system.restore(freed)
     assert prop.removed
-    assert model.unknown_count == count
+    assert model.supports.unknown_count == count
     np.testing.assert_array_equal(model.u, u)
     solve(model, Move(push, 0.0, steps=2), options=TIGHT)
     np.testing.assert_allclose(model.u, 0.0, atol=1e-7)

@@ -25,11 +25,11 @@ def test_internal_forces_turn_with_the_body(name):
     model.fix("x0")
     tip = model.prescribe("x1_lower", "z", name="tip")
     result = uf.solve(model, uf.Move(tip, -1.5, steps=3), frames=0, progress=False)
-    assert model.block.state.shape and result["plastic_work"][-1] > 0.0
+    assert model.bodies.only.block.state.shape and result["plastic_work"][-1] > 0.0
     motion = RigidMotion.in_section(2.0, np.array([1.0, 0.5]), np.array([4.0, -7.0]))
     still, moved = continued(made(name, points), result), continued(made(name, points), result, motion)
-    f = still.evaluate(still.x).residual.reshape(-1, 3)
-    turned = moved.evaluate(moved.x).residual.reshape(-1, 3)
+    f = still.evaluate(still.system.x).residual.reshape(-1, 3)
+    turned = moved.evaluate(moved.system.x).residual.reshape(-1, 3)
     assert np.abs(f).max() > 1.0
     np.testing.assert_allclose(turned, f @ motion.rotation.T, atol=1e-8 * np.abs(f).max())
     np.testing.assert_allclose(motion.rotation @ motion.rotation.T, np.eye(3), atol=1e-15)

@@ -117,7 +117,7 @@ def test_what_makes_no_sense_is_refused():
     model.stop(hold, -0.2)
     with pytest.raises(InvalidValue, match="no way between"):
         model.stop(hold, -0.1, below=True)
-    assert len(model.press_of(hold).stops) == 1
+    assert len(model.tools.press_of(hold).stops) == 1
 
 
 @pytest.mark.parametrize("until", [3, 6])
@@ -128,14 +128,14 @@ def test_a_run_on_a_stop_is_taken_up_to_the_last_bit(tmp_path, until):
     model, hold, _ = pressed(-0.105)
     whole = uf.solve(model, steps(hold), progress=False)
     model, hold, _ = pressed(-0.105)
-    commits, commit = iter(range(1000)), model.commit
+    commits, commit = iter(range(1000)), model.system.commit
 
     def stopping(evaluation):
         commit(evaluation)
         if next(commits) == until:
             raise KeyboardInterrupt
 
-    model.commit = stopping
+    model.system.commit = stopping
     with pytest.raises(KeyboardInterrupt):
         uf.solve(model, steps(hold), checkpoint=tmp_path / "run", every=0.0, progress=False)
     model, hold, _ = pressed(-0.105)

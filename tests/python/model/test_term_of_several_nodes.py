@@ -45,12 +45,14 @@ def test_its_tangent_is_the_derivative_of_its_forces(nodes, symmetric, rng):
     assert term.symmetric == symmetric
     model.add(term)
     u, du = (1e-2 * rng.normal(size=model.u.size) for _ in range(2))
-    pattern, values = model.pattern, model.evaluate(u).values
+    pattern, values = model.system.pattern, model.evaluate(u).values
     K = csr_matrix((values, pattern.indices, pattern.indptr), shape=(pattern.n, pattern.n)).toarray()
     assert pattern.symmetric == symmetric
     K = K + np.triu(K, 1).T if symmetric else K
-    q, step = model.coefficients(du), 1e-4
-    ahead, behind = (model.restrict(model.evaluate(u + s * step * model.extend(q)).residual) for s in (1, -1))
+    q, step = model.system.coefficients(du), 1e-4
+    ahead, behind = (
+        model.system.restrict(model.evaluate(u + s * step * model.system.extend(q)).residual) for s in (1, -1)
+    )
     np.testing.assert_allclose(K @ q, (ahead - behind) / (2 * step), atol=1e-6 * np.abs(K @ q).max())
 
 

@@ -33,15 +33,15 @@ def hinged_strip(cells=(6, 2), element="ANS3DEAS", material=ELASTIC, **options):
 
 def transformation(model):
     """T, column by column."""
-    return np.stack([model.extend(unit) for unit in np.eye(model.pattern.n)], axis=1)
+    return np.stack([model.system.extend(unit) for unit in np.eye(model.system.pattern.n)], axis=1)
 
 
 def untied(model):
     """The same model without its ties."""
-    other = Model(model.mesh, model.element, material=model.material)
-    other._fixed = model._fixed.copy()
+    other = Model(model.mesh, model.bodies.only.element, material=model.bodies.only.material)
+    other.supports.fixed = model.supports.fixed.copy()
     for control in model.controls:
-        other._add(control)
+        other.controls.add(control)
     return other
 
 
@@ -58,30 +58,32 @@ def test_entries_are_those_of_the_dense_product(element, pressure, build, rng):
     found = model.evaluate(u)
     other = untied(model)
     full = other.evaluate(u)
-    T, K = transformation(model), build.dense(other.pattern, full.values)
-    np.testing.assert_allclose(T.T @ T, np.eye(model.pattern.n), atol=1e-15)
-    assert model.pattern.symmetric is not pressure
-    assert model.pattern.n == other.pattern.n - sum(len(tie.dofs) for tie in model.ties)
-    expected = T[other.free].T @ K @ T[other.free]
+    T, K = transformation(model), build.dense(other.system.pattern, full.values)
+    np.testing.assert_allclose(T.T @ T, np.eye(model.system.pattern.n), atol=1e-15)
+    assert model.system.pattern.symmetric is not pressure
+    assert model.system.pattern.n == other.system.pattern.n - sum(len(tie.dofs) for tie in model.supports.ties)
+    expected = T[other.system.free].T @ K @ T[other.system.free]
     assert np.abs(expected - expected.T).max() > 1e-6 or not pressure
-    np.testing.assert_allclose(build.dense(model.pattern, found.values), expected, atol=1e-13 * np.abs(K).max())
+    np.testing.assert_allclose(build.dense(model.system.pattern, found.values), expected, atol=1e-13 * np.abs(K).max())
     np.testing.assert_array_equal(found.residual, full.residual)
-    np.testing.assert_allclose(model.restrict(full.residual), T.T @ full.residual, atol=1e-12 * np.abs(K).max())
+    np.testing.assert_allclose(model.system.restrict(full.residual), T.T @ full.residual, atol=1e-12 * np.abs(K).max())
 
 
 def test_the_tangent_of_a_tied_model_is_the_derivative_of_its_residual(build, rng):
     model = hinged_strip((3, 1), "DISP3D", mt.NeoHooke(E=1e4, nu=0.3))
-    u, x = model.extend(0.02 * rng.normal(size=model.pattern.n)), rng.normal(size=model.pattern.n)
-    slope = build.central_difference(lambda v: model.restrict(model.evaluate(v).residual), u, model.extend(x), 1e-6)
-    assert build.relative_error(build.dense(model.pattern, model.evaluate(u).values) @ x, slope) < 1e-7
+    u, x = model.system.extend(0.02 * rng.normal(size=model.system.pattern.n)), rng.normal(size=model.system.pattern.n)
+    slope = build.central_difference(
+        lambda v: model.system.restrict(model.evaluate(v).residual), u, model.system.extend(x), 1e-6
+    )
+    assert build.relative_error(build.dense(model.system.pattern, model.evaluate(u).values) @ x, slope) < 1e-7
 
 
 def test_a_model_without_ties_pays_nothing(build):
     model, _ = build.bar()
-    assembly = model._assembly()
+    assembly = model.system._assembly()
     values = np.zeros(assembly.entries)
     assert assembly.reduce(values) is values
-    assert model.pattern.n == len(model.free)
+    assert model.system.pattern.n == len(model.system.free)
 
 
 # Pairs and refusals -----------------------------------------------------------------------------------------
@@ -120,7 +122,7 @@ def test_a_tie_of_a_node_that_is_spoken_for_is_refused(first):
     for second in (lambda: model.hinge("x0", "z"), lambda: model.prescribe_midline("x0", "z")):
         with pytest.raises(InvalidValue, match="prescribed twice"):
             second()
-    assert len(model.ties) <= 2
+    assert len(model.supports.ties) <= 2
 
 
 def test_a_tied_node_can_be_neither_fixed_nor_prescribed():
@@ -160,7 +162,7 @@ def test_a_hinge_goes_with_a_plane_of_symmetry_that_holds_both_nodes(hold):
         model.hinge(np.setdiff1d(model.mesh.nodes("x0"), model.mesh.nodes("y0")), "y")
 
     model, other = pulled(hold), pulled(apart)
-    assert sum(len(tie.dofs) for tie in model.ties) == sum(len(tie.dofs) for tie in other.ties)
+    assert sum(len(tie.dofs) for tie in model.supports.ties) == sum(len(tie.dofs) for tie in other.supports.ties)
     np.testing.assert_allclose(model.u, other.u, rtol=0.0, atol=1e-12 * np.abs(other.u).max())
     assert np.abs(model.u).max() > 0.0
 
@@ -176,10 +178,10 @@ def test_the_rotation_about_a_hinge_is_seen():
     model = Model(strip(10.0, 1.0, 0.2, (4, 1)), material=ELASTIC)
     model.hinge("x0")
     with pytest.raises(RigidBodyMotion, match="in 1 way") as caught:
-        model.check()
+        model.system.check()
     assert "rotation about y" in str(caught.value)
     model.hinge("x1", "z")
-    model.check()
+    model.system.check()
 
 
 # Mechanics --------------------------------------------------------------------------------------------------
@@ -190,7 +192,7 @@ def test_a_hinged_strip_sags_as_a_beam(element, cells):
     """Dead load q on L = 10, E I = 1e4 0.2^3 / 12: 5 q L^4 / (384 E I), and shear by 6/5 q L^2 / (8 G A)."""
     model = hinged_strip((cells, 1), element)
     q = 1e-6
-    load = model.body_force((0.0, 0.0, -q / 0.2))
+    load = model.loads.body_force((0.0, 0.0, -q / 0.2))
     result = solve(model, Move(load, 1.0, steps=1), options=TIGHT)
     middle = model.mesh.nodes(lambda x, y, z: np.abs(x - (x.min() + 5.0)) < 1e-6)
     sag = -model.u.reshape(-1, 3)[middle, 2].mean()
@@ -202,7 +204,7 @@ def test_a_hinged_strip_sags_as_a_beam(element, cells):
         lower, upper = node_pairs(model.mesh, edge).T
         np.testing.assert_allclose(reaction[lower, 2], reaction[upper, 2], atol=1e-12 * q)
         assert reaction[model.mesh.nodes(edge), 2].sum() == pytest.approx(5 * q, rel=1e-9)
-    assert not model.constrained()[3 * model.mesh.nodes("x1") + 2].any()
+    assert not model.supports.constrained()[3 * model.mesh.nodes("x1") + 2].any()
 
 
 def test_a_driven_mid_line_is_the_load_that_its_force_says():
@@ -236,7 +238,9 @@ def test_newton_converges_alike_with_ties_whatever_its_options(options):
     push = model.pressure("lower", "push")
     result = solve(model, Move([pull, push], [-0.5, 0.02], steps=8), options=options, frames=0)
     assert result["iterations"].max() <= 8
-    assert np.abs(model.restrict(model.evaluate(model.u).residual)).max() < 1e-8 * abs(result["pull_force"]).max()
+    assert (
+        np.abs(model.system.restrict(model.evaluate(model.u).residual)).max() < 1e-8 * abs(result["pull_force"]).max()
+    )
     reference = hinged_strip()
     controls = [reference.prescribe_midline("x1", "x", "pull"), reference.pressure("lower", "push")]
     solve(reference, Move(controls, [-0.5, 0.02], steps=8), options=TIGHT, frames=0)
@@ -251,12 +255,12 @@ def test_a_tied_plastic_strip_is_released_and_repeats_from_a_snapshot():
     model.hinge("x1", "z")
     punch = model.prescribe("x0_lower", "z", "punch")
     solve(model, Move(punch, -1.0, steps=4), frames=0)
-    saved = model.snapshot()
+    saved = model.system.snapshot()
     steps = [Move(punch, -2.0, steps=4), Release(punch)]
     first = solve(model, steps, frames=0)
     assert abs(first["punch_force"][-1]) < 1e-6 * np.abs(first["punch_force"]).max()
     assert punch.value < -0.1
-    model.restore(saved)
+    model.system.restore(saved)
     second = solve(model, steps, frames=0)
     np.testing.assert_array_equal(first["punch_force"], second["punch_force"])
 
@@ -277,7 +281,7 @@ def test_a_failed_increment_of_a_tied_model_leaves_its_state(same_state):
     model = hinged_strip()
     pull = model.prescribe_midline("x1", "x", "pull")
     solve(model, Move(pull, 0.1, steps=2), frames=0)
-    before = model.snapshot()
+    before = model.system.snapshot()
     with pytest.raises(NoConvergence):
         solve(model, Move(pull, -3.0, steps=1, cuts=0), options=NewtonOptions(max_iterations=1), frames=0)
-    assert same_state(model.snapshot(), before)
+    assert same_state(model.system.snapshot(), before)

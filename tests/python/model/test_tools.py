@@ -64,7 +64,7 @@ def test_rows_columns_and_corner_of_the_border_are_derivatives(moved, friction, 
     model.turn(punch, "y", (15.0, 0.0, 2.0), "tilt").value = 0.02 if moved == "turn" else 0.0
     press = model.press(punch, (0.3, 0.0, -1.0), "press")
     press.value = 50.0
-    x = model.x.copy()
+    x = model.system.x.copy()
     x[: model.u.size] += 1e-3 * rng.normal(size=model.u.size)
     x[-1] = 0.05
     evaluation = model.evaluate(x)
@@ -123,7 +123,7 @@ def test_the_equation_of_a_moment_has_exact_rows_columns_and_corner(moved, frict
     model.turn(punch, (0.3, 1.0, 0.0), (18.0, 0.0, 1.0), "tilt").value = 0.01
     press = model.press(punch, (0.3, 0.0, -1.0), "press")
     moment.value, press.value = 40.0, 50.0
-    x = model.x.copy()
+    x = model.system.x.copy()
     dofs = model.u.size
     x[:dofs] += 1e-3 * rng.normal(size=dofs)
     x[dofs:] = 0.004, 0.05  # angle and way
@@ -219,10 +219,10 @@ def test_a_turn_is_a_control_like_a_translation(rng):
     turn.value = 0.3
     for a, b in zip(punch.pose_now, tool.pose_now, strict=True):
         np.testing.assert_allclose(a, b, atol=1e-14)
-    evaluation = model.evaluate(model.x)
-    force, moment = punch.resultant(evaluation.found, model.ranks)
+    evaluation = model.evaluate(model.system.x)
+    force, moment = punch.resultant(evaluation.found, model.system.ranks)
     expected = (moment - np.cross([20.0, 0.0, 0.5], force))[1]
-    assert turn.force(evaluation, model.ranks) == pytest.approx(-expected, abs=1e-12)
+    assert turn.force(evaluation, model.system.ranks) == pytest.approx(-expected, abs=1e-12)
 
 
 @pytest.mark.parametrize("friction", [None, 0.3])
@@ -250,7 +250,7 @@ def test_the_predictor_of_a_pressed_tool_is_a_derivative(moved, friction, rng):
     model, punch = beam(mt.SVK(E=210e3, nu=0.3), friction=friction)
     turn, press = model.turn(punch, "y", (15.0, 0.0, 0.0), "tilt"), model.press(punch, "z", "press")
     rates = {"turn": {turn: 0.7}, "press": {press: 900.0}, "sheet": {}}[moved]
-    x, du = model.x.copy(), rng.normal(size=model.u.size) * (moved == "sheet")
+    x, du = model.system.x.copy(), rng.normal(size=model.u.size) * (moved == "sheet")
     x[: du.size] += 1e-3 * rng.normal(size=du.size)
     x[-1] = -0.05
 
@@ -310,13 +310,13 @@ def test_after_a_failed_run_the_pose_is_where_the_control_says():
     model, punch = beam(cells=(8, 1))
     stroke = model.drive(punch, "z", "stroke")
     solve(model, Move(stroke, -0.2, steps=2))
-    saved, force = model.snapshot(), model.contacts[0].resultant()[0]
+    saved, force = model.system.snapshot(), model.contacts[0].resultant()[0]
     with pytest.raises(NoConvergence):
         solve(model, Move(stroke, -1000.0, steps=1, cuts=0))
     assert stroke.value == -0.2
     np.testing.assert_array_equal(punch.pose_now[1], [0.0, 0.0, -0.2])
-    model.restore(saved)
-    found = model.evaluate(model.x).found[model.contacts[0]]
+    model.system.restore(saved)
+    found = model.evaluate(model.system.x).found[model.contacts[0]]
     np.testing.assert_allclose(found.resultant()[0], force, rtol=1e-9)
 
 
@@ -356,7 +356,7 @@ def test_a_refused_call_leaves_nothing_behind():
     model.fix("x0")
     model.force("x1", (0, 0, 1), "taken")
     contact = model.contact("lower", Plane((0, 0, -5)), penalty=1.0, name="die")
-    unknowns, ways = model.unknown_count, list(contact.tool.ways)
+    unknowns, ways = model.supports.unknown_count, list(contact.tool.ways)
     for call in (
         lambda: model.prescribe_midline("x1", "z", name="taken"),
         lambda: model.prescribe("x1", "z", name="taken"),
@@ -367,7 +367,7 @@ def test_a_refused_call_leaves_nothing_behind():
     ):
         with pytest.raises(InvalidValue, match="taken"):
             call()
-        assert model.unknown_count == unknowns
+        assert model.supports.unknown_count == unknowns
         assert contact.tool.ways == ways
         assert contact.tool.presses == []
         assert [control.name for control in model.controls] == ["taken"]
@@ -375,14 +375,14 @@ def test_a_refused_call_leaves_nothing_behind():
 
 def test_a_solver_sees_the_border_only_where_there_is_one():
     model, punch = beam()
-    newton = Newton(model)
-    solver, evaluation = newton.ready_solver(), model.evaluate(model.x)
+    newton = Newton(model.system)
+    solver, evaluation = newton.ready_solver(), model.evaluate(model.system.x)
     solver.factor(evaluation)
-    plain = solver.solve(model.restrict(np.ones(model.u.size)))
+    plain = solver.solve(model.system.restrict(np.ones(model.u.size)))
     model.press(punch, "z", "press")
-    solver, evaluation = newton.ready_solver(), model.evaluate(model.x)
+    solver, evaluation = newton.ready_solver(), model.evaluate(model.system.x)
     solver.factor(evaluation)
-    whole = solver.solve(model.restrict(np.ones(model.u.size + 1)))
+    whole = solver.solve(model.system.restrict(np.ones(model.u.size + 1)))
     assert whole.size == plain.size + 1
 
 
@@ -403,7 +403,7 @@ def test_what_is_fixed_when_a_thing_is_made_cannot_be_set():
             setattr(thing, name, value)
         assert getattr(thing, name) is before
     contact.penalty = 2e4  # effective
-    assert model.evaluate(model.x).found[contact].penalty == contact.block.penalty == 2e4
+    assert model.evaluate(model.system.x).found[contact].penalty == contact.block.penalty == 2e4
 
 
 @pytest.mark.parametrize("first", ["drive", "press"])

@@ -48,7 +48,7 @@ def sheet(cells=12, motion=None):
     end = model.prescribe_midline("x1", "z", "end")
     model.fix(lambda x, y, z: (x < 3.5) & (y < 1e-9), "y")
     model.prescribe(lambda x, y, z: (x > 5.5) & (x < 6.5) & (z > 0), "x", "middle")
-    model.body_force((0.0, 0.0, -1.0), "weight")
+    model.loads.body_force((0.0, 0.0, -1.0), "weight")
     model.pressure("lower", "pressure")
     die = model.contact("lower", uf.Cylinder((4.0, 0.0, -10.5), "y", 10.0), penalty=10.0, name="die")
     punch = model.contact("upper", uf.Cylinder((4.0, 0.0, 10.5), "y", 10.0), penalty=10.0, points=3, name="punch")
@@ -84,10 +84,11 @@ def size_of(value):
 
 def pieces(cut, model, kind):
     """Of the parcels the pieces of some things of the model, by kind: a list over the ranks for each of them."""
-    kinds = ("bodies", "controls", "tools", "contacts", "others", "holders")
-    first = sum(len(getattr(model, before)) for before in kinds[: kinds.index(kind)])
-    assert len(cut[0].pieces) == sum(len(getattr(model, name)) for name in kinds)
-    return [[one.pieces[first + k] for one in cut] for k in range(len(getattr(model, kind)))]
+    kinds = {name: len(getattr(model, name)) for name in ("bodies", "controls", "tools", "contacts")}
+    kinds |= {"others": len(model.system.others), "holders": len(model.supports.holders)}
+    first = sum(list(kinds.values())[: list(kinds).index(kind)])
+    assert len(cut[0].pieces) == sum(kinds.values())
+    return [[one.pieces[first + k] for one in cut] for k in range(kinds[kind])]
 
 
 def test_all_parcels_make_the_model():
@@ -102,12 +103,12 @@ def test_all_parcels_make_the_model():
         np.testing.assert_array_equal(one.nodes[one.connectivity], model.mesh.connectivity[one.cells])
         np.testing.assert_array_equal(one.points, model.mesh.points[one.nodes])
         dofs = (3 * one.nodes[:, None] + np.arange(3)).ravel()
-        np.testing.assert_array_equal(one.fixed, model._fixed[dofs])
+        np.testing.assert_array_equal(one.fixed, model.supports.fixed[dofs])
         np.testing.assert_array_equal(one.u, model.u[dofs])
         assert one.before == sum(other.own for other in cut[:rank])
-    assert sum(one.own for one in cut) == cut[0].count == model.unknown_count
+    assert sum(one.own for one in cut) == cut[0].count == model.supports.unknown_count
     numbers = np.concatenate([one.numbers for one in cut])
-    np.testing.assert_array_equal(np.unique(numbers), np.arange(model.unknown_count))
+    np.testing.assert_array_equal(np.unique(numbers), np.arange(model.supports.unknown_count))
 
 
 def test_controls_ties_and_contacts_are_parted_too():
@@ -131,14 +132,16 @@ def test_controls_ties_and_contacts_are_parted_too():
         for one, (faces, rows, _) in zip(cut, mine, strict=True):
             np.testing.assert_array_equal(np.c_[one.cells[faces[:, 0]], faces[:, 1]], contact.faces[rows])
         assert sum(len(rows) for _, rows, _ in mine) == len(contact.faces)
-    for number, tie in enumerate(model.ties):
+    for number, tie in enumerate(model.supports.ties):
         whole = np.concatenate([3 * one.nodes[one.ties[number] // 3] + one.ties[number] % 3 for one in cut])
         np.testing.assert_array_equal(np.unique(whole, axis=0), np.unique(tie.dofs, axis=0))
 
 
 def test_a_begun_state_goes_along():
     model, _ = sheet()
-    model.block.restore(model.block.state, np.random.default_rng(3).normal(size=model.block.alpha.shape))
+    model.bodies.only.block.restore(
+        model.bodies.only.block.state, np.random.default_rng(3).normal(size=model.bodies.only.block.alpha.shape)
+    )
     begun = model.contacts[1].state()["history"]
     begun[..., 0] = np.arange(float(begun[..., 0].size)).reshape(begun[..., 0].shape)
     model.contacts[1].restore({"history": begun})
@@ -147,14 +150,14 @@ def test_a_begun_state_goes_along():
     for one, body, (_, facets, contact) in zip(cut, bodies, punch, strict=True):
         rows, history = body["rows"], body["history"]
         np.testing.assert_array_equal(one.cells[body["cells"]], rows)
-        np.testing.assert_array_equal(history["history"], model.block.state[rows])
-        np.testing.assert_array_equal(history["alpha"], model.block.alpha[rows])
+        np.testing.assert_array_equal(history["history"], model.bodies.only.block.state[rows])
+        np.testing.assert_array_equal(history["alpha"], model.bodies.only.block.alpha[rows])
         np.testing.assert_array_equal(contact["history"][:, 0, 0], 9.0 * facets)
 
 
 def test_each_node_of_a_term_is_on_one_rank_with_what_belongs_to_it():
     model, _ = sheet()
-    (bed,) = model.others
+    (bed,) = model.system.others
     bed.history = np.random.default_rng(4).normal(size=bed.history.shape)
     cut = parcels(model)
     (mine,) = pieces(cut, model, "others")

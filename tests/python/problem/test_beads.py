@@ -51,7 +51,7 @@ def test_a_deck_with_a_bead_is_solved():
 
 def test_faces_of_a_bead_are_those_of_its_contact_or_its_own():
     problem = Problem.read(BEADED, "deck.toml").build()
-    (bead,) = problem.model.others
+    (bead,) = problem.model.system.others
     np.testing.assert_array_equal(bead.faces, problem.contacts["bed"].faces)
     fewer = BEADED.replace("width = 6.0", "width = 6.0\nfaces = { min = [-1, -9, -9], max = [20, 9, -0.4] }")
     (bead,) = Problem.read(fewer, "deck.toml").build().model.others

@@ -209,7 +209,7 @@ def test_a_deck_lets_a_loose_sheet_rest_on_springs():
     )
     assert {supports.level, effort.level} == {Level.OK}
     assert "rests on weak springs: translation z" in supports.text
-    assert not problem.model.others
+    assert not problem.model.system.others
     result = problem.solve()
     assert result["rest_acts"][[0, -1]].tolist() == [1.0, 0.0]
     own = built(hovering + "\n[solution]\nrest = 1e-5\n").model

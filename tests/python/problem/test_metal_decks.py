@@ -61,7 +61,7 @@ BACK = "back_stress = { parts = [[4000.0, 80.0], [600.0, 6.0]] }"
 
 def test_all_parts_are_built():
     problem = Problem.read(DECK, "deck.toml").build()
-    assert problem.model.material == uf.Metal(
+    assert problem.model.bodies.only.material == uf.Metal(
         206e3,
         0.3,
         hardening=uf.Voce(180.0, 330.0, 14.0),

@@ -34,9 +34,11 @@ def deck(more):
 @pytest.mark.parametrize("words", FUNCTIONS)
 def test_yield_functions(words):
     model = deck(f'rolling = "y"\nyield_function = {{ {words} }}').build().model
-    assert model.material == mt.Metal(210e3, 0.3, hardening=mt.Perfect(160.0), yield_function=FUNCTIONS[words])
-    assert model.body.rolling.tolist() == [0.0, 1.0, 0.0]
-    assert model.block.quantities == {"plastic_strain": 6, "eqps": 1}
+    assert model.bodies.only.material == mt.Metal(
+        210e3, 0.3, hardening=mt.Perfect(160.0), yield_function=FUNCTIONS[words]
+    )
+    assert model.bodies.only.rolling.tolist() == [0.0, 1.0, 0.0]
+    assert model.bodies.only.block.quantities == {"plastic_strain": 6, "eqps": 1}
 
 
 def test_all_parts():

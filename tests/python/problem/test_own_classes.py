@@ -123,8 +123,8 @@ def test_a_curve_of_the_user(deck):
 def test_a_law_of_the_user(deck):
     material = 'law = "own_laws:Softer"\nE = 210e3\nnu = 0.3\nrolling = "x"'
     model = load(deck(material), trust=True).build().model
-    assert pytest.approx(210e3) == model.material.E and model.bodies[0].rolling is not None
-    assert law_keys(model.material) == {"law": "own_laws:Softer", "E": 210e3, "nu": 0.3}
+    assert pytest.approx(210e3) == model.bodies.only.material.E and model.bodies[0].rolling is not None
+    assert law_keys(model.bodies.only.material) == {"law": "own_laws:Softer", "E": 210e3, "nu": 0.3}
 
 
 @pytest.mark.parametrize(

@@ -115,7 +115,7 @@ def test_the_mesh_takes_the_cells_of_the_element(strip):
     )
     model = Problem.read(text).build().model
     assert model.mesh.cell == "hex18"
-    assert (model.element.thickness_order, model.thickness_points) == (3, 6)
+    assert (model.bodies.only.element.thickness_order, model.bodies.only.thickness_points) == (3, 6)
 
 
 def test_rolled_strip(strip):
@@ -180,7 +180,7 @@ def test_every_control_is_that_of_the_model(strip):
     }
     assert sums == {"push": [0, 0, -1], "drag": [20, 0, 0], "edge": [0, 2, 0], "weight": [0, 0, -20]}
     contact = problem.contacts["floor"]
-    problem.model.time = 0.5
+    problem.model.system.time = 0.5
     Q, c = contact.pose
     assert c.tolist() == [0, 0, 0.5]
     assert np.allclose(Q @ [1, 0, 0], [np.sqrt(0.5), 0, -np.sqrt(0.5)])

@@ -63,7 +63,7 @@ def test_a_deck_holds_in_cylindrical_axes_and_frees_a_support_by_name():
     model = problem.model
     roller = model.supports[1]
     assert roller.name == "roller"
-    assert len(model.rows) == 2
+    assert len(model.supports.rows) == 2
     result = problem.solve(progress=False)
     np.testing.assert_allclose(result["roller"], [0, 0, 0, 2 / 3, 1 / 3, 0], atol=1e-12)
     assert roller.removed

@@ -113,7 +113,7 @@ def test_a_tool_that_stays_keeps_its_friction(pressed, edge, same):
     problem = load(folder / "trim.toml").build()
     assert ("fitted to the line" in problem.notes[0]) == (edge == "line")
     die = problem.contacts["die"]
-    found = problem.model.evaluate(problem.model.x).found[die]
+    found = problem.model.evaluate(problem.model.system.x).found[die]
     points = same * die.block.per_facet
     np.testing.assert_allclose(found.friction[:points], before.friction[:points], rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(found.slip[:points], before.slip[:points], rtol=1e-9)
@@ -136,7 +136,7 @@ def test_a_tool_that_stays_keeps_the_penalty_that_has_grown(tmp_path):
     die = problem.contacts["die"]
     assert die.penalty == before.penalty > 1.1 * die.initial_penalty
     points = 7 * die.block.per_facet
-    found = problem.model.evaluate(problem.model.x).found[die]
+    found = problem.model.evaluate(problem.model.system.x).found[die]
     np.testing.assert_allclose(found.pressure[:points], before.found.pressure[:points], rtol=1e-9)
     problem.solve(progress=False)
     assert die.penalty >= before.penalty

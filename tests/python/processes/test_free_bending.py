@@ -94,7 +94,7 @@ def test_model_of_the_case():
     assert punch.name == "punch"
     assert len(punch.dofs) == 5
     assert model.mesh.cell == "hex18"
-    assert np.flatnonzero(model._fixed[1::3]).size == 1
+    assert np.flatnonzero(model.supports.fixed[1::3]).size == 1
 
 
 @pytest.mark.parametrize(

@@ -80,7 +80,7 @@ def test_what_is_refused():
 
 def test_a_bead_takes_the_direction_too():
     model, _ = build(DrawBead(thickness=1.0, material=ALUMINIUM, rolling=90.0))
-    assert model.body.rolling == pytest.approx([-1.0, 0.0, 0.0])
+    assert model.bodies.only.rolling == pytest.approx([-1.0, 0.0, 0.0])
 
 
 def test_the_example_writes_its_table():

@@ -254,26 +254,26 @@ def test_energies_change_no_history_and_are_bitwise_the_same_for_any_number_of_t
     model = case.model
     solve(model, Move(case.punch, -1.0, steps=4), frames=0)
     before, residual = umform.threads(), model.evaluate(model.u).residual
-    state = model.block.state
+    state = model.bodies.only.block.state
     try:
         found = set()
         for count in (1, 2, 3):
             umform.set_threads(count)
-            found.add(model.block.energy(model.u))
+            found.add(model.bodies.only.block.energy(model.u))
     finally:
         umform.set_threads(before)
     assert len(found) == 1
     elastic, plastic = found.pop()
     assert elastic > 0.0
     assert plastic > 0.0
-    np.testing.assert_array_equal(model.block.state, state)
+    np.testing.assert_array_equal(model.bodies.only.block.state, state)
     np.testing.assert_array_equal(model.evaluate(model.u).residual, residual)
 
 
 def test_energy_of_a_block_is_the_integral_over_its_points(build, materials):
     case = build.free_bending((8, 1), element="EAS3DEAS", material=materials["j2"])
     solve(case.model, Move(case.punch, -2.0, steps=5), frames=0)
-    block = case.model.block
+    block = case.model.bodies.only.block
     E, _, _, _, dV = block.point_fields(case.model.u)
     elastic, plastic = materials["j2"].law().energy(E.reshape(-1, 6), block.state.reshape(len(dV.ravel()), -1))
     assert block.energy(case.model.u) == pytest.approx((elastic @ dV.ravel(), plastic @ dV.ravel()), rel=1e-12)
@@ -282,4 +282,4 @@ def test_energy_of_a_block_is_the_integral_over_its_points(build, materials):
 def test_a_displacement_of_another_length_is_refused(build, materials):
     model, _ = build.bar(material=materials["svk"])
     with pytest.raises(ValueError, match="another length"):
-        model.block.energy(np.zeros(5))
+        model.bodies.only.block.energy(np.zeros(5))

@@ -43,7 +43,7 @@ def uniform(build, element, gradient, layers=2):
     u = (made.points @ gradient.T - made.points).ravel()
     evaluation = model.evaluate(u)
     assert evaluation.failed == -1
-    model.commit(evaluation)
+    model.system.commit(evaluation)
     return model
 
 
@@ -143,7 +143,7 @@ def test_frames_hold_reactions_and_fields(build):
     assert "plastic_strain_max" in frame.cells
     total = frame.points["reaction"].sum(axis=0)
     np.testing.assert_allclose(total[2], result["punch_force"][-1], rtol=1e-9)
-    free = frame.points["reaction"].ravel()[case.model.free]
+    free = frame.points["reaction"].ravel()[case.model.system.free]
     assert (free == 0).all()
 
 

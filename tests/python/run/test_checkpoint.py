@@ -189,7 +189,7 @@ def assert_the_same(same_state):
     """Bit by bit, but for the seconds."""
 
     def check(model, result, other, expected):
-        assert same_state(model.snapshot(), other.snapshot())
+        assert same_state(model.system.snapshot(), other.system.snapshot())
         assert_the_same_results(result, expected)
 
     return check
@@ -417,7 +417,7 @@ def test_the_second_interrupt_ends_the_run_at_once(tmp_path, interrupted):
         solve(model, steps, **options, checkpoint=tmp_path / "run.h5", every=0)
     result = caught.value.result
     assert len(result) == 4
-    assert model.time == result["time"][-1]
+    assert model.system.time == result["time"][-1]
     np.testing.assert_array_equal(model.u[model.controls[0].dofs], result["punch"][-1])
     assert rows_in(tmp_path / "run.h5") == 4
 

@@ -41,7 +41,7 @@ def strip():
 
 def of_one_state(result, model):
     frame = result.frames[-1]
-    assert frame.number == len(result) - 1 and frame.time == result["time"][-1] == model.time
+    assert frame.number == len(result) - 1 and frame.time == result["time"][-1] == model.system.time
     np.testing.assert_array_equal(frame.points["displacement"].ravel(), model.u)
     return result["pull"][-1]
 

@@ -8,20 +8,20 @@ import numpy as np
 import pytest
 
 import umform as uf
-from umform.model import Model
+from umform.model import System
 from umform.solution.options import NewtonOptions
 
 
 @pytest.fixture
 def evaluations(monkeypatch):
     """Whether each evaluation of a model had a tangent."""
-    tangents, evaluate = [], Model.evaluate
+    tangents, evaluate = [], System.evaluate
 
     def counted(self, *arguments, tangent=True, **options):
         tangents.append(tangent)
         return evaluate(self, *arguments, tangent=tangent, **options)
 
-    monkeypatch.setattr(Model, "evaluate", counted)
+    monkeypatch.setattr(System, "evaluate", counted)
     return tangents
 
 
@@ -64,7 +64,7 @@ def test_a_step_that_is_not_linear_ends_where_the_consistent_one_does(evaluation
 @pytest.mark.parametrize("factor_cost", [0.0, 5.0])
 def test_no_tangent_is_kept_while_the_next_one_is_evaluated(monkeypatch, factor_cost):
     """With Cholesky's factors nothing asks for the matrix again."""
-    kept, most, evaluate = [], [], Model.evaluate
+    kept, most, evaluate = [], [], System.evaluate
 
     def watched(self, *arguments, **options):
         most.append(sum(array() is not None for array in kept))
@@ -73,7 +73,7 @@ def test_no_tangent_is_kept_while_the_next_one_is_evaluated(monkeypatch, factor_
             kept.append(weakref.ref(evaluation.values))
         return evaluation
 
-    monkeypatch.setattr(Model, "evaluate", watched)
+    monkeypatch.setattr(System, "evaluate", watched)
     result = run(factor_cost, force=0.5, steps=3, element="EAS3DEAS")
     assert result.solver == "multifrontal"
     assert len(kept) > 3

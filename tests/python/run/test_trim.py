@@ -37,7 +37,7 @@ def bent():
 def test_a_part_on_which_nothing_acts_stays_as_it_was(bent):
     part = uf.Trim(BEYOND_13, formed=False, edge="elements").of(bent)
     whole = bent.model
-    np.testing.assert_array_equal(part.model.block.state, whole.block.state[part.cells])
+    np.testing.assert_array_equal(part.model.bodies.only.block.state, whole.bodies.only.block.state[part.cells])
     np.testing.assert_array_equal(part.model.u, whole.u.reshape(-1, 3)[part.nodes].ravel())
     made = part.model
     made.fix("x0", here=True)
@@ -144,7 +144,7 @@ def test_stages_with_a_cut_are_taken_up_from_their_checkpoints(tmp_path, same_st
     again = uf.solve_stages(stages, frames=0, checkpoints=tmp_path, every=0.0)
     once_more = uf.solve_stages(stages, frames=0, checkpoints=tmp_path, every=0.0)
     for other in (again, once_more):
-        assert same_state(other["trim"].model.snapshot(), expected["trim"].model.snapshot())
+        assert same_state(other["trim"].model.system.snapshot(), expected["trim"].model.system.snapshot())
 
 
 def test_the_next_tools_form_the_part_on(bent):
@@ -162,7 +162,7 @@ def test_the_next_tools_form_the_part_on(bent):
     result = uf.solve(model, steps, frames=0)
     assert result["bar_active"].max() > 0
     assert result["plastic_work"][-1] > 1.2 * result["plastic_work"][0]  # it was bent back beyond yielding
-    free = model.evaluate(model.x).residual
+    free = model.evaluate(model.system.x).residual
     assert np.abs(free).max() < 1e-6 * np.abs(result["lift_force"]).max()  # no force acts on it any more
 
 

@@ -58,7 +58,7 @@ def beyond(x, edge="line"):
 
 def rest(part):
     """Elastic energy and plastic work of a part."""
-    return np.array(part.model.block.energy(part.model.u))
+    return np.array(part.model.bodies.only.block.energy(part.model.u))
 
 
 @pytest.mark.parametrize(  # places in elements of 8 degrees
@@ -78,7 +78,7 @@ def test_the_rest_has_the_energy_of_its_metal(bent, degrees, place):
     np.testing.assert_allclose(rest(part), expected, rtol=0.01 if degrees < 8.0 else 0.04)
     lost = part.removed_energies
     removed = np.array([lost.elastic, lost.plastic])
-    np.testing.assert_allclose(rest(part) + removed, model.block.energy(model.u), rtol=1e-12)
+    np.testing.assert_allclose(rest(part) + removed, model.bodies.only.block.energy(model.u), rtol=1e-12)
 
 
 HILL = uf.Metal(
@@ -101,11 +101,11 @@ def test_metals_with_back_stresses_keep_their_energy():
 def test_enhanced_parameters_of_new_elements_are_in_equilibrium(bent):
     """Another evaluation at the same nodes moves none of them. eq. (2.19)"""
     model = beyond(4.4 * CELL).of(bent[4.0]).model
-    before = model.block.alpha
+    before = model.bodies.only.block.alpha
     model.evaluate(model.u)
-    model.block.recover(np.zeros_like(model.u))
-    model.block.commit()
-    assert np.abs(model.block.alpha - before).max() < 1e-6 * np.abs(before).max()
+    model.bodies.only.block.recover(np.zeros_like(model.u))
+    model.bodies.only.block.commit()
+    assert np.abs(model.bodies.only.block.alpha - before).max() < 1e-6 * np.abs(before).max()
 
 
 def springback(part):
@@ -152,7 +152,7 @@ def test_elastic_elements_that_would_store_more_stay_whole():
 def test_metal_that_never_flowed_keeps_its_stress_in_coarse_elements():
     thin = uf.J2(E=210e3, nu=0.3, hardening=uf.Perfect(2000.0))
     model = wrapped(lines_of(CELL), thin, thickness=0.05)
-    assert history_of(model.block)["eqps"].max() == 0.0
+    assert history_of(model.bodies.only.block)["eqps"].max() == 0.0
     part = beyond(4.4 * CELL).of(model)
     below, above = (rest(beyond(x * CELL, "elements").of(model))[0] for x in (4.01, 5.01))
     assert part.remark == "" and part.edge_distance < 1e-9 and below < rest(part)[0] < above
@@ -166,7 +166,7 @@ def test_an_elastic_strip_is_free_of_stress_when_it_is_let_go():
     uf.solve(model, uf.Move(load, 0.3, steps=1), frames=0, progress=False)
     part = beyond(13.3).of(model)
     assert part.remark == "" and (~part.same).any() and rest(part)[0] > 0.01
-    assert (part.model.block.state == STEEL.law().initial()).all()
+    assert (part.model.bodies.only.block.state == STEEL.law().initial()).all()
     springback(part)
     assert rest(part)[0] < 1e-12
 
@@ -175,5 +175,5 @@ def test_a_bend_in_elements_of_18_nodes_follows_elements():
     model = wrapped(np.arange(-1.0, 6.0) * 2.0 * CELL, STEEL, "DISP9K3DEAS", "hex18", thickness_points=5)
     part = beyond(4.4 * CELL).of(model)
     assert "8-node" in part.remark
-    lost, all_of_it = part.removed_energies, model.block.energy(model.u)
+    lost, all_of_it = part.removed_energies, model.bodies.only.block.energy(model.u)
     assert part.same.all() and 0.0 < lost.elastic < all_of_it[0] and 0.0 < lost.plastic < all_of_it[1]

@@ -72,13 +72,15 @@ def stretched(material, **options):
 
 def stresses(model):
     """Second Piola-Kirchhoff stresses in global axes at all points."""
-    return _core.point_stresses(*(a.reshape(-1, *a.shape[2:]) for a in model.block.point_fields(model.u)[:4]))[2]
+    return _core.point_stresses(
+        *(a.reshape(-1, *a.shape[2:]) for a in model.bodies.only.block.point_fields(model.u)[:4])
+    )[2]
 
 
 def back_stress(model):
     """The back stress in global axes at all points."""
-    frame = model.block.point_fields(model.u)[2].reshape(-1, 3, 3)
-    parts = history_of(model.block)["back_stress_1"].reshape(-1, 6)
+    frame = model.bodies.only.block.point_fields(model.u)[2].reshape(-1, 3, 3)
+    parts = history_of(model.bodies.only.block)["back_stress_1"].reshape(-1, 6)
     local = parts[:, [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]
     return np.einsum("pki,pkl,plj->pij", frame, local, frame)
 
@@ -95,8 +97,8 @@ def test_a_uniform_state_is_moved_without_error(metal, options):
     expected, found = stresses(whole), stresses(part.model)
     assert np.abs(expected - expected[0]).max() < 1e-5 * np.abs(expected).max()
     assert np.abs(found - expected[0]).max() < 1e-5 * np.abs(expected).max()
-    eqps = history_of(whole.block)["eqps"][0, 0]
-    np.testing.assert_allclose(*np.broadcast_arrays(history_of(part.model.block)["eqps"], eqps), rtol=1e-6)
+    eqps = history_of(whole.bodies.only.block)["eqps"][0, 0]
+    np.testing.assert_allclose(*np.broadcast_arrays(history_of(part.model.bodies.only.block)["eqps"], eqps), rtol=1e-6)
     if metal is ISOTROPIC:
         backs = [back_stress(whole), back_stress(part.model)]
         assert np.abs(backs[1] - backs[0][0]).max() < 1e-4 * np.abs(backs[0]).max() > 1e-3
@@ -138,12 +140,12 @@ def test_springback_is_that_of_a_mesh_with_an_edge_on_the_line(bent):
 def test_plastic_strain_stays_between_its_extremes_and_releases_nothing_new(bent):
     whole = bent[20].model
     part = uf.Trim(across(2.6), formed=False).of(whole)  # through metal that has yielded
-    eqps = history_of(part.model.block)["eqps"][~part.same]
-    around = history_of(whole.block)["eqps"][1:5]
+    eqps = history_of(part.model.bodies.only.block)["eqps"][~part.same]
+    around = history_of(whole.bodies.only.block)["eqps"][1:5]
     assert around.max() >= eqps.max() > 0.01 and eqps.min() >= 0.0
-    work = part.model.block.energy(part.model.u)[1]
+    work = part.model.bodies.only.block.energy(part.model.u)[1]
     springback(part)
-    assert part.model.block.energy(part.model.u)[1] == pytest.approx(work, rel=1e-6)
+    assert part.model.bodies.only.block.energy(part.model.u)[1] == pytest.approx(work, rel=1e-6)
 
 
 def test_a_line_on_the_formed_part_is_met_where_the_part_is(bent):
@@ -164,8 +166,8 @@ def test_a_strip_in_plane_strain_has_one_point_across():
     result = uf.solve(model, [uf.Move(press, 1.2, steps=3), uf.Move(press, 0.5, steps=1)], frames=0)
     part = uf.Trim(across(13.3), formed=False).of(result)
     assert part.edge_distance < 1e-12 and part.remark == "" and part.model.bodies[0].element.surface_rule == (2, 1)
-    eqps = history_of(model.block)["eqps"][11:15]
-    assert eqps.min() <= history_of(part.model.block)["eqps"][~part.same].max() <= eqps.max()
+    eqps = history_of(model.bodies.only.block)["eqps"][11:15]
+    assert eqps.min() <= history_of(part.model.bodies.only.block)["eqps"][~part.same].max() <= eqps.max()
 
 
 def test_what_cannot_be_fitted_follows_elements_and_says_why():
@@ -196,7 +198,7 @@ def test_contact_points_keep_their_friction_through_a_cut():
     part.model.fix("upper", here=True)
     plane = part.model.contact("lower", uf.Plane((0.05, 0, -0.5)), name="die", friction=0.3, penalty=1e4)
     assert part.keep_friction(plane) == 6  # the seventh element is fitted to the line
-    found, points = part.model.evaluate(part.model.x).found[plane], 6 * plane.block.per_facet
+    found, points = part.model.evaluate(part.model.system.x).found[plane], 6 * plane.block.per_facet
     np.testing.assert_allclose(found.friction[:points], die.found.friction[:points], rtol=1e-12, atol=1e-12)
     np.testing.assert_allclose(found.slip[:points], die.found.slip[:points], rtol=1e-12)
     assert die.found.slip[:points].min() > 0.06

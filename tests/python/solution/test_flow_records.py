@@ -10,23 +10,23 @@ from umform.solution.newton import Newton
 def test_newton_records_the_points_that_begin_or_cease_to_flow(build):
     """Two increments of a strip that yields as it is bent."""
     case = build.free_bending((8, 1))
-    model, newton = case.model, Newton(case.model)
+    model, newton = case.model, Newton(case.model.system)
     seen = []
-    newton.callbacks.append(lambda record: seen.append((record.switched, model.block.flowing.astype(bool))))
+    newton.callbacks.append(lambda record: seen.append((record.switched, model.bodies.only.block.flowing.astype(bool))))
     for value in (-0.5, -1.0):
         case.punch.value = value
-        before = model.block.state
+        before = model.bodies.only.block.state
         seen.clear()
         converged = newton.solve()
-        model.commit(converged.evaluation)
+        model.system.commit(converged.evaluation)
         counts, flowing = zip(*seen, strict=True)
         assert list(counts[1:]) == [(a ^ b).sum() for a, b in pairwise(flowing)]
         assert max(counts) > 0
-        changed_history = (model.block.state != before).any(axis=-1).ravel()
+        changed_history = (model.bodies.only.block.state != before).any(axis=-1).ravel()
         assert (flowing[-1] == changed_history).all()
         assert 0 < changed_history.sum() < changed_history.size
         assert (converged.evaluation.flowing == flowing[-1]).all()  # the evaluation keeps what it found
-        assert not model.block.flowing.any()  # committed: nothing has changed since
+        assert not model.bodies.only.block.flowing.any()  # committed: nothing has changed since
 
 
 def test_a_law_without_history_does_not_flow(build):

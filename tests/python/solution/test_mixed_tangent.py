@@ -39,7 +39,7 @@ def block(element, law):
 
 def increment(model, size, seed=1):
     """An increment of all free degrees of freedom."""
-    free = np.isin(np.arange(model.u.size), model.free)
+    free = np.isin(np.arange(model.u.size), model.system.free)
     return np.where(free, size * np.random.default_rng(seed).standard_normal(model.u.size), 0.0)
 
 
@@ -47,9 +47,9 @@ def difference(model, u, du):
     """Consistent tangent, and what the mixed one after ``du`` has beyond that, at the same enhanced parameters."""
     found = []
     for mixed in (False, True):
-        model.revert()
+        model.system.revert()
         model.evaluate(model.u)
-        model.recover(du, mixed)
+        model.system.recover(du, mixed)
         found.append(model.evaluate(u))
     consistent, other = found
     np.testing.assert_array_equal(other.residual, consistent.residual)
@@ -87,12 +87,12 @@ def test_what_is_taken_back_leaves_the_consistent_tangent():
     model = block("EAS3DEAS", mt.NeoHooke(E=100.0, nu=0.3))
     u, du = increment(model, 0.02, seed=2), increment(model, 0.03)
     consistent = model.evaluate(u).values.copy()
-    model.recover(du, mixed=True)
+    model.system.recover(du, mixed=True)
     assert (model.evaluate(u).values != consistent).any()
-    model.shorten(0.0)
+    model.system.shorten(0.0)
     np.testing.assert_array_equal(model.evaluate(u).values, consistent)
-    model.recover(du, mixed=True)
-    model.revert()
+    model.system.recover(du, mixed=True)
+    model.system.revert()
     np.testing.assert_array_equal(model.evaluate(u).values, consistent)
 
 
@@ -104,9 +104,9 @@ def test_what_is_committed_leaves_the_consistent_tangent(element):
         model = block(element, mt.NeoHooke(E=100.0, nu=0.3))
         u, du = increment(model, 0.02, seed=2), increment(model, 0.03)
         model.evaluate(model.u)
-        model.recover(du, mixed)
+        model.system.recover(du, mixed)
         evaluation = model.evaluate(u)
-        model.commit(evaluation)
+        model.system.commit(evaluation)
         return evaluation.values, model.evaluate(u).values.copy()
 
     (plain, plain_after), (mixed, after) = committed(False), committed(True)
@@ -140,7 +140,7 @@ def test_its_convergence_is_quadratic():
     model, _ = rolled(True)
     for control in model.controls:
         control.value = 7.8
-    records = Newton(model, NewtonOptions(residual=1e-12, increment=1e-12)).solve().iterations
+    records = Newton(model.system, NewtonOptions(residual=1e-12, increment=1e-12)).solve().iterations
     norms = [r.residual for r in records if r.residual > 1e-11]
     orders = np.log(np.array(norms[2:]) / norms[1:-1]) / np.log(np.array(norms[1:-1]) / norms[:-2])
     assert orders.max() > 1.8
@@ -150,14 +150,14 @@ def test_plastic_answers_are_the_same():
     """Of a law with a history too: the residual that is solved is the same."""
     (plain, before), (mixed, after) = (rolled(way, law=steel(), steps=40) for way in (False, True))
     assert len(before) == len(after) == 41  # the answer depends on the increments
-    assert (history_of(plain.block)["eqps"] > 0).any()
+    assert (history_of(plain.bodies.only.block)["eqps"] > 0).any()
     np.testing.assert_allclose(mixed.u, plain.u, atol=1e-6 * np.abs(plain.u).max())
 
 
 def test_by_default_elastic_sheets_take_it():
     elastic, plastic, touching = block("ANS3DEAS", mt.SVK(E=100.0, nu=0.3)), block("ANS3DEAS", steel()), rolled(True)[0]
     touching.contact("lower", Plane(point=(0, 0, -5), normal=(0, 0, 1)), penalty=1.0)
-    assert [Newton(model).mixed for model in (elastic, plastic, touching)] == [True, False, True]
+    assert [Newton(model.system).mixed for model in (elastic, plastic, touching)] == [True, False, True]
     assert Newton(plastic, NewtonOptions(mixed=True)).mixed
     assert not Newton(elastic, NewtonOptions(mixed=False)).mixed
 
@@ -165,11 +165,11 @@ def test_by_default_elastic_sheets_take_it():
 def test_an_increment_that_fails_with_it_is_tried_with_the_consistent_tangent(monkeypatch):
     original, tried = Newton.solve, []
 
-    def solve_with(self, extrapolation=None, mode=None, beyond=None, keep=False):
+    def solve_with(self, goal, extrapolation=None, mode=None, beyond=None, keep=False):
         tried.append((extrapolation is not None, not mode.mixed))
         if mode.mixed:
             raise Failed("not with this one", [])
-        return original(self, extrapolation, mode, beyond, keep)
+        return original(self, goal, extrapolation, mode, beyond, keep)
 
     monkeypatch.setattr(Newton, "solve", solve_with)
     _, result = rolled(True)

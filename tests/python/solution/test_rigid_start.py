@@ -19,13 +19,15 @@ def between(below: float, above: float, *, fixed: str = "xy") -> uf.Model:
 
 
 def test_the_sheet_goes_to_the_middle_of_two_tools_that_are_too_close():
-    start = rigid_start(between(0.02, 0.01))
+    model = between(0.02, 0.01)
+    start = rigid_start(model, model.state)
     np.testing.assert_allclose(start.reshape(-1, 3), np.tile([0.0, 0.0, 0.015], (20, 1)), atol=1e-12)
 
 
 @pytest.mark.parametrize("given", [{"above": 0.03}, {"above": 0.01, "fixed": "xyz"}])
 def test_there_is_no_such_motion_with_room_or_with_supports(given):
-    assert rigid_start(between(0.02, **given)) is None
+    model = between(0.02, **given)
+    assert rigid_start(model, model.state) is None
 
 
 def tipped() -> tuple[uf.Model, uf.Move]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from contextlib import nullcontext
+from dataclasses import dataclass
 from types import SimpleNamespace
 
 import numpy as np
@@ -19,14 +20,28 @@ def iteration(residual: float, increment: float = 1e-5) -> Iteration:
     return Iteration(1, residual, increment, 0.0, 0, 0, 1.0, 0, 0.0)
 
 
+@dataclass
+class At:
+    """An increment."""
+
+    model: SimpleNamespace
+    newton: SimpleNamespace
+    statistics: SimpleNamespace
+    touched: bool
+    goal: None = None
+
+    def accept(self, found):
+        return found
+
+
 def increment(last: bool, touched: bool):
     attempts = SimpleNamespace(trying=lambda name: nullcontext(), causes=Counter())
     statistics = SimpleNamespace(record=lambda **what: None, record_cut=lambda what: None, last=last)
-    newton = SimpleNamespace(timing=SimpleNamespace(attempts=attempts), settled=0.0)
-    model = SimpleNamespace(prepare=lambda: None)
-    return SimpleNamespace(
-        model=model, newton=newton, statistics=statistics, touched=touched, accept=lambda found: found
+    timing = SimpleNamespace(attempts=attempts)
+    newton = SimpleNamespace(
+        timing=timing, settled=0.0, but=lambda settled: SimpleNamespace(timing=timing, settled=settled)
     )
+    return At(SimpleNamespace(system=SimpleNamespace(prepare=lambda goal: None)), newton, statistics, touched)
 
 
 def attempt(*records: Iteration):

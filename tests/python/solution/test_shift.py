@@ -47,7 +47,7 @@ def test_a_strip_that_loses_its_hold_on_a_shoulder_jumps_to_the_next_stable_stat
 def test_so_does_one_with_an_unsymmetric_tangent():
     model, stroke = bent(24, friction=0.001)
     result = uf.solve(model, stroke, progress=False, frames=0)
-    assert not model.pattern.symmetric
+    assert not model.system.pattern.symmetric
     assert result["stroke"][-1] == STROKE
     assert np.abs(result.balance().drift).max() < 0.02
 
@@ -82,10 +82,11 @@ def test_increments_near_a_saddle_are_doubled_until_the_slope_has_fallen():
         restrict=lambda r: r,
         ranks=SimpleNamespace(dot=lambda a, b: float(a @ b)),
         shorten=shortened.append,
+        state_at=lambda u, goal: u,
         evaluate=lambda u: SimpleNamespace(residual=u**3 - u, failed=-1, x=u, force_scale=1.0),
     )
     u, du = np.array([0.01]), np.array([0.02])
-    evaluation, length = lengthened(system, u, du, u**3 - u, system.evaluate(u + du), 1.0)
+    evaluation, length = lengthened(system, None, u, du, u**3 - u, system.evaluate(u + du), 1.0)
     assert shortened[:6] == [2.0] * 6
     assert length == np.prod(shortened)
     assert 0.3 < evaluation.x[0] < 1.5

@@ -91,14 +91,14 @@ def test_the_straight_way_of_a_screw_is_its_logarithm():
 
 def test_a_guess_goes_round_only_where_the_sheet_does_and_supports_let_it():
     model, spin = carried()
-    last, x = model.evaluate(model.x), model.mesh.points + model.u.reshape(-1, 3)
-    spin.value = 0.2
+    last, x = model.evaluate(model.system.x), model.mesh.points + model.u.reshape(-1, 3)
+    goal = model.state.toward({spin.name: 0.2})
     way = np.cross([0.0, 0.0, 0.2], x)
     c, s = np.cos(0.2), np.sin(0.2)
     end = x @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]).T
-    np.testing.assert_allclose(way.ravel() + around(model, last, way.ravel()), (end - x).ravel(), atol=1e-14)
-    assert around(model, last, 0.3 * way.ravel()) is None  # it slips
-    assert around(model, last, np.zeros_like(model.x)) is None
+    np.testing.assert_allclose(way.ravel() + around(model, goal, last, way.ravel()), (end - x).ravel(), atol=1e-14)
+    assert around(model, goal, last, 0.3 * way.ravel()) is None  # it slips
+    assert around(model, goal, last, np.zeros_like(model.system.x)) is None
     corner = model.mesh.points[:, :2].sum(axis=1).argmin()
     model.fix(np.array([corner]), "x")
-    assert around(model, last, way.ravel()) is None
+    assert around(model, goal, last, way.ravel()) is None

@@ -58,7 +58,7 @@ def tangent(cells, cell="hex8"):
     model = uf.Model(mesh, "ANS3DEAS" if cell == "hex8" else "MI9K3DEAS", material=uf.SVK(E=210e3, nu=0.3))
     model.fix("x0")
     values = model.evaluate(np.zeros_like(model.u)).values
-    pattern = model.pattern
+    pattern = model.system.pattern
     upper = sparse.csr_matrix((values, pattern.indices, pattern.indptr), shape=(pattern.n, pattern.n))
     return (upper + sparse.triu(upper, 1).T).tocsr()
 

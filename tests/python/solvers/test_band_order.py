@@ -14,7 +14,7 @@ def pattern_of(along, across, cell="hex8"):
     mesh = uf.mesh.strip(float(along), float(across), 0.5, (along, across), cell=cell)
     model = uf.Model(mesh, "ANS3DEAS" if cell == "hex8" else "MI9K3DEAS", material=uf.SVK(E=1.0, nu=0.3))
     model.fix("x0")
-    return model.pattern
+    return model.system.pattern
 
 
 def shuffled(pattern, seed=0):

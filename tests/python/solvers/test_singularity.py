@@ -11,6 +11,7 @@ from scipy import sparse
 
 import umform as uf
 from umform.errors import NoConvergence, SingularMatrix
+from umform.model import System
 from umform.solvers import multifrontal
 from umform.solvers.singularity import Iteration, weak_pivot
 
@@ -25,7 +26,7 @@ def sheet(size, cells, turned=0.0, clamped=True):
     points = mesh.points
     c, s = np.cos(turned), np.sin(turned)
     turn = np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
-    pattern, values = model.pattern, model.evaluate((points @ turn.T - points).reshape(model.u.shape)).values
+    pattern, values = model.system.pattern, model.evaluate((points @ turn.T - points).reshape(model.u.shape)).values
     upper = sparse.csr_matrix((values, pattern.indices, pattern.indptr), shape=(pattern.n, pattern.n))
     whole = (upper + sparse.triu(upper, 1).T).tocsr()
     held = (points[:, 0] == points[:, 0].min()) & (clamped | (points[:, 2] == points[:, 2].min()))
@@ -230,8 +231,8 @@ def cantilever(slenderness, turned=0.0, unit=1.0, deflection=1e-3):
 def test_a_cantilever_that_resists_less_than_rounding_bends_as_it_should(turned, unit, monkeypatch):
     """t/L = 1e-4, where eq. (5.53) refuses the tangent of a clamped sheet: forces are exact, Newton converges."""
     found = []
-    mechanism = uf.Model.mechanism
-    monkeypatch.setattr(uf.Model, "mechanism", lambda *own: found.append(mechanism(*own)) or found[-1])
+    mechanism = System.mechanism
+    monkeypatch.setattr(System, "mechanism", lambda *own: found.append(mechanism(*own)) or found[-1])
     tip, evaluations = cantilever(1e-4, turned, unit)
     assert found and all(motion is None for motion in found)
     assert tip == pytest.approx(1.0, rel=1e-3)

@@ -23,8 +23,8 @@ def plate():
 
 
 def dense(model, values):
-    matrix = np.zeros((model.pattern.n, model.pattern.n))
-    matrix[model.pattern.rows, model.pattern.indices] = values
+    matrix = np.zeros((model.system.pattern.n, model.system.pattern.n))
+    matrix[model.system.pattern.rows, model.system.pattern.indices] = values
     return matrix
 
 
@@ -32,7 +32,7 @@ def dense(model, values):
 def test_a_follower_pressure_with_each_solver(solver):
     model, pressure = plate()
     result = uf.solve(model, uf.Move(pressure, to=1.0, steps=4), solver=solver, frames=0, progress=False)
-    assert not model.pattern.symmetric
+    assert not model.system.pattern.symmetric
     matrix = dense(model, model.evaluate(model.u).values)
     assert np.abs(matrix - matrix.T).max() > 1e-5 * np.abs(matrix).max()
     assert np.abs(model.u).max() > 2.0  # far from the start
@@ -59,5 +59,5 @@ def test_old_factors_of_an_unsymmetric_tangent(solver):
 def test_the_banded_solver_leaves_it_to_others():
     model, _ = plate()
     with pytest.raises(uf.UmformError, match="symmetric matrices only"):
-        Newton(model, solver="banded").ready_solver()
-    assert Newton(model).solver != "banded"
+        Newton(model.system, solver="banded").ready_solver()
+    assert Newton(model.system).solver != "banded"

@@ -40,15 +40,15 @@ def test_the_rate_of_the_residual_is_its_derivative_with_the_load_parameter(kind
         contact = model.contact("upper", Plane((0.0, 0.0, 0.15), "-z"), penalty=50.0)
         control = model.drive(contact, (0.3, 0.0, -1.0))
     u = 0.02 * rng.normal(size=model.u.size)
-    along = model.displacement_of_supports({control: 0.7})
+    along = model.supports.displacement({control: 0.7})
 
     def residual(step):
         control.value = 0.01 + 0.7 * step
-        return model.restrict(model.evaluate(u + step * along).residual)
+        return model.system.restrict(model.evaluate(u + step * along).residual)
 
     expected = build.central_difference(residual, 0.0, 1.0, 1e-5)
     control.value = 0.01
-    found = model.restrict(model.evaluate(u, rates={control: 0.7}).predictor)
+    found = model.system.restrict(model.evaluate(u, rates={control: 0.7}).predictor)
     assert build.relative_error(found, expected) < 1e-6
     np.testing.assert_array_equal(model.evaluate(u, rates={control: 0.7}).residual, model.evaluate(u).residual)
 
@@ -89,9 +89,9 @@ def test_an_arc_follows_the_path_of_a_move(problem, kind, build):
     other, moved, _ = made()
     expected = solve(other, [Move(moved, v, steps=1) for v in result[control.name][1:]], options=TIGHT, frames=0)
     np.testing.assert_allclose(model.u, other.u, atol=1e-7 * np.abs(other.u).max())
-    np.testing.assert_allclose(model.block.state, other.block.state, atol=1e-7)
+    np.testing.assert_allclose(model.bodies.only.block.state, other.bodies.only.block.state, atol=1e-7)
     np.testing.assert_allclose(result[f"{control.name}_force"], expected[f"{control.name}_force"], rtol=1e-6, atol=1e-9)
-    assert problem != "plastic" or history_of(model.block)["eqps"].max() > 1e-3
+    assert problem != "plastic" or history_of(model.bodies.only.block)["eqps"].max() > 1e-3
 
 
 def test_load_and_displacement_control_meet_the_same_path_through_snap_through(build):

@@ -56,26 +56,28 @@ def test_column_row_and_corner_are_derivatives(kind, held, build, rng):
     equation.load_weight = 0.3
     if not held:
         equation.ask(0.5, model.u - 0.01 * rng.normal(size=model.u.size))
-    with model.with_term(equation):
-        x = model.x + 0.003 * rng.normal(size=model.x.size)
-        supports = model.displacement_of_supports(line.rates)
+    with model.system.with_term(equation):
+        x = model.system.x + 0.003 * rng.normal(size=model.system.x.size)
+        supports = model.supports.displacement(line.rates)
         x[: model.u.size] += x[-1] * supports
-        ahead = rng.normal(size=model.x.size)
-        ahead = model.extend(model.coefficients(ahead))
+        ahead = rng.normal(size=model.system.x.size)
+        ahead = model.system.extend(model.system.coefficients(ahead))
         evaluation = model.evaluate(x)
-        solver = Newton(model).ready_solver()
+        solver = Newton(model.system).ready_solver()
         solver.factor(evaluation)
 
         def residual(step):
             found = model.evaluate(x + step * ahead)
             scaled = found.residual.copy()
             scaled[-1] *= evaluation.force_scale / found.force_scale
-            return model.restrict(scaled)
+            return model.system.restrict(scaled)
 
         change = build.central_difference(residual, 0.0, 1.0, 1e-6)
-        np.testing.assert_allclose(solver.solve(change), model.coefficients(ahead), atol=1e-5 * np.abs(ahead).max())
-    assert model.others == []
-    assert model.x.size == model.u.size + (kind == "press")
+        np.testing.assert_allclose(
+            solver.solve(change), model.system.coefficients(ahead), atol=1e-5 * np.abs(ahead).max()
+        )
+    assert model.system.others == []
+    assert model.system.x.size == model.u.size + (kind == "press")
 
 
 def test_an_arc_raises_the_force_that_presses_a_tool():
@@ -96,9 +98,9 @@ def test_between_increments_the_load_parameter_is_no_unknown(build):
     sizes = []
 
     def look(model):
-        sizes.append(model.x.size)
-        assert np.isfinite(model.evaluate(model.x).residual).all()
-        return not model.snapshot().unknowns and len(sizes) == 3
+        sizes.append(model.system.x.size)
+        assert np.isfinite(model.evaluate(model.system.x).residual).all()
+        return not model.system.snapshot().unknowns and len(sizes) == 3
 
     result = solve(model, Arc(load, 0.1, until=look), frames=0)
     assert sizes == [model.u.size] * 3

@@ -118,14 +118,14 @@ def test_a_run_that_closes_a_tool_is_taken_up_to_the_last_bit(tmp_path, stop):
             return solve_again(path, model, steps), model
         if until is not None:
             count = iter(range(1000))
-            commit = model.commit
+            commit = model.system.commit
 
             def stopping(evaluation):
                 commit(evaluation)
                 if next(count) == until:
                     raise KeyboardInterrupt
 
-            model.commit = stopping
+            model.system.commit = stopping
             with pytest.raises(KeyboardInterrupt):
                 solve(model, steps, checkpoint=path, every=0.0)
             return None, model

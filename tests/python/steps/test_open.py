@@ -154,14 +154,14 @@ def test_a_run_that_opens_tools_is_taken_up_to_the_last_bit(tmp_path, stop):
         steps = [Close(part.hold, force=-10.0), Move(part.stroke, -0.5, steps=2), Free(part.model.tools, 4, on=gauge)]
         if work is resume:
             return resume(path, part.model, steps, every=0.0), part
-        commits, commit = iter(range(1000)), part.model.commit
+        commits, commit = iter(range(1000)), part.model.system.commit
 
         def stopping(evaluation):
             commit(evaluation)
             if next(commits) == until:
                 raise KeyboardInterrupt
 
-        part.model.commit = stopping
+        part.model.system.commit = stopping
         try:
             return solve(part.model, steps, checkpoint=path, every=0.0), part
         except KeyboardInterrupt:
@@ -190,7 +190,7 @@ def test_tools_act_again_if_the_first_increment_fails():
     assert part.hold.value == -10.0
     assert [tool.load.value for tool in part.model.tools] == [0.0, 0.0, 0.0]
     np.testing.assert_array_equal(part.model.u, u)
-    found = part.model.evaluate(part.model.x).found[part.model.contacts[2]]
+    found = part.model.evaluate(part.model.system.x).found[part.model.contacts[2]]
     np.testing.assert_allclose(found.resultant()[0], force, rtol=1e-9)
 
 
@@ -202,7 +202,7 @@ def test_a_part_is_held_by_six_degrees_of_freedom_at_three_nodes():
     gauge = model.hold_rigid(corners)
     assert len(gauge.held) == 6
     np.testing.assert_array_equal(np.unique(gauge.held // 3), corners)
-    assert model.unknown_count == 3 * len(mesh.points)  # it waits
+    assert model.supports.unknown_count == 3 * len(mesh.points)  # it waits
     with pytest.raises(InvalidValue, match="cannot hold"):
         model.hold_rigid(corners[:2])
     model.fix("x0")

@@ -85,7 +85,7 @@ def test_a_loose_sheet_that_tools_will_hold_rests_on_springs_by_itself():
     other.rest()
     np.testing.assert_array_equal(solve(other, Close(hold, force=-200.0))["holder_fz"], by_itself["holder_fz"])
     again = solve(model, Move(model.controls[0], -250.0, steps=1))  # the tools hold it now
-    assert [term.name for term in model.others] == ["rest"]
+    assert [term.name for term in model.system.others] == ["rest"]
     assert again["rest_acts"][-1] == 0.0
 
 
@@ -135,14 +135,14 @@ def test_a_run_with_springs_is_taken_up_to_the_last_bit(tmp_path, stop):
         steps = [Close(hold, force=-200.0), Move(hold, -250.0, steps=2)]
         if work is resume:
             return resume(path, model, steps, every=0.0), model
-        commits, commit = iter(range(1000)), model.commit
+        commits, commit = iter(range(1000)), model.system.commit
 
         def stopping(evaluation):
             commit(evaluation)
             if next(commits) == until:
                 raise KeyboardInterrupt
 
-        model.commit = stopping
+        model.system.commit = stopping
         try:
             return solve(model, steps, checkpoint=path, every=0.0), model
         except KeyboardInterrupt:

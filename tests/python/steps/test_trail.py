@@ -53,9 +53,9 @@ def starts(monkeypatch):
 
     original, seen = Newton.solve, []
 
-    def watched(self, extrapolation=None, mode=None, beyond=None, keep=False):
+    def watched(self, goal, extrapolation=None, mode=None, beyond=None, keep=False):
         seen.append(extrapolation)
-        return original(self, extrapolation, mode, beyond, keep)
+        return original(self, goal, extrapolation, mode, beyond, keep)
 
     monkeypatch.setattr(Newton, "solve", watched)
     return seen

@@ -72,7 +72,7 @@ def test_bending_in_a_v_die_converges_quadratically(where):
     assert force[2] == pytest.approx(-on_punch[2], rel=1e-6)
     assert force[2] < -1.0
     punch.value -= 0.01
-    records = Newton(model, NewtonOptions(residual=1e-12)).solve().iterations
+    records = Newton(model.system, NewtonOptions(residual=1e-12)).solve().iterations
     assert sum(record.entered + record.left for record in records[1:]) == 0
     norms = [record.residual for record in records if record.residual > 1e-11]
     assert len(norms) >= 3

@@ -375,7 +375,7 @@ def test_the_forces_do_not_depend_on_the_way_of_the_sheet():
 
     model = lying()
     for step in (0.0, 0.05, 0.6, 3.0, -3.0, 0.01, 0.3, 0.02):
-        way = model.x.copy()
+        way = model.system.x.copy()
         way[: model.mesh.points.size] += np.tile([step, 0.3 * step, 0.01 * step], len(model.mesh.points))
         found, fresh = model.evaluate(way), lying().evaluate(way)
         assert np.array_equal(found.residual, fresh.residual)

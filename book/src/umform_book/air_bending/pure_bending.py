@@ -70,7 +70,7 @@ class Arc(ArcBending):
 
     def closed_springback(self) -> float:
         """Moment and radii of the closed form."""
-        radii, material = self.radii(), self.model.material
+        radii, material = self.radii(), self.model.bodies.only.material
         assert isinstance(material, J2)
         return springback(self.moment, radii[0], radii[-1], material)
 
@@ -89,7 +89,7 @@ class Arc(ArcBending):
 
         The arc is put back after it.
         """
-        before = self.model.snapshot(), self.w, self.rate, self.curvature, self.moment
+        before = self.model.system.snapshot(), self.w, self.rate, self.curvature, self.moment
         loaded = self.curvature
         guess = self.closed_springback()
         steps = []
@@ -98,7 +98,7 @@ class Arc(ArcBending):
             steps.append((self.curvature, self.moment))
         (k1, m1), (k2, m2) = steps
         snapshot, self.w, self.rate, self.curvature, self.moment = before
-        self.model.restore(snapshot)
+        self.model.system.restore(snapshot)
         return 1.0 - (k2 - m2 * (k1 - k2) / (m1 - m2)) / loaded
 
     def _height_at(self, value: float, of_layers: Floats) -> float:

@@ -37,7 +37,7 @@ def plate(variant: Variant, divisions: int) -> tuple[Mesh, Floats]:
     model.symmetry(lambda x, y, z: x < tiny, "x")
     model.symmetry(lambda x, y, z: y < tiny, "y")
     model.fix(lambda x, y, z: np.hypot(x, y) > RADIUS - tiny)
-    return mesh, linear_solution(model, model.body_force((0, 0, -LOAD / THICKNESS)).vector)
+    return mesh, linear_solution(model, model.loads.body_force((0, 0, -LOAD / THICKNESS)).vector)
 
 
 def deflection(variant: Variant, divisions: int) -> float:

@@ -37,7 +37,7 @@ def solution(variant: Variant, mesh: Mesh, diaphragm: NDArray[np.integer]) -> Fl
     model.symmetry("x0", "x")
     model.symmetry("y0", "y")
     model.fix(diaphragm, "xz")
-    return linear_solution(model, model.body_force((0, 0, -90 / THICKNESS)).vector)
+    return linear_solution(model, model.loads.body_force((0, 0, -90 / THICKNESS)).vector)
 
 
 def deflection(mesh: Mesh, u: Floats) -> float:

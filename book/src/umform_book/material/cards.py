@@ -51,7 +51,7 @@ def pulled(kind: str, law: Metal, angle: float) -> tuple[float, float]:
     """Stress over that of the hardening curve, and r-value, of the element pulled at an angle."""
     model, end = bar(kind, law, angle)
     uf.solve(model, Move(end, PULL * LENGTH, steps=4), progress=False)
-    at = body_fields(model.body, model.u)
+    at = body_fields(model.bodies.only, model.u)
     plastic = at.cell_average(at.history["plastic_strain"])[0]
     c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
     across = s * s * plastic[0] + c * c * plastic[1] - c * s * plastic[3]
@@ -76,7 +76,7 @@ def sheared(kind: str, law: Metal) -> float:
         slides.append(model.prescribe(middle, "x", "half"))
         ends.append(0.5 * SHEAR * WIDTH)
     uf.solve(model, Move(slides, ends, steps=8), progress=False)
-    at = body_fields(model.body, model.u)
+    at = body_fields(model.bodies.only, model.u)
     found = at.history["plastic_strain"].reshape(-1, 6)
     path = np.full((8, 6), np.nan)
     for row, gamma in enumerate(np.linspace(0.0, SHEAR, 9)[1:]):

@@ -62,14 +62,14 @@ def softest(variant: Variant, aspect: float, strain: float) -> tuple[Floats, Flo
     free = sheet(variant, aspect)
     free.fix("lower", "z")
     free.fix("upper", "z")
-    modes = membrane_modes(free)[:, free.free]
+    modes = membrane_modes(free)[:, free.system.free]
     strains = np.linspace(0.0, strain, STEPS + 1)[1:]
     found = []
     for value in strains:
-        before = model.snapshot()
+        before = model.system.snapshot()
         solve(model, Move(end, aspect * float(np.expm1(value)), steps=1), progress=False, frames=0)
         # The history of the state before with the displacement of this one: the tangent of a point that flows.
-        free.restore(Snapshot(before.u, terms=before.terms))
+        free.system.restore(Snapshot(before.u, terms=before.terms))
         K = stiffness(free, free.evaluate(model.u))
         found.append(np.linalg.eigvalsh(modes @ (K @ modes.T))[0] / LAW.mu)
     return strains, np.array(found)

@@ -131,7 +131,7 @@ class ElementSection:
         flat = strip(length, length, 1.0, (1, 1), cell=catalogue_element(element).cell)
         self.mesh = Mesh(flat.points, {flat.cell: _turned(flat.connectivity, turns)})
         self.length = length
-        self.body = Model(self.mesh, element, material=law, **options).body
+        self.body = Model(self.mesh, element, material=law, **options).bodies.only
         self.block = self.body.block
         self.x = self.mesh.points[:, 0] - 0.5 * length
         middle = 0.5 * (self.mesh.points[:, 2].min() + self.mesh.points[:, 2].max())

@@ -68,9 +68,9 @@ class ArcBending(Bending):
     def _increment(self, curvature: float) -> None:
         model = self.model
         w = self.w + self.rate * (curvature - self.curvature)
-        model.revert()
+        model.system.revert()
         model.evaluate(model.u)
-        model.recover(self._displacement(curvature, w) - model.u)
+        model.system.recover(self._displacement(curvature, w) - model.u)
         directions = self._directions(curvature)
         for iteration in range(_ITERATIONS):
             u = self._displacement(curvature, w)
@@ -84,14 +84,14 @@ class ArcBending(Bending):
             K = directions.T @ (stiffness(model, evaluation) @ directions)
             # Without hardening the neutral line may lie anywhere between two points: the shortest step then.
             dw = -np.linalg.lstsq(K, residual, rcond=1e-9)[0]
-            model.recover(directions @ dw)
+            model.system.recover(directions @ dw)
             w = w + dw
             if np.abs(w).max() > 10.0 * self.thickness:  # far from any sheet
                 break
         raise SolveError("no equilibrium of the bent element", where=f"curvature {curvature:.4g}")
 
     def _accept(self, curvature: float, w: Floats, evaluation: Evaluation) -> None:
-        self.model.commit(evaluation)
+        self.model.system.commit(evaluation)
         self.rate = (w - self.w) / (curvature - self.curvature)
         self.w, self.curvature = w, curvature
         along = self.X[:, 0]

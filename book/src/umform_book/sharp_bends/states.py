@@ -102,16 +102,16 @@ def stretch(model: Model, stretches: Floats, path: Sequence[float]) -> Evaluatio
     X = model.mesh.points
     for part in path:
         u = (X * (stretches**part - 1.0)).ravel()
-        model.revert()
+        model.system.revert()
         model.evaluate(model.u)
-        model.recover(u - model.u)
+        model.system.recover(u - model.u)
         for _ in range(_ITERATIONS):
             evaluation = model.evaluate(u)
             if evaluation.failed >= 0:
                 raise SolveError("an element failed in a homogeneous state", value=stretches)
-            model.recover(np.zeros(u.size))
+            model.system.recover(np.zeros(u.size))
         evaluation = model.evaluate(u)
-        model.commit(evaluation)
+        model.system.commit(evaluation)
     return evaluation
 
 

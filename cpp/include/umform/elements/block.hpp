@@ -96,6 +96,7 @@ class ShellBlockOf final : public ShellBlock {
         if (!from_kept_ && last_.y.size() == followed_.size()) std::swap(last_.y, followed_);
     }
 
+    std::uint64_t staged_returns() const override { return material_->staged_returns(); }
     bool keeps_blocks() const override { return keeps_ || element_.modes() == 0; }
     void keep_blocks() override {
         if (from_kept_) return;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 
 #include "umform/assembly/history.hpp"
@@ -81,6 +82,8 @@ class ShellBlock {
     }
     /// Whether the blocks of the converged state exist: not before the first `commit`, and not after `restore`.
     virtual bool keeps_blocks() const = 0;
+    /// Points at which return maps have gone through stages of a shrinking yield surface, over all evaluations.
+    virtual std::uint64_t staged_returns() const = 0;
 
     const std::vector<double>& state() const { return history_.state(); }
     /// The parts of the history of a point, in their order.

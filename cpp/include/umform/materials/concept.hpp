@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <concepts>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -108,6 +110,8 @@ class Material {
     /// Energies at n points whose history `state` belongs to the strain (it has been committed); `cell` is the number of their
     /// element for messages, or -1.
     virtual void energy(int n, const Voigt* E, const double* state, Energy* energies, std::int32_t cell) const = 0;
+    /// Points at which its return map has gone through stages so far.
+    virtual std::uint64_t staged_returns() const { return 0; }
 };
 
 /// A law at all points of elements. If its return map may go through stages, it says so by a static member `has_stages`.
@@ -136,12 +140,15 @@ class MaterialOf final : public Material {
                 wanted = wanted & law_.respond(E[q], before.data(), S[q], CC[q], after.data(), points.step);
             else
                 wanted = wanted & law_.respond(E[q], before.data(), S[q], CC[q], after.data());
-            if constexpr (requires { Law::has_stages; }) count_stages(asked);
+            if constexpr (requires { Law::has_stages; })
+                if (const int count = take_stages(asked)) staged_.fetch_add(count, std::memory_order_relaxed);
             for (int lane = 0; lane < lane_count; ++lane)
                 for (int k = 0; k < size; ++k) trial[lane][q * size + k] = after[k][lane];
         }
         return wanted;
     }
+
+    std::uint64_t staged_returns() const override { return staged_.load(); }
 
     int respond(int n, const Voigt* E, const double* state, Voigt* S, Voigt66* CC, double* trial,
                 const Point<double>& context) const override {
@@ -193,6 +200,7 @@ class MaterialOf final : public Material {
 
   private:
     Law law_;
+    mutable std::atomic<std::uint64_t> staged_{0};  // threads add to it, in any order
 };
 
 }  // namespace umform

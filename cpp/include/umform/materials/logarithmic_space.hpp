@@ -1,6 +1,8 @@
 // Any small-strain law at finite strain: it is evaluated with logarithmic strains. docs/theory, 3.9
 #pragma once
 
+#include <cstdint>
+
 #include "umform/materials/concept.hpp"
 #include "umform/materials/logarithmic_strain.hpp"
 
@@ -15,6 +17,7 @@ class LogarithmicSpace final : public Material {
     void initial(double* state) const override { law_->initial(state); }
     bool symmetric() const override { return law_->symmetric(); }
     bool sees_points() const override { return law_->sees_points(); }
+    std::uint64_t staged_returns() const override { return law_->staged_returns(); }
 
     LaneMask respond(int n, LaneMask wanted, const Vec<Lanes, 6>* E, const LaneStates& state, Vec<Lanes, 6>* S,
                      Mat<Lanes, 6, 6>* CC, const LaneTrials& trial, const LanePoints& points) const override {

@@ -148,7 +148,7 @@ class Formed:
 
     def shown(self, whole_part: _P) -> _P:
         """A part, as shape or laid in its gauge, for pictures: a narrow strip in plane strain is wider."""
-        held = self.model.constrained().reshape(-1, 3)
+        held = self.model.supports.constrained().reshape(-1, 3)
         length, width = np.ptp(self.model.mesh.points[:, :2], axis=0)
         if not held[:, 1].all() or width > _WIDE * length:
             return whole_part

@@ -183,7 +183,7 @@ class Ears(MeasurePart):
         profiles = {state: ear_profile(mesh, u, ids) for state, u in part.states.items()}
         numbers = {state: one.heights() | one.waves() for state, one in profiles.items()}
         rows = [in_states(what, unit, **{s: row[what] for s, row in numbers.items()}) for what in numbers[part.last]]
-        if getattr(part.model.material, "directional", False):
+        if getattr(part.model.bodies.only.material, "directional", False):
             rows.append(in_states(NUMBER_OF_EARS, "", **{s: float(len(one.ears())) for s, one in profiles.items()}))
         last = profiles[part.last]
         curve, draw = {"angle": last.angle, "height": last.height}, partial(ears_picture, last, unit)

@@ -12,7 +12,7 @@ from umform.processes.air_bending.branches import Brake
 from umform.processes.air_bending.changes import Budget
 from umform.processes.air_bending.goal import needed_stroke
 from umform.processes.air_bending.measures import Measures
-from umform.processes.air_bending.problem import build
+from umform.processes.air_bending.problem import touching
 from umform.processes.air_bending.spec import AirBending
 from umform.progress import progress_bar
 from umform.spec import parameters
@@ -66,7 +66,7 @@ def _layers(case: AirBending) -> dict[str, AirBending]:
 
 def _contacts(case: AirBending) -> dict[str, AirBending]:
     """The case with other contact points, and with a larger penalty."""
-    contacts = build(case)[0].contacts
+    contacts = list(touching(case).values())
     points = [int(contact.points) for contact in contacts]
     most = parameters(AirBending)["contact_points"].most
     if min(points) < most:

@@ -12,8 +12,8 @@ from umform.mesh import Mesh
 from umform.model.rigid_motion import RigidMotion
 from umform.problem.before import Placement
 from umform.problem.problem import Problem
-from umform.processes.air_bending.problem import build
 from umform.processes.air_bending.problem import problem_of as single_bend
+from umform.processes.air_bending.problem import touching
 from umform.processes.bend_sequence.spec import Bend, BendSequence
 from umform.processes.bend_sequence.strip import strip_lines
 from umform.run import Result
@@ -45,7 +45,7 @@ def problem_of_bend(
     tables["placement"] = Placement.table(lying)
     faces = dict(zip(("die", "punch"), ("upper", "lower") if bend.over else ("lower", "upper"), strict=True))
     # Those of a single bend with undeformed sheet: an estimate needs a sheet that lies as its mesh.
-    known = {pair.name: {"penalty": pair.penalty, "points": pair.points} for pair in build(case)[0].contacts}
+    known = {name: {"penalty": how.penalty, "points": how.points} for name, how in touching(case).items()}
     tables["contacts"] = {
         name: {"tool": name, "faces": {"ids": _near(sequence, bend, flat, side)}, **known[name]}
         for name, side in faces.items()

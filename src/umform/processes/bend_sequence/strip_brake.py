@@ -13,7 +13,7 @@ from umform.problem.problem import Problem
 from umform.processes.air_bending.bend import Loaded
 from umform.processes.air_bending.branches import Brake, Floats
 from umform.processes.air_bending.measures import Measures, measure
-from umform.processes.air_bending.problem import build
+from umform.processes.air_bending.problem import touching
 from umform.processes.air_bending.section import Section
 from umform.processes.bend_sequence.problem import problem_of_bend
 from umform.processes.bend_sequence.sides import Sides, Strip
@@ -50,7 +50,7 @@ class StripBrake(Brake):
     def build(self) -> tuple[Model, Control]:
         """Model of the strip in the tools, and the control that moves the punch down."""
         made = self.problem(self.case.way).build()
-        self.allowed = {pair.name: pair.allowed for pair in build(self.case)[0].contacts}
+        self.allowed = {name: how.allowed for name, how in touching(self.case).items()}
         return made.model, made.controls["stroke"]
 
     def problem(self, stroke: float) -> Problem:

@@ -200,12 +200,12 @@ def check(case: FreeBending) -> None:
     """
     model, _ = build(case)
     try:
-        model.check()
+        model.system.check()
     except UmformError as error:
         error.where = f"{case.name}, {error.where}" if error.where else case.name
         raise
     try:
-        _ = Newton(model, solver=case.solver).solver
+        _ = Newton(model.system, solver=case.solver).solver
     except UmformError as error:
         error.where = error.where or "solver"
         raise

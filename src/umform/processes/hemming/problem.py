@@ -11,7 +11,7 @@ from umform.model.rigid_motion import RigidMotion
 from umform.problem.before import Placement
 from umform.problem.problem import Problem
 from umform.processes.air_bending.brake import unloading_keys
-from umform.processes.air_bending.problem import build
+from umform.processes.air_bending.problem import touching
 from umform.processes.bend_sequence.part import Part
 from umform.processes.bend_sequence.sides import Strip
 from umform.processes.hemming.spec import Hemming
@@ -31,7 +31,7 @@ def problem_of_hem(case: Hemming, first: Part) -> tuple[Problem, float]:
     u = motion.displacement(mesh.points, before.result.model.u)
     top = float((mesh.points + u.reshape(-1, 3))[:, 2].max())
     way = top - case.height
-    how = {"penalty": max(pair.penalty for pair in build(case.sheet)[0].contacts), "points": _POINTS}
+    how = {"penalty": max(pair.penalty for pair in touching(case.sheet).values()), "points": _POINTS}
     bent = before.problem.source.data
     plane = {"shape": "Plane", "point": (0.0, 0.0, 0.0), "normal": (0.0, 0.0, 1.0)}
     tools: dict[str, Any] = {

@@ -167,7 +167,7 @@ class Following:
             run.statistics.count_penetration(kept=False)
             self._cut(run, step, failure, tried)
             return
-        if not run.model.too_deep(converged.evaluation):
+        if not run.model.system.too_deep(converged.evaluation):
             run.statistics.count_penetration(kept=True)
         run.evaluation = converged.evaluation
         self.count += 1
@@ -192,7 +192,7 @@ class Following:
         number, path = run.number, self.path
         self.length = 0.5 * tried
         if failure.cause is Cause.CYCLE:
-            run.result.warn(f"step {number}, time {run.model.time:.4f}: {failure.reason}; the arc length is cut")
+            run.result.warn(f"step {number}, time {run.model.system.time:.4f}: {failure.reason}; the arc length is cut")
         log.info("step %d: %s; arc length cut to %.3g of the first", number, failure.reason, self.length / path.first)
         if self.length < path.first / 2**step.cuts:
             at = path.line.text(path.state.fraction)

@@ -48,7 +48,7 @@ class Line(Global):
             c: start + fraction * (end - start) if fraction != 1.0 else end for c, (start, end) in self.ends.items()
         }
 
-    def move(self, values: dict[Control, float], value: float) -> None:
+    def move(self, values: dict[Control, float], before: float, value: float) -> None:
         """Write the values of the controls at a load parameter."""
         values.update(self.at(value))
 

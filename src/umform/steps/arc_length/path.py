@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
 from umform.model import Model
+from umform.model.state import State
 from umform.solution.keeping import within_allowed
 from umform.solution.newton import Newton
 from umform.solution.options import IterationMode
@@ -79,9 +80,9 @@ class Path:
             Whether the load parameter counts in the arc length. eq. (5.22)
         """
         model, nothing = run.model, PathState(0.0, 0.0, np.empty(0), 0.0, None)
-        path = cls(model, run.newton, ArcLength(line), increment, model.time, time, 0.0, nothing)
-        with model.with_term(path.equation):
-            evaluation = path.newton.guarded(lambda: model.evaluate(model.x))
+        path = cls(model, run.newton, ArcLength(line), increment, model.system.time, time, 0.0, nothing)
+        with model.system.with_term(path.equation):
+            evaluation = path.newton.guarded(lambda: model.evaluate(model.system.x))
             tangent, found = path.newton.guarded(lambda: path._tangent(evaluation))
         rate = tangent / tangent[-1]
         if spherical:
@@ -133,26 +134,25 @@ class Path:
 
         ``yields``: whether it may exceed the allowed penetration rather than fail.
         """
-        model, time_before = self.model, self.model.time
+        model = self.model
         penalties = {contact: contact.penalty for contact in model.contacts}
         try:
-            with model.with_term(self.equation):
+            with model.system.with_term(self.equation):
                 with self.newton.timing.attempts.trying("arc"):
                     converged, state = self.newton.guarded(lambda: self._correct(length, yields))
-                model.commit(converged.evaluation)
+                model.system.commit(converged.evaluation)
         except BaseException:  # no convergence, Ctrl-C, an error of a user's function: restore the last converged state
-            model.time = time_before
             for contact, penalty in penalties.items():
                 contact.use_penalty(penalty)
-            model.revert()
-            model.prepare()
+            model.system.revert()
+            model.system.prepare()
             raise
         self.state = state
         return converged
 
     def _correct(self, length: float, yields: bool) -> tuple[Converged, PathState]:
         """Correct on the arc, and at the end of the line if it was passed. eq. (5.23)"""
-        x, state = self.model.x, self.state
+        x, state = self.model.system.x, self.state
         keeping = partial(within_allowed, self.model, self.newton, yields=yields, mode=self._mode)
         converged = keeping(self._on_arc(length), lambda: self._on_arc(length))
         if converged.x[-1] >= 1.0:
@@ -166,27 +166,29 @@ class Path:
 
     def _on_arc(self, length: float) -> Converged:
         """Predict along the tangent (5.25), and correct on the arc."""
-        x, state = self.model.x, self.state
-        self._set_time(state.arc + length)
+        x, state = self.model.system.x, self.state
+        goal = self._goal(state.arc + length)
         self.equation.ask(length, self.model.u)
         ahead = np.append(state.tangent, state.slope)
-        dx = self.model.extend(self.model.coefficients(length * ahead)) + self.newton.prescribed_increment(x)
-        converged = self.newton.correct(x, dx, self._mode)
+        dx = self.model.system.extend(
+            self.model.system.coefficients(length * ahead)
+        ) + self.newton.prescribed_increment(goal, x)
+        converged = self.newton.correct(goal, x, dx, self._mode)
         if self._product(converged.x - x, ahead) <= 0.0:
             raise Failed("the path turns back within one increment", converged.iterations)
         return converged
 
     def _land(self, beyond: Converged, length: float) -> Converged:
         """Go back from a state beyond the end of the line to the end, at a fixed load."""
-        x, state = self.model.x, self.state
+        x, state = self.model.system.x, self.state
         part = (1.0 - state.fraction) / float(beyond.x[-1] - state.fraction)
-        self._set_time(state.arc + part * length)
+        goal = self._goal(state.arc + part * length)
         self.equation.hold(1.0)
         back = (part - 1.0) * (beyond.x - x)
         back[-1] = 1.0 - beyond.x[-1]
-        back, at_end = self.model.extend(self.model.coefficients(back)), beyond.x.copy()
+        back, at_end = self.model.system.extend(self.model.system.coefficients(back)), beyond.x.copy()
         at_end[-1], back[-1] = 1.0, 0.0  # to the last bit
-        landed = self.newton.correct(at_end, back, self._mode)
+        landed = self.newton.correct(goal, at_end, back, self._mode)
         if float(np.linalg.norm((landed.x - x)[: self.model.u.size])) > 1.5 * length:
             raise Failed("the last increment jumps off the path", landed.iterations)
         return replace(landed, iterations=beyond.iterations + landed.iterations, passes=beyond.passes)
@@ -197,7 +199,7 @@ class Path:
         solver, along = self.newton.ready_solver(), np.zeros_like(evaluation.x)
         found = solver.factor(evaluation)
         along[-1] = 1.0
-        return self.model.extend(solver.solve(self.model.restrict(along))), found
+        return self.model.system.extend(solver.solve(self.model.system.restrict(along))), found
 
     def _product(self, one: Floats, other: Floats) -> float:
         """Inner product of displacements and load parameters that defines the arc length. eq. (5.22)"""
@@ -209,5 +211,6 @@ class Path:
         """Near a limit point the residual is no measure of an increment, and the tangent changes strongly."""
         return IterationMode(line_search=False, reuses=False, mixed=self.newton.mixed)
 
-    def _set_time(self, arc: float) -> None:
-        self.model.time = self.start_time + self.time * self.increment * arc / self.first
+    def _goal(self, arc: float) -> State:
+        """The converged state at the time of another length of the path."""
+        return self.model.state.toward({}, self.start_time + self.time * self.increment * arc / self.first)

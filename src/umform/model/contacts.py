@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import count
 from typing import Any
@@ -14,50 +15,34 @@ from umform.model.body import Body
 from umform.model.contact.encounter import sheet_thickness
 from umform.model.contact.pair import Contact
 from umform.model.contact.settings import ContactOptions, contact_settings
-from umform.model.now import Now
 from umform.model.tool import Tool
-from umform.model.tooled import Tooled
+from umform.model.tools import Tools
 from umform.spec import takes
 from umform.surfaces import Surface, UserSurface
 from umform.surfaces.user_check import check_beside
 
 
-class Touched(Tooled):
-    """Faces of a mesh that touch rigid tools."""
+class Contacts(list[Contact]):
+    """The pairs of faces and tools of a model.
 
-    mesh: Mesh
-    bodies: list[Body]
+    Parameters
+    ----------
+    mesh : Mesh
+        Points and cells.
+    bodies : sequence of Body
+        Bodies of the model: their strength sets a penalty.
+    tools : Tools
+        Tools of the model, to which those of single pairs are added.
+    """
 
-    def __init__(self) -> None:
+    def __init__(self, mesh: Mesh, bodies: Sequence[Body], tools: Tools) -> None:
         super().__init__()
-        self.now = Now()
-        self.contacts: list[Contact] = []
-
-    # Tools and pairs -----------------------------------------------------------------------------------------
-
-    def tool(self, name: str, surface: Surface) -> Tool:
-        """Define a rigid tool that several contact pairs may share.
-
-        Parameters
-        ----------
-        name : str
-            For the history: the columns ``<name>_fx`` ... are force and moment of the sheet on it, over all its pairs.
-        surface : Surface
-            A tool of :mod:`umform.surfaces`, or UserSurface.
-
-        Raises
-        ------
-        InvalidValue
-            If the name is taken, or the surface is invalid.
-        """
-        tool = Tool(name, surface, self.now)
-        self._refuse_taken(tool.column_names(), name)
-        self.tools.append(tool)
-        return tool
+        self.mesh, self.bodies, self.tools = mesh, bodies, tools
 
     @takes(ContactOptions)
     def contact(
         self,
+        /,
         faces: Selector,
         tool: Surface | Tool,
         *,
@@ -84,7 +69,7 @@ class Touched(Tooled):
             If a number is out of range, both penalty and penetration are given, or the name is taken.
         """
         name = name or self._free_pair_name()
-        if any(other.name == name for other in self.contacts):
+        if any(other.name == name for other in self):
             raise InvalidValue(
                 "two contacts have the same name",
                 where=f"contact {name}",
@@ -105,19 +90,21 @@ class Touched(Tooled):
         settings = contact_settings(self.mesh, faces, surface, body.material, wanted, f"contact {name}")
         if body.element.plane_strain and not wanted.augmented and settings.cells is None and self._one_side(faces):
             settings = replace(settings, width_points=body.element.width_points)
-        touched = tool if isinstance(tool, Tool) else Tool(name, tool, self.now)
+        touched = tool if isinstance(tool, Tool) else Tool(name, tool, self.tools.now)
         contact = Contact(self.mesh, faces, touched, settings, name)
         new = contact if isinstance(tool, Tool) else touched
-        self._refuse_taken([*contact.column_names(), *(new.column_names() if new is touched else ())], name)
+        self.tools.controls.refuse_taken(
+            [*contact.column_names(), *(new.column_names() if new is touched else ())], name
+        )
         if touched not in self.tools:
             self.tools.append(touched)
         touched.pairs.append(contact)
-        self.contacts.append(contact)
-        self._assembled = None
+        self.append(contact)
+        self.tools.now.restructured()
         return contact
 
     def _free_pair_name(self) -> str:
-        taken = {pair.name for pair in self.contacts} | {tool.name for tool in self.tools}
+        taken = {pair.name for pair in self} | {tool.name for tool in self.tools}
         return next(name for k in count(len(taken) + 1) if (name := f"tool{k}") not in taken)
 
     def _one_side(self, faces: Selector) -> bool:

@@ -9,20 +9,49 @@ from numpy.typing import ArrayLike
 from umform.errors import InvalidValue
 from umform.model import forces
 from umform.model.contact.pair import Contact
-from umform.model.controls import Controlled
+from umform.model.controls import Controls
+from umform.model.now import Now
 from umform.model.press import Press, Stop, check_stiffness
 from umform.model.term import Global
 from umform.model.tool import Motion, Tool
 from umform.model.tool_controls import ToolForce, ToolMotion, ToolTurn, ToolWay, refuse_given_and_found, turn_of
-from umform.surfaces import Direction, unit_vector
+from umform.surfaces import Direction, Surface, unit_vector
 
 
-class Tooled(Controlled):
-    """Tools, and the controls that move them."""
+class Tools(list[Tool]):
+    """The tools of a model, and the controls that move them.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    controls : Controls
+        Controls of the model, to which motions and forces are added.
+    now : Now
+        The present state of the model.
+    """
+
+    def __init__(self, controls: Controls, now: Now) -> None:
         super().__init__()
-        self.tools: list[Tool] = []
+        self.controls, self.now = controls, now
+
+    def tool(self, name: str, surface: Surface) -> Tool:
+        """Define a rigid tool that several contact pairs may share.
+
+        Parameters
+        ----------
+        name : str
+            For the history: the columns ``<name>_fx`` ... are force and moment of the sheet on it, over all its pairs.
+        surface : Surface
+            A tool of :mod:`umform.surfaces`, or UserSurface.
+
+        Raises
+        ------
+        InvalidValue
+            If the name is taken, or the surface is invalid.
+        """
+        tool = Tool(name, surface, self.now)
+        self.controls.refuse_taken(tool.column_names(), name)
+        self.append(tool)
+        return tool
 
     def drive(self, tool: Contact | Tool, direction: Direction, name: str = "") -> ToolMotion:
         """Let steps move a tool along a direction.
@@ -42,9 +71,11 @@ class Tooled(Controlled):
             The control whose value (a length) steps move; its force is that of the tool on the sheet along it.
         """
         tool = _tool_of(tool)
-        way = ToolMotion(name or self._name(tool.name), direction=unit_vector(direction, "drive"), tool=tool)
+        way = ToolMotion(
+            name or self.controls.free_name(tool.name), direction=unit_vector(direction, "drive"), tool=tool
+        )
         refuse_given_and_found([press.way for press in tool.presses], way, way.name)
-        self._add(way)
+        self.controls.add(way)
         tool.add_way(way)
         return way
 
@@ -70,9 +101,9 @@ class Tooled(Controlled):
             The control whose value (an angle in radians) steps move; its force is the moment of the tool on the sheet.
         """
         tool = _tool_of(tool)
-        way = turn_of(name or self._name(f"{tool.name}_turn"), tool, axis, about)
+        way = turn_of(name or self.controls.free_name(f"{tool.name}_turn"), tool, axis, about)
         refuse_given_and_found([press.way for press in tool.presses], way, way.name)
-        self._add(way)
+        self.controls.add(way)
         tool.add_way(way)
         return way
 
@@ -101,7 +132,7 @@ class Tooled(Controlled):
             If the tool is driven, pressed or sprung along this direction already.
         """
         tool = _tool_of(tool)
-        name = name or self._name(f"{tool.name}_press")
+        name = name or self.controls.free_name(f"{tool.name}_press")
         return self._pressed(ToolMotion(f"{name}_way", direction=unit_vector(direction, "press"), tool=tool), name)
 
     def press_turn(
@@ -126,7 +157,7 @@ class Tooled(Controlled):
             The control whose value (a moment on the tool) steps move.
         """
         tool = _tool_of(tool)
-        name = name or self._name(f"{tool.name}_moment")
+        name = name or self.controls.free_name(f"{tool.name}_moment")
         return self._pressed(turn_of(f"{name}_way", tool, axis, about), name)
 
     def spring(
@@ -153,7 +184,7 @@ class Tooled(Controlled):
             A control of a further force on the tool along the same direction.
         """
         tool = _tool_of(tool)
-        name = name or self._name(f"{tool.name}_spring")
+        name = name or self.controls.free_name(f"{tool.name}_spring")
         check_stiffness(stiffness, preload, f"spring {name}", "preload")
         way = ToolMotion(f"{name}_way", direction=unit_vector(direction, "spring"), tool=tool)
         force = self._pressed(way, name)
@@ -182,7 +213,7 @@ class Tooled(Controlled):
         press = self.press_of(force)
         check_stiffness(1.0 if stiffness is None else stiffness, at, f"stop of {force.name}", "way")
         if stiffness is None and not any(stop.rigid for stop in press.stops):
-            self._refuse_taken([f"{force.name}_stop"], f"{force.name}_stop")
+            self.controls.refuse_taken([f"{force.name}_stop"], f"{force.name}_stop")
         press.stops.append(Stop(float(at), math.inf if stiffness is None else float(stiffness), -1.0 if below else 1.0))
         least, largest = press.bounds
         if least > largest:
@@ -233,7 +264,7 @@ class Tooled(Controlled):
         InvalidValue
             If it acts on no tool of the model.
         """
-        for press in (press for tool in self.tools for press in tool.presses):
+        for press in (press for tool in self for press in tool.presses):
             if press.force is force:
                 return press
         raise InvalidValue(
@@ -249,9 +280,9 @@ class Tooled(Controlled):
         tool = way.tool
         refuse_given_and_found(tool.ways, way, name)
         force = ToolForce(name, way=way)
-        self._refuse_taken([way.name, f"{way.name}_force", name, f"{name}_force"], name)
-        self._add(force)
-        self._add(way)
+        self.controls.refuse_taken([way.name, f"{way.name}_force", name, f"{name}_force"], name)
+        self.controls.add(force)
+        self.controls.add(way)
         tool.add_way(way)
         what = f"the way of tool {tool.name}, which {name} presses,"
         tool.add_press(Press(Global(f"{name}_found", {way: 1.0}, what=what), way, force))

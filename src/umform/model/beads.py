@@ -12,28 +12,27 @@ from umform.errors import InvalidBead
 from umform.mesh import Selector
 from umform.model.contact.bead import Bead, BeadOptions, bead_line
 from umform.model.contact.pair import Contact
-from umform.model.term import Term
+from umform.model.evaluated import Evaluated
 from umform.model.tool import Tool
-from umform.model.touched import Touched
 from umform.spec import takes
 
 
-class Beaded(Touched):
-    """Tools with draw beads."""
+class Beads:
+    """Equivalent draw beads on the tools of a model.
 
-    others: list[Term]
+    Parameters
+    ----------
+    system : System
+        The equations of the model, to which beads are added.
+    """
 
-    def add(self, term: Term) -> Term:
-        """Add a term of another kind to the residual."""
-        raise NotImplementedError
-
-    def pairs_of_tools(self) -> list[Contact]:
-        """All terms that involve tools: contacts, and beads."""
-        return [*self.contacts, *(term for term in self.others if isinstance(term, Bead))]
+    def __init__(self, system: Evaluated) -> None:
+        self.system = system
 
     @takes(BeadOptions, "curve")
     def bead(
         self,
+        /,
         faces: Selector,
         tool: Contact | Tool,
         curve: ArrayLike | Sequence[ArrayLike],
@@ -75,7 +74,7 @@ class Beaded(Touched):
         name = name or self._free_bead_name()
         where = f"bead {name}"
         tool = tool.tool if isinstance(tool, Contact) else tool
-        if not isinstance(tool, Tool) or tool not in self.tools:
+        if not isinstance(tool, Tool) or tool not in self.system.tools:
             raise InvalidBead(
                 "a bead lies on a tool of the model",
                 where=where,
@@ -88,11 +87,13 @@ class Beaded(Touched):
         except InvalidBead as error:
             error.where = f"{where}, {error.where}"
             raise
-        bead = Bead(self.mesh, faces, tool, bead_line(self.mesh, tool, wanted, where), wanted.points, name)
-        self.add(bead)
+        bead = Bead(
+            self.system.mesh, faces, tool, bead_line(self.system.mesh, tool, wanted, where), wanted.points, name
+        )
+        self.system.add(bead)
         tool.pairs.append(bead)
         return bead
 
     def _free_bead_name(self) -> str:
-        taken = {term.name for term in self.others} | {pair.name for pair in self.contacts}
+        taken = {term.name for term in self.system.others} | {pair.name for pair in self.system.contacts}
         return next(name for name in chain(["bead"], (f"bead{k}" for k in count(2))) if name not in taken)

@@ -1,4 +1,4 @@
-"""Commit and restore the state of a model."""
+"""The equations of a model and its converged state, which it can commit and restore."""
 
 from __future__ import annotations
 
@@ -8,15 +8,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.model import removal
+from umform.model.checks import check_model
 from umform.model.evaluated import Evaluated
 from umform.model.evaluation import Evaluation
+from umform.model.kept_gap import check_kept_gaps
 from umform.model.state import Snapshot
+from umform.model.support import Support
 
 Floats = NDArray[np.float64]
 
 
-class Standing(Evaluated):
-    """Something with a converged state."""
+class System(Evaluated):
+    """The equations of a model: its terms and unknowns, their evaluation, and the converged state.
+
+    Newton's method, steps and results use it; :class:`umform.Model` has what users need to build a model.
+
+    Parameters
+    ----------
+    parts : Parts
+        Mesh, bodies, controls, supports, tools and contacts.
+    """
 
     def commit(self, evaluation: Evaluation) -> None:
         """Commit the state of an evaluation, which must be the last one."""
@@ -26,7 +37,8 @@ class Standing(Evaluated):
             unknown.value = float(value)
         for term in self.terms:
             term.commit(evaluation.found[term])
-        self.u, self._began, self._converged_time = evaluation.u.copy(), self._converged_time, evaluation.time
+        self.u, self.time = evaluation.u.copy(), evaluation.time
+        self.now.began, self.now.converged = self.now.converged, evaluation.time
         for term in self.others:
             term.settled(self, evaluation)
 
@@ -57,7 +69,7 @@ class Standing(Evaluated):
         for term in self.terms:
             if term.key in before:
                 term.go_back(before[term.key])
-        self._converged_time = self._began  # the time increment, for rate-dependent laws
+        self.now.converged = self.now.began  # the time increment, for rate-dependent laws
         evaluation = self.evaluate(self.x)
         self.commit(evaluation)
         return evaluation
@@ -77,7 +89,7 @@ class Standing(Evaluated):
             {unknown.name: unknown.value for unknown in self.unknowns},
             {key: tree for key, tree in states.items() if tree},
             removal.states_of_supports(self),
-            self._began,
+            self.now.began,
         )
 
     def restore(self, snapshot: Snapshot) -> None:
@@ -89,8 +101,8 @@ class Standing(Evaluated):
             Return value of :meth:`snapshot`.
         """
         removal.put_supports(self, snapshot.supports)
-        self.u, self.time, self._converged_time = snapshot.u.copy(), snapshot.time, snapshot.time
-        self._began = snapshot.began
+        self.u, self.time = snapshot.u.copy(), snapshot.time
+        self.now.converged, self.now.began = snapshot.time, snapshot.began
         for control in self.controls:
             control.value = snapshot.controls.get(control.name, 0.0)
         for unknown in self.unknowns:
@@ -100,3 +112,14 @@ class Standing(Evaluated):
                 term.restore(snapshot.terms[term.key])
             else:
                 term.revert()
+
+    def check(self, gauge: Support | None = None) -> None:
+        """Reject a model that cannot be solved, before the run starts, see :func:`umform.model.checks.check_model`."""
+        check_model(self, gauge)
+        check_kept_gaps(self)
+
+    def mechanism(self, values: Floats, motion: Floats) -> Floats | None:
+        """What can move although a tangent looks singular; None for a very thin sheet that is held. eq. (5.99)"""
+        from umform.model.mechanisms import mechanism
+
+        return mechanism(self, values, motion)
