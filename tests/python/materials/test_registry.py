@@ -71,7 +71,7 @@ law = uf.J2(210e3, 0.3, hardening=uf.Ludwik(160.0, 450.0))
 assert law_keys(law)["hardening"] == {"curve": "Ludwik", "first": 160.0, "strength": 450.0}
 
 text = open(sys.argv[1]).read()
-assert Problem.read(text).build().model.material == law
+assert Problem.read(text).build().model.bodies.only.material == law
 part = json.loads(json_schema())["$defs"]["Ludwik"]
 assert part["properties"]["curve"]["const"] == "Ludwik"
 assert part["properties"]["strength"]["description"] == "K, a stress."

@@ -46,7 +46,7 @@ def test_all_parts():
         "back_stress = { parts = [[3000.0, 30.0], [500.0, 0.0]], first = 0.5, rate = 6.0 }\n"
         "modulus = { saturated = 180e3, rate = 30.0 }"
     )
-    metal = deck(more).build().model.material
+    metal = deck(more).build().model.bodies.only.material
     assert metal.back_stress == mt.Chaboche([(3000.0, 30.0), (500.0, 0.0)], first=0.5, rate=6.0)
     assert metal.modulus == mt.FallingModulus(180e3, 30.0)
     assert metal.yield_function == mt.Mises()
@@ -56,7 +56,7 @@ def test_two_surfaces():
     metal = (
         deck("two_surfaces = { C = 500.0, B = 268.0, growth = 190.0, b = 9.0, m = 12.0, h = 0.5 }")
         .build()
-        .model.material
+        .model.bodies.only.material
     )
     assert metal.back_stress == mt.YoshidaUemori(C=500.0, B=268.0, growth=190.0, b=9.0, m=12.0, h=0.5)
 

@@ -114,7 +114,7 @@ def test_a_tool_of_the_user(deck, tmp_path):
 
 
 def test_a_curve_of_the_user(deck):
-    law = load(deck(CURVE), trust=True).build().model.material
+    law = load(deck(CURVE), trust=True).build().model.bodies.only.material
     own = sys.modules["own_laws"].Ludwik(160.0, 450.0)
     assert law == uf.J2(210e3, 0.3, hardening=own)
     assert law_keys(law)["hardening"] == {"curve": "own_laws:Ludwik", "first": 160.0, "strength": 450.0}

@@ -92,7 +92,7 @@ def test_elastic_laws(law, strip):
 
 def test_a_metal_of_the_library(strip, errors):
     text = strip.replace('law = "SVK"', 'library = "DC04"').replace("E = 210e3", "").replace("nu = 0.3", "")
-    assert Problem.read(text).build().model.material == sheet_metals.get("DC04").law
+    assert Problem.read(text).build().model.bodies.only.material == sheet_metals.get("DC04").law
     (told,) = errors(text.replace("DC04", "cheese"))
     assert "line 9, material.library" in told.where
 

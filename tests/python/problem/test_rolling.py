@@ -42,7 +42,7 @@ increments = 1
 def body(rolling, folder):
     path = folder / "deck.toml"
     path.write_text(DECK.format(rolling=rolling))
-    return load(path).build().model.body
+    return load(path).build().model.bodies.only
 
 
 @pytest.mark.parametrize(

@@ -105,7 +105,7 @@ def test_a_path_into_a_metal_of_the_library_writes_its_law_out():
     path = next(one for one in problem.paths() if one.path.startswith("material.hardening."))
     changed = problem.with_({path.path: 1.01 * path.value})
     key = path.path.rpartition(".")[2]
-    law, known = changed.sheet().material, problem.sheet().material
+    law, known = changed.sheet().bodies.only.material, problem.sheet().bodies.only.material
     assert getattr(law.hardening, key) == 1.01 * getattr(known.hardening, key)
     assert replace(law, hardening=known.hardening) == known
 
@@ -113,7 +113,7 @@ def test_a_path_into_a_metal_of_the_library_writes_its_law_out():
 def test_a_problem_takes_an_element_of_python_that_no_deck_has_words_for():
     own = replace(uf.elements.element("BEND8"), name="own")
     problem = problem_of(replace(BEND, element=own))
-    assert problem.sheet().element.name == "own"
+    assert problem.sheet().bodies.only.element.name == "own"
     with pytest.raises(InvalidValue, match="a deck has no words for this value"):
         problem.toml()
 
