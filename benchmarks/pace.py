@@ -18,7 +18,7 @@ from scipy.interpolate import PchipInterpolator
 import record
 import umform as uf
 from dome import build as dome
-from umform.processes.air_bending import brake
+from umform.processes.air_bending import brake, problem
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bending import case as bending
 from umform.processes.bending.spec import FreeBending
@@ -41,7 +41,7 @@ def strip(**keys: Any) -> Build:
 def air_bend() -> tuple[Any, Any, float, int]:
     """The air bending of the defaults, to a stroke of 6."""
     case = replace(AirBending(), stroke=6.0)
-    model, punch = brake.build(case)
+    model, punch = problem.build(case)
     return model, punch, case.stroke, brake.increments(case, case.stroke)
 
 

@@ -16,7 +16,7 @@ import numpy as np
 
 import dome
 import umform as uf
-from umform.processes.air_bending import brake
+from umform.processes.air_bending import problem
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bending import case as bending
 from umform.processes.bending.spec import FreeBending
@@ -51,8 +51,8 @@ def costs(cells: int) -> None:
     )
     models = {
         "free bending 24x1": bending.build(FreeBending())[0],
-        "air bending": brake.build(AirBending())[0],
-        "air bending, 40 wide": brake.build(AirBending(width=40.0, width_elements=10))[0],
+        "air bending": problem.build(AirBending())[0],
+        "air bending, 40 wide": problem.build(AirBending(width=40.0, width_elements=10))[0],
         **{f"dome {count}x{count}": dome.build(count)[0] for count in (cells // 2, cells)},
     }
     for label, model in models.items():

@@ -161,7 +161,7 @@ def main():
         load = np.random.default_rng(1).normal(size=u.size)
         expected = whole.system.extend(serial.solve(whole.system.restrict(load)))
         mine = np.zeros(share.u.size)
-        mine.reshape(-1, 3)[share.system.whole.system.whole.owned] = load.reshape(-1, 3)[share.nodes[share.system.whole.system.whole.owned]]
+        mine.reshape(-1, 3)[share.system.whole.owned] = load.reshape(-1, 3)[share.nodes[share.system.whole.owned]]
         found = share.system.extend(petsc.solve(share.system.restrict(mine)))
         difference = np.abs(found - expected.reshape(-1, 3)[share.nodes].ravel()).max() / np.abs(expected).max()
         answer["error"].append(world().max(float(difference)))

@@ -38,19 +38,23 @@ class Criteria:
         Tolerances.
     settled : float
         Residual, relative to the forces, at which iterations end, above the tolerance; zero: none. eq. (5.131)
+    rests : bool
+        Whether the set of touching points should come to rest: up to two more iterations wait for it.
     """
 
-    def __init__(self, system: System, residual: float, increment: float, settled: float = 0.0) -> None:
+    def __init__(
+        self, system: System, residual: float, increment: float, settled: float = 0.0, *, rests: bool = True
+    ) -> None:
         self._system, self._residual, self._increment = system, residual, increment
-        self._at_floor = 0
+        self._granted, self._at_floor = 0 if rests else 2, 0
         self.settled = settled
         #: Largest entry of the tangent, for evaluations without one.
         self.entry: float | None = None
 
-    def met(self, norm: float, increment: float, u: Floats, evaluation: Evaluation, *, solved: bool) -> bool:
+    def met(
+        self, norm: float, increment: float, u: Floats, evaluation: Evaluation, *, moved: bool, solved: bool
+    ) -> bool:
         """Whether the iteration has converged; to be called once in each.
-
-        Whether contact points have just opened or closed does not count: the residual is that of the present ones.
 
         Parameters
         ----------
@@ -62,6 +66,8 @@ class Criteria:
             Displacement.
         evaluation : Evaluation
             The residual and tangent there.
+        moved : bool
+            Whether contact points have just opened or closed.
         solved : bool
             Whether the last increment is the solution for a residual; a prediction may be zero without equilibrium.
         """
@@ -73,8 +79,9 @@ class Criteria:
         if small and norm > floor:
             small = self._balanced(evaluation, scale)
         self._at_floor = self._at_floor + 1 if norm <= floor else 0
-        if small or self._at_floor >= 2:
+        if (small and (not moved or self._granted >= 2)) or self._at_floor >= 2:
             return True
+        self._granted += small
         return solved and norm <= self.settled * scale and increment <= SETTLED_INCREMENT
 
     def _balanced(self, evaluation: Evaluation, scale: float) -> bool:

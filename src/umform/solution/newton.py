@@ -41,7 +41,7 @@ _T = TypeVar("_T")
 _FLIGHT = 1e4
 #: Residual, relative to the forces, at which iterations end where a penalty will grow. docs/theory, 4.11
 _NEAR = 1e-2
-#: Residual, relative to its tolerance, below which an increment is not shortened. docs/theory, 5.4
+#: Residual, relative to its tolerance, below which an increment of drawing is not shortened. docs/theory, 5.4
 _CLOSE = 30.0
 
 
@@ -265,7 +265,7 @@ class Newton:
         recorder = Recorder(self.callbacks, system.ranks, clock.perf_counter() if start is None else start)
         guard = DivergenceGuard(system, mode.indefinite, extended=mode.extended)
         tangent = Tangent(system, solver, options, mode, guard, first)
-        criteria = Criteria(system, options.residual, options.increment, self.settled)
+        criteria = Criteria(system, options.residual, options.increment, self.settled, rests=not options.keep)
         iterations = recorder.iterations
 
         du, evaluation = self._predicted(goal, u, du, mode, beyond, keep=keep, forces=tangent.forces_first)
@@ -278,13 +278,14 @@ class Newton:
 
             solved = bool(iterations) or first is not None
             criteria.entry = tangent.entry
-            if self._accepts(criteria, evaluation, norm, increment, solved=solved, grows=mode.grows):
+            moved = recorder.moved(evaluation)
+            if self._accepts(criteria, evaluation, norm, increment, moved=moved, solved=solved, grows=mode.grows):
                 recorder.add(evaluation, residual, increment, 0.0, length, tangent.pivots)
                 self._check_flight(evaluation, iterations)
                 tangent.follow()
                 return Converged(evaluation, iterations, goal, jumped=guard.jumps)
 
-            longest, moved = guard.longest_step(evaluation, norm, iterations), recorder.moved(evaluation)
+            longest = guard.longest_step(evaluation, norm, iterations)
             evaluation = tangent.factor(goal, evaluation, residual, increment, iterations, moved=moved)
             du = system.extend(solver.solve(-r))
             energy = abs(system.ranks.dot(r, system.coefficients(du)))
@@ -315,13 +316,21 @@ class Newton:
         return du, system.evaluate(end, keep=True) if keep else system.evaluate(end, tangent=not forces)
 
     def _accepts(
-        self, criteria: Criteria, evaluation: Evaluation, norm: float, increment: float, *, solved: bool, grows: bool
+        self,
+        criteria: Criteria,
+        evaluation: Evaluation,
+        norm: float,
+        increment: float,
+        *,
+        moved: bool,
+        solved: bool,
+        grows: bool,
     ) -> bool:
         """Whether the iterations end: they have converged, or are near equilibrium where a penalty will grow."""
         if evaluation.kept:
             return False
         near = grows and solved and norm <= _NEAR * (evaluation.force_scale or 1.0)
-        done = criteria.met(norm, increment, evaluation.x, evaluation, solved=solved)
+        done = criteria.met(norm, increment, evaluation.x, evaluation, moved=moved, solved=solved)
         return done or (near and bool(self.system.too_deep(evaluation)))
 
     def _advanced(
@@ -336,7 +345,8 @@ class Newton:
         if tangent.shifted:
             return lengthened(system, goal, u, du, r, evaluation, length)
         if tangent.searches:
-            return shortened(system, goal, u, du, r, evaluation, length, near=_CLOSE * self.options.residual)
+            near = _CLOSE * self.options.residual if self.options.keep else 0.0
+            return shortened(system, goal, u, du, r, evaluation, length, near)
         return evaluation, length
 
     def ready_solver(self) -> Bordered:

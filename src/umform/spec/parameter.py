@@ -184,7 +184,7 @@ class Parameter:
     @property
     def _clauses(self) -> tuple[str, str]:
         """The first clause, and the rest with the sign before it."""
-        clause = re.split("[;:,]", self.sentence.rstrip("."), maxsplit=1)[0]
+        clause = re.split(r"[;:,]|\.\s", self.sentence.rstrip("."), maxsplit=1)[0]
         return clause, self.sentence.rstrip(".")[len(clause) :]
 
     @property

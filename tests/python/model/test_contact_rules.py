@@ -99,7 +99,7 @@ def test_a_law_without_a_stress_is_refused():
 
 @pytest.mark.parametrize("penetration", [0.0, -1.0, math.nan, math.inf])
 def test_a_penetration_must_be_positive(penetration):
-    with pytest.raises(InvalidValue, match="penetration that is allowed"):
+    with pytest.raises(InvalidValue, match="the allowed penetration must be positive"):
         sheet().contact("lower", roller(), penetration=penetration)
 
 

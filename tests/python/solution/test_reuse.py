@@ -90,5 +90,5 @@ def test_arcs_have_new_factors():
 
 
 def test_a_negative_cost_is_refused():
-    with pytest.raises(uf.UmformError, match="cost is zero or more"):
+    with pytest.raises(uf.UmformError, match="the cost of a factorisation relative to"):
         NewtonOptions(factor_cost=-1.0)

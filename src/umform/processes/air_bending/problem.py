@@ -7,7 +7,7 @@ from typing import Any
 from umform.elements import element
 from umform.mesh import grid
 from umform.model import Model
-from umform.model.contact.settings import ContactSettings, contact_settings
+from umform.model.contact.settings import ContactOptions, ContactSettings, contact_settings
 from umform.model.control import Control
 from umform.problem.keys import law_keys
 from umform.problem.problem import Problem
@@ -27,9 +27,9 @@ def build(case: AirBending) -> tuple[Model, Control]:
 def touching(case: AirBending) -> dict[str, ContactSettings]:
     """Penalty, allowed penetration and points of die and punch on the undeformed sheet, without a model."""
     sheet, faces = grid(*lines_of(case), element(case.element).cell), {"die": "lower", "punch": "upper"}
-    how: dict[str, Any] = {"penalty": case.penalty, "penetration": case.penetration, "points": case.contact_points}
+    how = ContactOptions(penalty=case.penalty, penetration=case.penetration, points=case.contact_points)
     return {
-        name: contact_settings(sheet, face, getattr(case, name), case.material, **how, where=f"contact {name}")
+        name: contact_settings(sheet, face, getattr(case, name), case.material, how, f"contact {name}")
         for name, face in faces.items()
     }
 
