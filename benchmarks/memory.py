@@ -46,7 +46,7 @@ def stages(elements: int, solver: str) -> Iterator[tuple[str, float, float]]:
     yield "history, converged and trial", peak(), held / MB
     condensed = 8 * count * block.modes * (1 + mesh.connectivity.shape[1] * 3)
     yield "condensed blocks of the enhanced parameters", peak(), condensed / MB
-    maps = [scatter for scatters in model._assembly().scatters.values() for scatter in scatters]
+    maps = [scatter for scatters in model.system._assembly().scatters.values() for scatter in scatters]
     yield "scatter map", peak(), sum(scatter.bytes for scatter in maps) / MB
     pattern = model.system.pattern
     yield "pattern, upper triangle", peak(), (pattern.indices.nbytes + pattern.indptr.nbytes) / MB

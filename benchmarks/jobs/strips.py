@@ -52,7 +52,7 @@ def draw(drawing: Drawing) -> dict[str, Any]:
 def case(keys: dict[str, Any]) -> FreeBending:
     """The parameters, with a model that can be built."""
     bend = FreeBending(**keys)
-    build(bend)[0].check()
+    build(bend)[0].system.check()
     return bend
 
 

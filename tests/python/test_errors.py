@@ -83,7 +83,7 @@ SOURCE = Path(umform.__file__).parent
 FILES = [
     *sorted(SOURCE.glob("materials/*.py")),
     *sorted(SOURCE.glob("surfaces/*.py")),
-    *(SOURCE / "model" / f"{name}.py" for name in ("axes", "support", "supports", "ties", "tool", "touched")),
+    *(SOURCE / "model" / f"{name}.py" for name in ("axes", "support", "supports", "ties", "tool", "contacts")),
 ]
 
 

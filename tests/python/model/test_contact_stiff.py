@@ -54,7 +54,7 @@ def attained(model, iterations=6):
         u += du
     model.system.revert()
     evaluation = model.evaluate(model.u)
-    floor = Criteria(model, residual=1e-9, increment=1e-6).floor(np.abs(model.u).max(), evaluation)
+    floor = Criteria(model.system, residual=1e-9, increment=1e-6).floor(np.abs(model.u).max(), evaluation)
     return max(norms[1:]), floor
 
 

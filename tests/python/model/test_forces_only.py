@@ -31,7 +31,7 @@ def test_forces_scale_and_product_are_those_of_the_full_evaluation(build, rng, k
     u, du = 0.02 * rng.normal(size=(2, 3 * nodes))
     u[2::3] -= 0.1  # into the tool
     answers = []
-    for values, with_product in ((np.zeros(full.system.pattern.indices.size), True), (None, False), (None, True)):
+    for values, with_product in ((np.zeros(full.pattern.indices.size), True), (None, False), (None, True)):
         f, Kdu = np.zeros(full.size), np.zeros(full.size)
         product = (du, Kdu) if with_product else (None, None)
         _, scale, _ = block.evaluate(u, full.scatter, f, values, *product)

@@ -145,7 +145,7 @@ def test_pressure_tangent_is_the_derivative_of_the_force(build, rng, cell, face)
         du = rng.normal(size=u.size)
         assert build.relative_error(K @ du, build.central_difference(full.force, u, du, 1e-5)) < 1e-9
     Kdu, again = np.zeros(full.size), np.zeros(full.size)
-    values = np.zeros(full.system.pattern.indices.size)
+    values = np.zeros(full.pattern.indices.size)
     block.evaluate(u, full.scatter, again, values, du, Kdu)
     np.testing.assert_array_equal(again, f)
     np.testing.assert_allclose(Kdu, K @ du, atol=1e-13)

@@ -54,7 +54,7 @@ def test_faces_of_a_bead_are_those_of_its_contact_or_its_own():
     (bead,) = problem.model.system.others
     np.testing.assert_array_equal(bead.faces, problem.contacts["bed"].faces)
     fewer = BEADED.replace("width = 6.0", "width = 6.0\nfaces = { min = [-1, -9, -9], max = [20, 9, -0.4] }")
-    (bead,) = Problem.read(fewer, "deck.toml").build().model.others
+    (bead,) = Problem.read(fewer, "deck.toml").build().model.system.others
     assert 0 < len(bead.faces) < 12
 
 

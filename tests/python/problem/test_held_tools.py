@@ -115,7 +115,7 @@ def test_a_rigid_support_may_take_the_place_of_one_of_the_same_nodes():
     text = DRAWN.replace('[[supports]]\nkind = "rigid"', clamp).replace(
         'name = "gauge"', 'name = "gauge"\nnodes = "x1"\ninstead_of = ["clamp"]'
     )
-    gauge = next(support for support in built(text).model.all_supports if support.name == "gauge")
+    gauge = next(support for support in built(text).model.supports.all if support.name == "gauge")
     clamped = next(support for support in built(text).model.supports if support.name == "clamp")
     assert len(gauge.held) == 1
     assert set(gauge.held) < set(clamped.held)
@@ -213,6 +213,6 @@ def test_a_deck_lets_a_loose_sheet_rest_on_springs():
     result = problem.solve()
     assert result["rest_acts"][[0, -1]].tolist() == [1.0, 0.0]
     own = built(hovering + "\n[solution]\nrest = 1e-5\n").model
-    assert own.others[0].each * len(own.mesh.points) == pytest.approx(1e-5)
+    assert own.system.others[0].each * len(own.mesh.points) == pytest.approx(1e-5)
     with pytest.raises(UmformError, match="rigid whole in 1 way"):
         built(hovering + '\n[solution]\nrest = "off"\n').solve()

@@ -66,13 +66,13 @@ def test_a_run_keeps_to_one_thread(threads, build):
 
     case = build.free_bending((6, 1))
     seen = []
-    evaluate = case.model.evaluate
+    evaluate = case.model.system.evaluate
 
     def watched(*args, **kwargs):
         seen.append(threads())
         return evaluate(*args, **kwargs)
 
-    case.model.evaluate = watched
+    case.model.system.evaluate = watched
     solve(case.model, Move(case.punch, -0.5, steps=1), frames=0)
     assert set(seen[2:]) == {1}  # before come the check of the model and its first state
     assert threads() == 3
