@@ -106,7 +106,7 @@ EVALUATION = SimpleNamespace(force_scale=1.0, round_off=0.0, values=np.ones(1), 
 
 
 def met(criteria: Criteria, norm: float, *, increment: float = 1e-8) -> bool:
-    return criteria.met(norm, increment, np.ones(1), EVALUATION, solved=True)
+    return criteria.met(norm, increment, np.ones(1), EVALUATION, moved=False, solved=True)
 
 
 @pytest.mark.parametrize(("norm", "increment", "ends"), [(1e-7, 1e-3, True), (1e-6, 1e-3, False), (1e-7, 0.1, False)])
