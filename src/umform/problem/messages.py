@@ -145,6 +145,8 @@ def _plain(message: str) -> str:
         .replace("Tuple", "this array")
         .replace("List", "this array")
         .replace("valid dictionary", "table")
+        .replace("table or object to extract fields from", "table")
+        .replace("a valid list", "an array")
     )
 
 

@@ -21,6 +21,7 @@ from umform.problem.errors import DeckError, DeckKey
 from umform.problem.keys import written_out
 from umform.problem.messages import messages
 from umform.problem.prepared import Prepared
+from umform.problem.profiles import as_written
 from umform.problem.references import unknown_names
 from umform.problem.source import Source, change, parse, read_file
 from umform.problem.written import deck_text, plain
@@ -38,8 +39,10 @@ class Problem:
         Its content.
     source : Source
         Its text, and the place of each key.
-    before : Deck or None
+    before : Problem or None
         The deck of the previous operation.
+    start : Result or None
+        The run of the previous operation, if it is in memory.
     """
 
     contents: Contents
@@ -76,7 +79,11 @@ class Problem:
         DeckError
             With all mistakes in it.
         """
-        return cls._read(parse(text, name, Path(folder), changes, trust))
+
+        def default(path: str) -> list[Any] | None:
+            return cls._read(parse(text, name, Path(folder), trust=trust))._array(path)
+
+        return cls._read(parse(text, name, Path(folder), changes, trust, default))
 
     @classmethod
     def _read(cls, source: Source, after: tuple[Path, ...] = ()) -> Problem:
@@ -138,12 +145,11 @@ class Problem:
         source = self.source
         if source.made:
             data = deepcopy(source.data)
-            change(data, changes)
+            change(data, changes, self._array)
             changed = replace(type(self)._read(replace(source, data=data)), start=self.start)
         else:
-            changed = type(self).read(
-                source.text, source.name, source.folder, {**source.changes, **changes}, source.trust
-            )
+            earlier = {key: value for key, value in source.changes.items() if key not in changes}
+            changed = type(self).read(source.text, source.name, source.folder, earlier | dict(changes), source.trust)
         if same_topology:
             _refuse_other_topology(self.sheet().mesh, changed.sheet().mesh, changes)
         return changed
@@ -157,7 +163,12 @@ class Problem:
         material = self.source.data["material"]
         law = written_out(material)
         named = self if law is material else self.with_({"material": law})
-        return [one for one in scalars(named.contents) if not one.path.startswith("output.")]
+        found = as_written(scalars(named.contents), named.source.data)
+        return [one for one in found if not one.path.startswith("output.")]
+
+    def _array(self, path: str) -> list[Any] | None:
+        """The numbers of an array; None if there are none at a path."""
+        return [one.value for one in self.paths() if one.path.rpartition(".")[0] == path] or None
 
     def toml(self, before: Mapping[str, str] | None = None) -> str:
         """Text of the deck.

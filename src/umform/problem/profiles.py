@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Mapping
+from functools import reduce
 from pathlib import Path as File
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -10,6 +12,7 @@ from pydantic import Discriminator, Field, Tag, ValidationInfo, ValidatorFunctio
 from umform import surfaces
 from umform.problem.parts import NotNegative, Pair, Part, Positive, number_or_array
 from umform.problem.tagged import refused, tagged
+from umform.spec import Scalar, scalars
 from umform.surfaces import Profile
 
 if TYPE_CHECKING:
@@ -120,6 +123,32 @@ def _read(value: Any, read: ValidatorFunctionWrapHandler, info: ValidationInfo) 
 
 #: A section that is read at once.
 ReadProfile = Annotated[ProfilePart, WrapValidator(_read)]
+
+
+def as_written(numbers: Iterable[Scalar], data: Mapping[str, Any]) -> Iterator[Scalar]:
+    """Numbers of a problem, those of its profiles by corners or from drawings under the keys that its data have.
+
+    Parameters
+    ----------
+    numbers : iterable of Scalar
+        Those of its content.
+    data : mapping
+        Its data.
+    """
+    done = set()
+    for one in numbers:
+        path, inside, _ = one.path.partition(".segments.")
+        table = reduce(_entry, path.split("."), data) if inside else None
+        if not inside or _kind(table) == "segments":
+            yield one
+        elif path not in done and isinstance(table, Mapping):
+            done.add(path)
+            yield from scalars(_KEYS[_kind(table) or ""].model_validate(table), path)
+
+
+def _entry(table: Any, key: str) -> Any:
+    """An entry of a table or an array of the data."""
+    return table[int(key)] if isinstance(table, list) else table.get(key)
 
 
 def profile_table(profile: Profile) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path as File
 from typing import Any
@@ -98,7 +98,14 @@ def read_file(path: str | File) -> str:
         raise FileProblem("the deck cannot be read", where=str(path), cause=cause, remedy=remedy) from None
 
 
-def parse(text: str, name: str, folder: File, changes: Mapping[str, Any] | None = None, trust: bool = False) -> Source:
+def parse(
+    text: str,
+    name: str,
+    folder: File,
+    changes: Mapping[str, Any] | None = None,
+    trust: bool = False,
+    default: Callable[[str], Any] = lambda _: None,
+) -> Source:
     """Parse a deck.
 
     Parameters
@@ -113,6 +120,8 @@ def parse(text: str, name: str, folder: File, changes: Mapping[str, Any] | None 
         Other values of some keys: ``{"steps.0.increments": 3}``.
     trust : bool
         Whether classes of Python that it names may be imported.
+    default : callable
+        As for `change`.
 
     Raises
     ------
@@ -123,12 +132,21 @@ def parse(text: str, name: str, folder: File, changes: Mapping[str, Any] | None 
         data = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         raise DeckError([no_toml(text, name, error)]) from None
-    change(data, changes or {})
+    change(data, changes or {}, default)
     return Source(name, folder, text, data, lines_of(text), dict(changes or {}), trust=trust)
 
 
-def change(data: dict[str, Any], changes: Mapping[str, Any]) -> None:
+def change(data: dict[str, Any], changes: Mapping[str, Any], default: Callable[[str], Any]) -> None:
     """Give keys of parsed data other values, in place; a key of the law of a library metal writes the law out.
+
+    Parameters
+    ----------
+    data : dict
+        The data.
+    changes : mapping of str to object
+        Values by path; their arrays and tables are copied.
+    default : callable
+        Gives the array of a path that the data leave out, so that one of its entries can be changed; None without one.
 
     Raises
     ------
@@ -137,12 +155,12 @@ def change(data: dict[str, Any], changes: Mapping[str, Any]) -> None:
     """
     if any(key.startswith("material.") and key not in _OF_A_METAL for key in changes):
         data["material"] = plain(written_out(data.get("material")))
-    wrong = [problem for key, value in changes.items() if (problem := _change(data, key, value))]
+    wrong = [problem for key, value in changes.items() if (problem := _change(data, key, plain(value), default))]
     if wrong:
         raise DeckError(wrong)
 
 
-def _change(data: dict[str, Any], key: str, value: Any) -> DeckKey | None:
+def _change(data: dict[str, Any], key: str, value: Any, default: Callable[[str], Any]) -> DeckKey | None:
     """Give a key another value."""
     holder: Any = data
     *way, last = key.split(".")
@@ -152,7 +170,8 @@ def _change(data: dict[str, Any], key: str, value: Any) -> DeckKey | None:
         elif isinstance(holder, dict) and part in holder:
             holder = holder[part]
         elif isinstance(holder, dict) and number == len(way) - 1:
-            holder = holder.setdefault(part, {})
+            array = default(".".join(way)) if last.isdecimal() else None
+            holder = holder.setdefault(part, {} if array is None else array)
         else:
             holder = None
     if isinstance(holder, dict):

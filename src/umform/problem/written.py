@@ -8,6 +8,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from numbers import Real
 from typing import Any
 
+import numpy as np
+
 from umform.errors import InvalidValue
 
 _WIDTH = 118
@@ -88,4 +90,4 @@ def plain(value: Any) -> Any:
         return {str(key): plain(one) for key, one in value.items() if one is not None}
     if isinstance(value, list | tuple):
         return [plain(one) for one in value]
-    return value.item() if hasattr(value, "dtype") and not getattr(value, "ndim", 1) else value
+    return value.tolist() if isinstance(value, np.ndarray | np.generic) else value

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from umform.errors import InvalidValue
 from umform.io.tables import write_csv
 from umform.results.balanced import balanced
 from umform.results.history import History
@@ -75,7 +76,10 @@ class Outcome(ABC):
 
     def __getitem__(self, name: str) -> Quantity:
         """A quantity by its name."""
-        return next(one for one in self.quantities if one.name == name)
+        found = {one.name: one for one in self.quantities}
+        if name not in found:
+            raise InvalidValue("the outcome has no such quantity", value=name, remedy="one of " + ", ".join(found))
+        return found[name]
 
     @property
     def increments(self) -> int:

@@ -8,7 +8,7 @@ import pytest
 import umform as uf
 from umform.errors import InvalidValue
 from umform.problem import DeckError, Problem, load, running
-from umform.problem.templates import template_file
+from umform.problem.templates import template_file, templates
 from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.bend_sequence import bend_sequence
 from umform.processes.bend_sequence.spec import Bend, BendSequence
@@ -96,6 +96,45 @@ def test_a_path_changes_a_number_and_the_mesh_follows():
     with pytest.raises(DeckError) as nowhere:
         strip.with_({"mesh.cells.7": 3})
     assert nowhere.value.errors[0].where == "mesh.cells.7"
+
+
+@pytest.mark.parametrize("name", templates())
+def test_each_path_of_a_template_can_be_changed(name):
+    """Also entries of arrays that the deck leaves to their defaults, and the corners of profiles."""
+    problem = load(template_file(name))
+    paths = problem.paths()
+    assert problem.with_({one.path: one.value for one in paths}).paths() == paths
+
+
+def test_one_entry_of_an_array_that_the_deck_leaves_out():
+    assert problem_of(BEND).with_({"tools.die.rotation.1": 5.0}).contents.tools["die"].rotation == (0.0, 5.0, 0.0)
+    strip = load(template_file("cantilever"), {"mesh.shift.2": 3.0})
+    assert strip.contents.mesh.shift == (0.0, 0.0, 3.0)
+    with pytest.raises(DeckError):
+        strip.with_({"mesh.shift.3": 3.0})
+
+
+def test_the_corners_of_a_profile_are_paths_and_its_segments_are_not():
+    numbers = {one.path: one.value for one in load(template_file("cup")).paths()}
+    assert numbers["tools.die.profile.radii.1"] == 10.0
+    assert not [path for path in numbers if path.startswith("tools.die.profile.segments")]
+
+
+def test_numbers_of_numpy_are_written_as_those_of_python():
+    changes = {"tools.die.opening": np.float64(16.25), "steps.0.increments": np.int64(7)}
+    text = problem_of(BEND).with_(changes).toml()
+    assert "opening = 16.25\n" in text and "increments = 7\n" in text
+    assert load(template_file("cantilever"), {"mesh.cells": np.array([5, 1])}).contents.mesh.cells == (5, 1)
+
+
+def test_changes_neither_reach_the_tables_they_came_from_nor_outlive_later_ones():
+    strip = load(template_file("cantilever"))
+    table = dict(strip.source.data["mesh"])
+    given = strip.with_({"mesh": table})
+    longer = given.with_({"mesh.length": 99.0})
+    assert table["length"] == given.with_({"title": "again"}).contents.mesh.length == 10.0
+    assert longer.contents.mesh.length == 99.0
+    assert longer.with_({"mesh": table}).contents.mesh.length == 10.0
 
 
 def test_a_path_into_a_metal_of_the_library_writes_its_law_out():

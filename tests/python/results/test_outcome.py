@@ -8,6 +8,7 @@ import pytest
 
 import umform as uf
 from umform.cli.outcome_screen import show_outcome
+from umform.errors import InvalidValue
 from umform.io.tables import write_json
 from umform.report import parts
 from umform.report.page import outcome_parts
@@ -109,3 +110,9 @@ def test_the_table_of_the_bench_has_it(pulled, tmp_path):
         answer = client.get("/api/jobs.csv", params={"ids": "0" * 12})
     (row,) = csv.DictReader(io.StringIO(answer.text))
     assert float(row["force N"]) == pulled.values["force"] and row["length mm"] == "10.1"
+
+
+def test_an_unknown_quantity_of_an_outcome_is_refused_with_the_known_ones(pulled):
+    with pytest.raises(InvalidValue, match="the outcome has no such quantity") as refused:
+        pulled["foce"]
+    assert refused.value.remedy == "one of force, length"
