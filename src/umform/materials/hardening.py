@@ -42,6 +42,12 @@ Curve = Annotated[
         cause="a number, or the name of a curve in place of a curve",
         remedy="Perfect(160.0) or another of Linear, Voce, LinearVoce, Swift, Table",
     ),
+    Rule(
+        lambda curve: isinstance(curve.curve(), _core.Hardening),
+        "curve() of a hardening curve must return what the kernels take",
+        cause="an object such as Table, or nothing",
+        remedy="return uf.Table(...).curve()",
+    ),
     OneOf("curve", partial(known, Hardening)),
 ]
 

@@ -41,6 +41,12 @@ Factor = Annotated[
         cause="a strain rate, or the name of a factor in place of one",
         remedy="CowperSymonds(reference=40.0, exponent=5.0) or JohnsonCook(reference=1.0, strength=0.014)",
     ),
+    Rule(
+        lambda factor: isinstance(factor.factor(), _core.RateFactor),
+        "factor() of a rate factor must return what the kernels take",
+        cause="an object such as JohnsonCook, or nothing",
+        remedy="return uf.JohnsonCook(...).factor()",
+    ),
     OneOf("factor", partial(known, RateFactor)),
 ]
 

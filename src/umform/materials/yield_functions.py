@@ -50,6 +50,12 @@ Function = Annotated[
         cause="its name, or its class in place of one",
         remedy="Hill48(r0=1.8, r45=1.5, r90=2.2) or another of Mises, Hosford, Yld91, Yld2004",
     ),
+    Rule(
+        lambda function: isinstance(function.function(), _core.YieldFunction),
+        "function() of a yield function must return what the kernels take",
+        cause="an object such as Hill48, or nothing",
+        remedy="return uf.Hill48(...).function()",
+    ),
     OneOf("function", partial(known, YieldFunction)),
 ]
 

@@ -93,7 +93,7 @@ def _message(found: Mapping[str, Any], source: Source) -> UmformError:
         return _wrong_kind(source, path, given, context, _words_at(loc))
     words = _quoted(context.get("expected", ""))
     return DeckKey(
-        _plain(found["msg"]),
+        worded(found["msg"]),
         where=source.place(path),
         value=None if isinstance(given, dict) else shortened(given),
         cause=slip(given, words) if words else _CAUSES.get(kind, ANY_CAUSE),
@@ -135,7 +135,8 @@ def _wrong_kind(source: Source, path: Path, given: Any, context: Mapping[str, An
     )
 
 
-def _plain(message: str) -> str:
+def worded(message: str) -> str:
+    """A message of pydantic in the words of a deck."""
     return (
         message.replace("Input should", "it should")
         .replace("String should match pattern '^-?[xyz]$'", "it should be x, y, z, -x, -y or -z, or an array")

@@ -42,6 +42,13 @@ def test_the_command_refuses(typed, message, tmp_path, monkeypatch):
     assert not (tmp_path / "out").exists()
 
 
+def test_keys_of_a_file_are_not_called_options(tmp_path):
+    (tmp_path / "part.toml").write_text("length = 40.0\n[[bends]]\nat = 18.0\nstroke = 0.4\n")
+    done = CliRunner().invoke(app, ["bend", "--sequence", str(tmp_path / "part.toml"), "--out", str(tmp_path / "out")])
+    assert done.exit_code == 1
+    assert "die_angle, die_radius, punch_angle" in done.stderr and "part.toml, bend 1" in done.stderr
+
+
 def test_a_part_that_collides_is_not_done(tmp_path, monkeypatch):
     (tmp_path / "part.toml").write_text("length = 40.0\n[[bends]]\nposition = 18.0\nstroke = 0.4\n")
     coarse = ["--elements-per-thickness", "1", "--layers", "1", "--increment", "0.025"]

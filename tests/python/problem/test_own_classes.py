@@ -120,6 +120,15 @@ def test_a_curve_of_the_user(deck):
     assert law_keys(law)["hardening"] == {"curve": "own_laws:Ludwik", "first": 160.0, "strength": 450.0}
 
 
+@pytest.mark.parametrize("method", ["curve", "function", "factor"])
+def test_what_a_class_of_the_user_gives_the_kernels_is_checked(method):
+    own = type("Own", (), {method: lambda self: uf.Perfect(160.0), "directional": False})()
+    field = {"curve": "hardening", "function": "yield_function", "factor": "rate"}[method]
+    with pytest.raises(uf.UmformError, match="must return what the kernels take") as refused:
+        uf.Metal(210e3, 0.3, **{"hardening": uf.Perfect(160.0), field: own})
+    assert refused.value.where.endswith(f"({field})") and "return uf." in refused.value.remedy
+
+
 def test_a_law_of_the_user(deck):
     material = 'law = "own_laws:Softer"\nE = 210e3\nnu = 0.3\nrolling = "x"'
     model = load(deck(material), trust=True).build().model

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -195,5 +196,24 @@ def test_a_file_is_read(tmp_path):
     file.write_text("length = [")
     with pytest.raises(FileProblem, match="cannot be read"):
         read_sequence(file)
-    with pytest.raises(InvalidValue, match=r"bends\.1\.angel"):
-        sequence_form({"length": 90, "bends": [{"position": 30, "angel": 90}]})
+
+
+@pytest.mark.parametrize(
+    ("bend", "what", "cause"),
+    [
+        ({"position": 30, "angel": 90}, "this key is unknown here", "a typing error: did you mean angle?"),
+        ({"positon": 30, "angle": 90}, "this key is unknown here", "a typing error: did you mean position?"),
+        ({"angle": 90}, "the key position is missing", "it was left out"),
+        ({"position": [1, 2], "angle": 90}, "position: it should be a valid number", "values that do not go together"),
+    ],
+)
+def test_a_mistake_in_a_file_has_the_number_of_the_bend(bend, what, cause):
+    with pytest.raises(InvalidValue, match=what) as refused:
+        sequence_form({"length": 90, "bends": [{"position": 15, "angle": 90}, bend]}, "part.toml")
+    assert refused.value.where == "part.toml, bend 2"
+    assert cause in refused.value.cause
+
+
+def test_a_sequence_is_pickled_for_another_process():
+    sequence = BendSequence(60.0, (Bend(20.0, stroke=1.0, tools={"opening": 12.0}),), SHEET)
+    assert pickle.loads(pickle.dumps(sequence)) == sequence

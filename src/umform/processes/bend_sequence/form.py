@@ -8,7 +8,9 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from umform.errors import FileProblem, InvalidValue
+from umform.errors import FileProblem
+from umform.problem.errors import ANY_CAUSE, DeckKey, shortened, slip
+from umform.problem.messages import worded
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence.spec import TOOLS, Bend, BendSequence, Bodies
 from umform.spec.types import Degrees, Length
@@ -60,7 +62,7 @@ def read_sequence(path: Path) -> SequenceForm:
 
     Raises
     ------
-    FileProblem, InvalidValue
+    FileProblem, DeckKey
         If it cannot be read, or is no valid sequence.
     """
     try:
@@ -80,17 +82,28 @@ def sequence_form(data: Any, where: str = "sequence") -> SequenceForm:
 
     Raises
     ------
-    InvalidValue
+    DeckKey
         With the invalid key.
     """
     try:
         return SequenceForm.model_validate(data)
     except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        key = ".".join(str(part + 1) if isinstance(part, int) else part for part in first["loc"])
-        raise InvalidValue(
-            f"{key}: {first['msg']}",
-            where=where,
-            value=str(first["input"])[:60],
-            remedy="length, and position with angle or stroke for each of the bends",
-        ) from error
+        raise _invalid(error, where) from error
+
+
+def _invalid(error: ValidationError, where: str) -> DeckKey:
+    """The error of an unknown key, else the first one; bends are counted from 1."""
+    found = error.errors(include_url=False)
+    first = next((one for one in found if one["type"] == "extra_forbidden"), found[0])
+    *table, last = first["loc"] or ("",)
+    place = ", ".join([where, *(f"bend {part + 1}" if isinstance(part, int) else part for part in table if part != "bends")])
+    known = list(BendForm.model_fields if "bends" in table else SequenceForm.model_fields)
+    if first["type"] == "extra_forbidden" and "bodies" not in table:
+        remedy = f"known keys: {', '.join(known)}"
+        return DeckKey("this key is unknown here", where=place, value=last, cause=slip(last, known), remedy=remedy)
+    if first["type"] == "missing":
+        what, value, cause = f"the key {last} is missing", None, "it was left out"
+    else:
+        what, value, cause = f"{last}: {worded(first['msg'])}", shortened(first["input"]), ANY_CAUSE
+    remedy = "length, and position with angle or stroke for each of the bends"
+    return DeckKey(what, where=place, value=value, cause=cause, remedy=remedy)

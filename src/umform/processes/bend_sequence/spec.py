@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from types import MappingProxyType
 from typing import Annotated, ClassVar, Literal
 
 from umform.errors import InvalidValue
@@ -35,7 +34,7 @@ class Bend:
     """Tools of this bend that differ from those of the sequence; their names are `TOOLS`."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "tools", MappingProxyType(dict(self.tools)))
+        object.__setattr__(self, "tools", dict(self.tools))
         check_fields(self)
         _check_bend(self)
 
