@@ -46,8 +46,8 @@ class Mirror:
 def mirrors(model: Model) -> list[Mirror]:
     """Planes of symmetry according to the supports of a model, at most one across each axis.
 
-    A plane counts if the sheet ends there through its whole thickness, all nodes in it are held across it, and not all
-    of them in every direction, which is a clamp. Nodes that are all held along an axis, as in plane strain, do not
+    A plane counts if the sheet ends there through its whole thickness, supports hold all nodes in it across it, and
+    not all of them in every direction, which is a clamp; a control moves it. Nodes that are all held along an axis, as in plane strain, do not
     count.
 
     Parameters
@@ -56,6 +56,7 @@ def mirrors(model: Model) -> list[Mirror]:
         The model.
     """
     points, held = model.mesh.points, model.supports.constrained().reshape(-1, 3)
+    fixed = model.supports.fixed.reshape(-1, 3)
     hair = _HAIR * float(np.ptp(points, axis=0).max())
     found: list[Mirror] = []
     for axis in range(3):
@@ -64,7 +65,7 @@ def mirrors(model: Model) -> list[Mirror]:
             continue
         for at in (float(x.min()), float(x.max())):
             inside = np.abs(x - at) <= hair
-            if held[inside, axis].all() and not held[inside].all() and _through_the_thickness(model, inside):
+            if fixed[inside, axis].all() and not held[inside].all() and _through_the_thickness(model, inside):
                 found.append(Mirror(axis, at + 0.0))
                 break
     return found

@@ -50,6 +50,9 @@ def test_an_edge_that_is_moved_sideways_is_no_symmetry_of_the_start():
     model = strip(("symmetry", "x0", "x"))
     model.prescribe("x1", "x", name="pull")
     assert mirrors(model) == [Mirror(0, 0.0)]
+    clamped = strip(("fix", "x0", "xyz"))
+    clamped.prescribe("x1", "x", name="pull")
+    assert mirrors(clamped) == []
 
 
 def test_the_whole_shape_has_both_halves():
