@@ -257,7 +257,8 @@ void bind_history(nb::class_<ContactBlock>& contact) {
             "Pressures that are there without a penetration: those of now, which commit makes the converged ones.")
         .def_prop_ro(
             "history_variables", [](const ContactBlock& b) { return to_dict(b.history().history_variables()); },
-            nb::sig("def history_variables(self) -> dict[str, int]"), "Parts of the history of a point, in their order.")
+            nb::sig("def history_variables(self) -> dict[str, int]"),
+            "Parts of the history of a point, in their order.")
         .def_prop_ro(
             "state",
             [](const ContactBlock& b) {

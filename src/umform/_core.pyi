@@ -801,7 +801,9 @@ class ContactBlock:
 
     @property
     def state(self) -> NDArray[float64]:
-        """Converged history (points, size) in the order of the history_variables."""
+        """
+        Converged history (points, size) in the order of the history_variables.
+        """
 
     @property
     def read(self) -> NDArray[float64]:
