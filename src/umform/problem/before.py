@@ -181,15 +181,15 @@ def write_state(model: Model, path: File, tables: Mapping[str, Any]) -> None:
     """Write displacements, the history of all bodies, and the data of this deck, for the next operation."""
     state = model.system.snapshot()
     bodies = {body.key: state.terms[body.key] for body in model.bodies}
-    rubbed = {pair.name: KeptContact.of(pair) for pair in model.system.pairs_of_tools() if pair.rubs}
+    with_friction = {pair.name: KeptContact.of(pair) for pair in model.system.pairs_of_tools() if pair.has_friction}
     contacts = {
         name: {
             "faces": kept.faces,
             "history": kept.history,
-            "names": json.dumps(kept.quantities),
+            "names": json.dumps(kept.history_variables),
             "penalty": kept.penalty,
         }
-        for name, kept in rubbed.items()
+        for name, kept in with_friction.items()
     }
     tree = {"points": model.mesh.points, "u": state.u, "time": state.time, "began": state.began, "bodies": bodies}
     tree |= {"contacts": contacts} if contacts else {}
