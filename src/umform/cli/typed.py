@@ -35,7 +35,10 @@ def _written(match: re.Match[str], options: Mapping[str, str]) -> str:
 
 
 def message(error: UmformError, options: Mapping[str, str]) -> str:
-    """The message of an error that names options in place of parameters, which are given by name; keys of files stay."""
+    """The message of an error that names options in place of parameters, which are given by name.
+
+    Keys of files stay as they are.
+    """
     if error.id.startswith("deck"):
         return str(error)
     if isinstance(error, InvalidValue):  # a file may be called as a parameter is

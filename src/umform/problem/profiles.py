@@ -83,7 +83,11 @@ class FromDxf(Part):
         )
 
 
-_KEYS = {"corners": ByCorners, "segments": BySegments, "file": FromDxf}
+_KEYS: dict[str, type[ByCorners | BySegments | FromDxf]] = {
+    "corners": ByCorners,
+    "segments": BySegments,
+    "file": FromDxf,
+}
 
 
 def _kind(value: Any) -> str | None:

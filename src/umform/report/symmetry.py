@@ -46,9 +46,9 @@ class Mirror:
 def mirrors(model: Model) -> list[Mirror]:
     """Planes of symmetry according to the supports of a model, at most one across each axis.
 
-    A plane counts if the sheet ends there through its whole thickness, supports hold all nodes in it across it, and
-    not all of them in every direction, which is a clamp; a control moves it. Nodes that are all held along an axis, as in plane strain, do not
-    count.
+    A plane counts if the sheet ends there through its whole thickness, supports hold all nodes in it across it, and not
+    all of them are held in every direction, which is a clamp; an edge that a control moves does not count. Nodes that
+    are all held along an axis, as in plane strain, do not count.
 
     Parameters
     ----------

@@ -96,7 +96,8 @@ def _invalid(error: ValidationError, where: str) -> DeckKey:
     found = error.errors(include_url=False)
     first = next((one for one in found if one["type"] == "extra_forbidden"), found[0])
     *table, last = first["loc"] or ("",)
-    place = ", ".join([where, *(f"bend {part + 1}" if isinstance(part, int) else part for part in table if part != "bends")])
+    way = (f"bend {part + 1}" if isinstance(part, int) else part for part in table if part != "bends")
+    place = ", ".join([where, *way])
     known = list(BendForm.model_fields if "bends" in table else SequenceForm.model_fields)
     if first["type"] == "extra_forbidden" and "bodies" not in table:
         remedy = f"known keys: {', '.join(known)}"
