@@ -10,7 +10,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path as File
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -22,11 +22,13 @@ from umform.model import Model, Snapshot
 from umform.model.contact import Contact
 from umform.model.contact.kept import KeptContact
 from umform.model.rigid_motion import RigidMotion
-from umform.model.trim import Trim
 from umform.problem.errors import DeckError, DeckKey
 from umform.problem.parts import Name, Part, Vector
 from umform.problem.profiles import ProfilePart, profile_of
 from umform.problem.source import Source
+
+if TYPE_CHECKING:
+    from umform.model.trim import Trim
 
 #: Tables of the previous deck.
 TAKEN = ("mesh", "material", "element")
@@ -174,6 +176,8 @@ class Cut(Part):
 
     def build(self, folder: File) -> Trim:
         """The cut."""
+        from umform.model.trim import Trim  # most decks have no cut
+
         return Trim(profile_of(self.line, folder), self.view, self.formed, self.edge)
 
 
