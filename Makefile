@@ -113,7 +113,7 @@ ubend: book  ## a U-bend with friction, beside CalculiX if it is there (a quarte
 	@$(BIN)/python benchmarks/ubend.py --page docs/performance-codes.md $(ARGS)
 	@$(BIN)/python tools/performance_numbers.py
 
-cup: book  ## the cup of the ESAFORM benchmark 2021 on four meshes (some ten minutes)
+cup: book  ## the cup of the ESAFORM benchmark 2021, and an isotropic one, on four meshes each (a minute and a half of CPU)
 	$(SAY) 'Drawing the cup'
 	@$(BIN)/python benchmarks/esaform_cup.py --json build/cup.json --page docs/performance-increments.md $(ARGS)
 
