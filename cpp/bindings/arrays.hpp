@@ -36,9 +36,9 @@ inline void copy_result(nb::handle result, double* out, std::size_t size) {
 }
 
 /// Names and sizes of the parts of a history, in their order.
-inline nb::dict to_dict(const std::vector<umform::Quantity>& quantities) {
+inline nb::dict to_dict(const std::vector<umform::HistoryVariable>& history_variables) {
     nb::dict names;
-    for (const umform::Quantity& quantity : quantities) names[quantity.name.c_str()] = quantity.size;
+    for (const umform::HistoryVariable& quantity : history_variables) names[quantity.name.c_str()] = quantity.size;
     return names;
 }
 

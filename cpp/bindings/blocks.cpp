@@ -143,8 +143,9 @@ void bind_blocks(nb::module_& m) {
         .def_prop_ro("modes", &ShellBlock::modes)
         .def_prop_ro("state_size", &ShellBlock::state_size)
         .def_prop_ro(
-            "quantities", [](const ShellBlock& b) { return to_dict(b.quantities()); },
-            nb::sig("def quantities(self) -> dict[str, int]"), "Parts of the history of a point, in their order.")
+            "history_variables", [](const ShellBlock& b) { return to_dict(b.history_variables()); },
+            nb::sig("def history_variables(self) -> dict[str, int]"),
+            "Parts of the history of a point, in their order.")
         .def_prop_ro("symmetric", &ShellBlock::symmetric, "Whether the tangent is symmetric.")
         .def(
             "failing_point",

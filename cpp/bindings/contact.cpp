@@ -256,8 +256,9 @@ void bind_history(nb::class_<ContactBlock>& contact) {
             nb::for_setter(nb::sig("def multipliers(self, values: NDArray[float64], /) -> None")),
             "Pressures that are there without a penetration: those of now, which commit makes the converged ones.")
         .def_prop_ro(
-            "quantities", [](const ContactBlock& b) { return to_dict(b.history().quantities()); },
-            nb::sig("def quantities(self) -> dict[str, int]"), "Parts of the history of a point, in their order.")
+            "history_variables", [](const ContactBlock& b) { return to_dict(b.history().history_variables()); },
+            nb::sig("def history_variables(self) -> dict[str, int]"),
+            "Parts of the history of a point, in their order.")
         .def_prop_ro(
             "state",
             [](const ContactBlock& b) {
@@ -265,7 +266,7 @@ void bind_history(nb::class_<ContactBlock>& contact) {
                                 {static_cast<std::size_t>(b.points()), static_cast<std::size_t>(b.history().size())});
             },
             nb::sig("def state(self) -> NDArray[float64]"),
-            "Converged history (points, size) in the order of the quantities.")
+            "Converged history (points, size) in the order of the history_variables.")
         .def_prop_ro(
             "read",
             [](const ContactBlock& b) {

@@ -74,7 +74,7 @@ void bind_foreign(nb::module_& m) {
         [](std::uintptr_t function, bool energies, std::string name, std::vector<double> properties, Names state,
            const std::vector<double>& initial, bool symmetric, bool parallel) {
             Names all;
-            for (const Quantity& part : UmatState::table.list()) all.emplace_back(part.name, part.size);
+            for (const HistoryVariable& part : UmatState::table.list()) all.emplace_back(part.name, part.size);
             all.insert(all.end(), state.begin(), state.end());
             std::vector<double> begin(UmatState::variables, 0.0);
             begin.insert(begin.end(), initial.begin(), initial.end());

@@ -178,8 +178,9 @@ void bind_materials(nb::module_& m) {
     nb::class_<Material>(m, "Material", "A material law: strain and history in, stress, tangent and new history out.")
         .def_prop_ro("state_size", &Material::state_size)
         .def_prop_ro(
-            "quantities", [](const Material& law) { return to_dict(law.quantities()); },
-            nb::sig("def quantities(self) -> dict[str, int]"), "Parts of the history of a point, in their order.")
+            "history_variables", [](const Material& law) { return to_dict(law.history_variables()); },
+            nb::sig("def history_variables(self) -> dict[str, int]"),
+            "Parts of the history of a point, in their order.")
         .def_prop_ro("symmetric", &Material::symmetric, "Whether the tangent is symmetric at any strain.")
         .def_prop_ro("sees_points", &Material::sees_points, "Whether the law asks for axes, size and step.")
         .def_prop_ro("staged_returns", &Material::staged_returns,

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import importlib
+import sys
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from umform import errors as errors
-from umform.renamed import message
+from umform.renamed import Moved, refuse
 
 if TYPE_CHECKING:
     from umform import elements as elements
@@ -68,6 +69,8 @@ if TYPE_CHECKING:
     from umform.surfaces import write_tool as write_tool
 
 __version__ = "0.1.0"
+
+sys.meta_path.append(Moved())
 
 _HOME = {
     "umform._core": ("set_threads", "threads"),
@@ -133,7 +136,8 @@ def __getattr__(name: str) -> object:
     elif (found := _in_a_file(name)) is not None:
         value = found
     else:
-        raise AttributeError(message(name) or f"module 'umform' has no attribute {name!r}")
+        refuse(name)
+        raise AttributeError(f"module 'umform' has no attribute {name!r}")
     globals()[name] = value
     return value
 

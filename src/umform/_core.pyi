@@ -51,7 +51,7 @@ class Material:
     def state_size(self) -> int: ...
 
     @property
-    def quantities(self) -> dict[str, int]:
+    def history_variables(self) -> dict[str, int]:
         """Parts of the history of a point, in their order."""
 
     @property
@@ -425,7 +425,7 @@ class ShellBlock:
     def state_size(self) -> int: ...
 
     @property
-    def quantities(self) -> dict[str, int]:
+    def history_variables(self) -> dict[str, int]:
         """Parts of the history of a point, in their order."""
 
     @property
@@ -796,12 +796,14 @@ class ContactBlock:
     def multipliers(self, values: NDArray[float64], /) -> None: ...
 
     @property
-    def quantities(self) -> dict[str, int]:
+    def history_variables(self) -> dict[str, int]:
         """Parts of the history of a point, in their order."""
 
     @property
     def state(self) -> NDArray[float64]:
-        """Converged history (points, size) in the order of the quantities."""
+        """
+        Converged history (points, size) in the order of the history_variables.
+        """
 
     @property
     def read(self) -> NDArray[float64]:

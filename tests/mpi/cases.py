@@ -13,11 +13,11 @@ from pathlib import Path
 import numpy as np
 
 import umform as uf
+from umform.history_variables import named
 from umform.mesh import strip
 from umform.model import Body, NodalTerm
 from umform.problem import load
 from umform.problem.templates import template_file
-from umform.quantities import named
 from umform.solution.options import NewtonOptions
 
 STEEL = {"kappa": 175e3, "mu": 80.77e3}
@@ -193,7 +193,7 @@ class Foam(NodalTerm):
     each_node = ("stiffness",)
 
     def respond(self, u, history, at):
-        k, h, crush = self.stiffness, self.slope, named(history, self.quantities)["crush"][:, 0]
+        k, h, crush = self.stiffness, self.slope, named(history, self.history_variables)["crush"][:, 0]
         beyond = np.maximum(-k * (u[:, 2] - crush) - self.limit + h * crush, 0.0)
         crush = crush - beyond / (k + h)
         forces, tangents = np.zeros((len(u), 3)), np.zeros((len(u), 3, 3))
@@ -203,7 +203,7 @@ class Foam(NodalTerm):
         return forces, tangents, crush[:, None]
 
     def energy(self, u, history):
-        crush = named(history, self.quantities)["crush"][:, 0]
+        crush = named(history, self.history_variables)["crush"][:, 0]
         return 0.5 * self.stiffness * (u[:, 2] - crush) ** 2, -self.limit * crush + 0.5 * self.slope * crush**2
 
     def column_names(self):

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import umform as uf
-from umform.renamed import RENAMED
+from umform.renamed import MOVED, RENAMED
 
 LAZY = [
     "umform.problem",
@@ -43,6 +43,13 @@ def test_an_unknown_name_is_refused():
 def test_an_old_name_says_what_it_is_now_called(name):
     new, remedy = RENAMED[name]
     assert name not in uf.__all__ and new in uf.__all__
-    with pytest.raises(AttributeError, match=rf"umform\.{name} is now called umform\.{new}") as caught:
+    with pytest.raises(ImportError, match=rf"umform\.{name} is now called umform\.{new}") as caught:
         getattr(uf, name)
     assert remedy in str(caught.value)
+
+
+@pytest.mark.parametrize("old", list(MOVED))
+def test_an_old_module_says_where_it_is(old):
+    with pytest.raises(ModuleNotFoundError, match=f"{old} is now called umform"):
+        import_module(old)
+    assert import_module(MOVED[old].split(",")[0])

@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 
 from umform import _core
 from umform.errors import InvalidValue, NoConvergence
+from umform.history_variables import named
 from umform.materials.user_law import Floats
-from umform.quantities import named
 
 
 class SmallStrainLaw(Protocol):
@@ -94,7 +94,7 @@ def point_path(
             cause="a stress beyond what the metal can carry",
             remedy="prescribe the strain along the load",
         )
-    return PointPath(strains, stresses, named(states, law.quantities))
+    return PointPath(strains, stresses, named(states, law.history_variables))
 
 
 def tension(

@@ -73,7 +73,7 @@ def check_law(material: Material, E: ArrayLike, state: ArrayLike | None = None, 
             where="check_law",
             value=shape,
             cause="another number of points than of strains, or of the numbers of a history",
-            remedy=f"one row for each strain with the parts {law.quantities}; without state: the virgin material",
+            remedy=f"one row for each strain with {law.history_variables}; without state: the virgin material",
         )
 
     def respond(strain: Floats) -> tuple[Floats, Floats, Floats]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.history_variables import named
 from umform.model.body import Body
-from umform.quantities import named
 
 Floats = NDArray[np.float64]
 
@@ -29,8 +29,8 @@ def _fibres(x: Floats, lower: NDArray[np.int32], upper: NDArray[np.int32]) -> Fl
 
 def strained(body: Body) -> float:
     """Largest increase of the accumulated plastic strain in the last increment; zero for laws without ``eqps``."""
-    quantities, state = body.block.quantities, body.block.state
-    if "eqps" not in quantities or not body.before.size:
+    history_variables, state = body.block.history_variables, body.block.state
+    if "eqps" not in history_variables or not body.before.size:
         return 0.0
-    before, after = (named(history, quantities)["eqps"] for history in (body.before.reshape(state.shape), state))
+    before, after = (named(history, history_variables)["eqps"] for history in (body.before.reshape(state.shape), state))
     return float((after - before).max())

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import _core
-from umform.quantities import named
+from umform.history_variables import named
 
 
 def at_failing_point(block: _core.ShellBlock, cell: int, u: NDArray[np.float64]) -> str:
@@ -25,5 +25,5 @@ def at_failing_point(block: _core.ShellBlock, cell: int, u: NDArray[np.float64])
     if point < 0:
         return ""
     text = f" at its point {point} with the strain ({', '.join(f'{value:.4g}' for value in E)})"
-    eqps = named(block.state[cell, point], block.quantities).get("eqps")
+    eqps = named(block.state[cell, point], block.history_variables).get("eqps")
     return text if eqps is None else f"{text}, plastic strain {eqps.item():.4g}"

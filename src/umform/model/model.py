@@ -29,7 +29,7 @@ from umform.model.moved_names import MOVED, moved
 from umform.model.opening import put_tool_back
 from umform.model.press import check_stiffness
 from umform.model.rest import Rest
-from umform.model.state import State
+from umform.model.state import Snapshot, State
 from umform.model.support import Support
 from umform.model.supports import Supports
 from umform.model.system import System
@@ -119,6 +119,7 @@ class Model:
     """
 
     carries_loose_sheet = True
+    _origin: Any = None
 
     @takes(BodyOptions)
     def __init__(
@@ -313,6 +314,17 @@ class Model:
         self.tools.stop(force, at, below=below)
         press.gaps.append(other)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """A model is sent to another process as its problem and its state."""
+        if self._origin is None:
+            raise InvalidValue(
+                "a model that was built by hand cannot be sent to another process",
+                where="Model",
+                cause="its kernels, and functions of yours, live in this one",
+                remedy="build it in the worker, or write it as a Problem: Problem.of(tables)",
+            )
+        return _built_again, (self._origin, self.system.snapshot())
+
     if not TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Any:
@@ -324,3 +336,15 @@ class Model:
                 setattr(*moved(self, name), value)
             else:
                 super().__setattr__(name, value)
+
+
+def sent_as(model: Model, origin: Any) -> None:
+    """Let a model be sent to another process: as its state, and as what built it by ``origin.build().model``."""
+    model._origin = origin
+
+
+def _built_again(origin: Any, state: Snapshot) -> Model:
+    """The model of a problem in a state."""
+    model: Model = origin.build().model
+    model.system.restore(state)
+    return model

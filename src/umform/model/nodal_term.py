@@ -66,8 +66,8 @@ class NodalTerm(Term):
         Names of attributes of a derived class with one row for each node, which ranks divide.
     history : ndarray, shape (n, k)
         Converged history.
-    quantities : dict of str to int
-        Names and sizes of its parts, for :func:`umform.quantities.named`.
+    history_variables : dict of str to int
+        Names and sizes of its parts, for :func:`umform.history_variables.named`.
 
     Raises
     ------
@@ -89,8 +89,8 @@ class NodalTerm(Term):
                 remedy="mesh.nodes(...) gives the numbers of a set, a predicate or a mask",
             )
         self.name, self.nodes = name, given.astype(np.int32)
-        self.quantities = {"history": history} if isinstance(history, int) else dict(history)
-        self.history: Floats = np.zeros((len(given), sum(self.quantities.values())))
+        self.history_variables = {"history": history} if isinstance(history, int) else dict(history)
+        self.history: Floats = np.zeros((len(given), sum(self.history_variables.values())))
         self.before = self.history[:0]
 
     def respond(self, u: Floats, history: Floats, at: At) -> tuple[Floats, Floats, Floats]:

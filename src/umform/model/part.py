@@ -194,7 +194,11 @@ def _model(whole: Model, mesh: Mesh, parents: Numbers, u: Floats) -> Model:
 
 def _contacts(whole: Model, parents: Numbers, same: NDArray[np.bool_]) -> dict[str, KeptContact]:
     """Histories of the contacts with friction."""
-    return {pair.name: KeptContact.of(pair).left(parents, same) for pair in whole.system.pairs_of_tools() if pair.rubs}
+    return {
+        pair.name: KeptContact.of(pair).left(parents, same)
+        for pair in whole.system.pairs_of_tools()
+        if pair.has_friction
+    }
 
 
 def _removed(whole: Model, model: Model) -> Energies:

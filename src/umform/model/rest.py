@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.history_variables import named
 from umform.model.checks import held_by_tools
 from umform.model.nodal_term import NodalFound, NodalTerm
 from umform.model.term import At, Found
-from umform.quantities import named
 from umform.ranks import Ranks
 
 Floats = NDArray[np.float64]
@@ -47,18 +47,18 @@ class Rest(NodalTerm):
 
     def respond(self, u: Floats, history: Floats, at: At) -> tuple[Floats, Floats, Floats]:
         """Linear springs, or zero."""
-        stiffness = self.each * (1.0 - named(history, self.quantities)["removed"])
+        stiffness = self.each * (1.0 - named(history, self.history_variables)["removed"])
         return stiffness * (u - self.origin), stiffness[:, :, None] * np.eye(3), history
 
     def energy(self, u: Floats, history: Floats) -> tuple[Floats, Floats]:
         """Energy of the springs while they act."""
-        acts = 1.0 - named(history, self.quantities)["removed"].ravel()
+        acts = 1.0 - named(history, self.history_variables)["removed"].ravel()
         stored = 0.5 * self.each * acts * ((u - self.origin) ** 2).sum(axis=1)
         return stored, np.zeros(len(u))
 
     def acts(self, ranks: Ranks) -> bool:
         """Whether the springs still act."""
-        return ranks.any(bool((named(self.history, self.quantities)["removed"] == 0.0).any()))
+        return ranks.any(bool((named(self.history, self.history_variables)["removed"] == 0.0).any()))
 
     def settled(self, model: Any, evaluation: Any) -> None:
         """Remove the springs once tools hold the sheet and the forces of the springs are negligible."""
@@ -70,7 +70,7 @@ class Rest(NodalTerm):
         if springs <= _NEGLIGIBLE * bearing and held_by_tools(model, evaluation):
             stored = self.energy(self._at_nodes(evaluation.u), self.history)[0]
             self.history = np.empty_like(self.history)
-            parts = named(self.history, self.quantities)
+            parts = named(self.history, self.history_variables)
             parts["removed"][:], parts["energy at removal"][:] = 1.0, stored[:, None]
 
     def columns(self, found: Found, ranks: Ranks) -> dict[str, float]:
@@ -78,7 +78,7 @@ class Rest(NodalTerm):
         assert isinstance(found, NodalFound)
         acts = self.acts(ranks)
         squares = (found.forces**2).sum() / (2.0 * self.each)
-        at_removal = named(self.history, self.quantities)["energy at removal"]
+        at_removal = named(self.history, self.history_variables)["energy at removal"]
         energy = ranks.sum(float(squares if acts else at_removal.sum()))
         return {f"{self.name}_energy": energy, f"{self.name}_acts": float(acts)}
 

@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 
 from umform import _core
 from umform.errors import InvalidValue
+from umform.history_variables import named
 from umform.materials import J2, SVK, Metal
 from umform.mesh import Mesh
 from umform.mesh.fitted.places import bilinear, located
 from umform.mesh.fitted.sheet import Sheet
 from umform.model.body import Body
-from umform.quantities import named
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
@@ -148,7 +148,7 @@ class Transfer:
         self._old, self._weights = old, weights
         block = old.block
         E, self._frame = _strains(old, cells, u, block.alpha[cells], old.mesh)
-        self._parts = _parts(block.quantities, block.state[cells])
+        self._parts = _parts(block.history_variables, block.state[cells])
         if self._parts:
             self._elastic = _elastic(self._parts, E, _logarithm(E), isinstance(old.material, J2))
 
@@ -169,16 +169,16 @@ class Transfer:
             Cells with a history. The others have the initial one: they are free of stress where they are flat.
         """
         probe = _Probe(new, own, mesh, u)
-        quantities = new.block.quantities
+        history_variables = new.block.history_variables
         state = np.tile(np.asarray(new.material.law().initial(), dtype=float), (len(own), new.block.points, 1))
-        if not quantities:
+        if not history_variables:
             return state, probe.alpha
         wanted = self._moved(self._elastic, probe.frame)
         probe.meet(np.trace(wanted, axis1=2, axis2=3))
         moved = np.empty_like(state)
-        for name, part in named(moved, quantities).items():
+        for name, part in named(moved, history_variables).items():
             values = self._parts[name]
-            if quantities[name] == 1:
+            if history_variables[name] == 1:
                 part[..., 0] = self._weights.mean(values)
             elif name == "Cp_inv":
                 part[:] = _voigt(_metric(probe.E, wanted), 1.0)
@@ -200,7 +200,7 @@ class Transfer:
 
 def flowed(old: Body, cells: Numbers, weights: Weights) -> NDArray[np.bool_]:
     """New cells of one layer with a point that lies beside one that has flowed."""
-    eqps = _parts(old.block.quantities, old.block.state[cells]).get("eqps")
+    eqps = _parts(old.block.history_variables, old.block.state[cells]).get("eqps")
     if eqps is None:
         return np.zeros(len(weights.of), dtype=bool)
     return np.asarray((weights.mean(eqps) > _ZERO).any(axis=1))
@@ -259,14 +259,16 @@ def _strains(body: Body, rows: Numbers, u: Floats, alpha: Floats, mesh: Mesh) ->
     return _tensor(E, 0.5), frame
 
 
-def _parts(quantities: dict[str, int], history: Floats) -> dict[str, Floats]:
+def _parts(history_variables: dict[str, int], history: Floats) -> dict[str, Floats]:
     """The history by name: scalars (cells, points), tensors (cells, points, 3, 3); shears of strains are halved."""
-    unknown = [name for name, size in quantities.items() if size not in (1, 6)]
+    unknown = [name for name, size in history_variables.items() if size not in (1, 6)]
     if unknown:
         raise InvalidValue("the history of a law cannot be moved to other points", value=", ".join(unknown))
     return {
-        name: values[..., 0] if quantities[name] == 1 else _tensor(values, 0.5 if name == "plastic_strain" else 1.0)
-        for name, values in named(history, quantities).items()
+        name: values[..., 0]
+        if history_variables[name] == 1
+        else _tensor(values, 0.5 if name == "plastic_strain" else 1.0)
+        for name, values in named(history, history_variables).items()
     }
 
 

@@ -10,7 +10,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path as File
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -22,11 +22,13 @@ from umform.model import Model, Snapshot
 from umform.model.contact import Contact
 from umform.model.contact.kept import KeptContact
 from umform.model.rigid_motion import RigidMotion
-from umform.model.trim import Trim
 from umform.problem.errors import DeckError, DeckKey
 from umform.problem.parts import Name, Part, Vector
 from umform.problem.profiles import ProfilePart, profile_of
 from umform.problem.source import Source
+
+if TYPE_CHECKING:
+    from umform.model.trim import Trim
 
 #: Tables of the previous deck.
 TAKEN = ("mesh", "material", "element")
@@ -174,6 +176,8 @@ class Cut(Part):
 
     def build(self, folder: File) -> Trim:
         """The cut."""
+        from umform.model.trim import Trim  # most decks have no cut
+
         return Trim(profile_of(self.line, folder), self.view, self.formed, self.edge)
 
 
@@ -181,15 +185,15 @@ def write_state(model: Model, path: File, tables: Mapping[str, Any]) -> None:
     """Write displacements, the history of all bodies, and the data of this deck, for the next operation."""
     state = model.system.snapshot()
     bodies = {body.key: state.terms[body.key] for body in model.bodies}
-    rubbed = {pair.name: KeptContact.of(pair) for pair in model.system.pairs_of_tools() if pair.rubs}
+    with_friction = {pair.name: KeptContact.of(pair) for pair in model.system.pairs_of_tools() if pair.has_friction}
     contacts = {
         name: {
             "faces": kept.faces,
             "history": kept.history,
-            "names": json.dumps(kept.quantities),
+            "names": json.dumps(kept.history_variables),
             "penalty": kept.penalty,
         }
-        for name, kept in rubbed.items()
+        for name, kept in with_friction.items()
     }
     tree = {"points": model.mesh.points, "u": state.u, "time": state.time, "began": state.began, "bodies": bodies}
     tree |= {"contacts": contacts} if contacts else {}

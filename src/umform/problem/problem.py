@@ -14,6 +14,7 @@ from pydantic import ValidationError
 from umform.errors import InvalidValue, UmformError
 from umform.mesh import Mesh
 from umform.model import Model
+from umform.model.model import sent_as
 from umform.problem.before import TAKEN, merged
 from umform.problem.building import build, sheet
 from umform.problem.contents import Contents
@@ -197,7 +198,9 @@ class Problem:
         DeckError
             With all mistakes.
         """
-        return build(self.contents, self.source, solver, self.before, self.start)
+        prepared = build(self.contents, self.source, solver, self.before, self.start)
+        sent_as(prepared.model, self)
+        return prepared
 
     def sheet(self) -> Model:
         """The model without tools and supports, before the first step.

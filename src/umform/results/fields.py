@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from umform import _core
 from umform.errors import InvalidValue
+from umform.history_variables import columns, history_of
 from umform.model import Body, Evaluation, Model
-from umform.quantities import columns, history_of
 
 Floats = NDArray[np.float64]
 
@@ -149,7 +149,7 @@ def cell_fields(model: Model) -> dict[str, Floats]:
 def _cell_fields(body: Body, u: Floats) -> dict[str, Floats]:
     """Means and maxima over the cells of all bodies, as `body_fields` gives them, with less memory."""
     names = list(_STRESSES)
-    eqps = columns(body.block.quantities).get("eqps")
+    eqps = columns(body.block.history_variables).get("eqps")
     if eqps is not None:
         names += ["plastic_strain_mean", "plastic_strain_max"]
     return dict(zip(names, body.block.cell_fields(u, -1 if eqps is None else eqps.start), strict=True))
@@ -279,7 +279,7 @@ def friction_at_nodes(model: Model, evaluation: Evaluation | None = None) -> tup
     """
     traction, slip = np.zeros((len(model.mesh.points), 3)), np.zeros(len(model.mesh.points))
     for contact in model.system.pairs_of_tools():
-        if not contact.rubs:
+        if not contact.has_friction:
             continue
         found = contact.found if evaluation is None else evaluation.found[contact]
         here, way = contact.friction_at_nodes(found, model.mesh, model.system.whole.sum_at_nodes)

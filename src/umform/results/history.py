@@ -178,6 +178,17 @@ class History:
         """Go on with the external work of a run that was kept, from the evaluation of its last state."""
         self._work.recall(memory, evaluation)
 
+    def __getstate__(self) -> dict[str, Any]:
+        """For another process: the model goes as its problem, the external work as its numbers."""
+        own = {name: value for name, value in vars(self).items() if name not in ("_work", "_ahead")}
+        return own | {"work": self.work_memory()}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        work = state.pop("work")
+        vars(self).update(state)
+        self._work, self._ahead = ExternalWork(self.model), None
+        self.recall_work(work, self.model.evaluate(self.model.state, tangent=False))
+
     def begin_anew(self, evaluation: Evaluation) -> None:
         """Go on from the last state with loads in the place of tools that have been opened."""
         self._work.begin_anew(evaluation)
@@ -223,7 +234,7 @@ class History:
         }
         if model.contacts:
             points["contact_pressure"], points["contact_gap"] = fields.contact_at_nodes(model, evaluation)
-        if any(pair.rubs for pair in model.system.pairs_of_tools()):
+        if any(pair.has_friction for pair in model.system.pairs_of_tools()):
             points["friction_traction"], points["slip"] = fields.friction_at_nodes(model, evaluation)
         contacts = {contact.name: evaluation.found[contact].points() for contact in model.contacts}
         return Frame(len(self.rows) - 1, model.system.time, points, fields.cell_fields(model), contacts)

@@ -130,7 +130,7 @@ def _turning(model: Model, goal: State, last: Evaluation, increment: Floats) -> 
     values = model.controls.values_at(model.system.state_at(goal.x + increment, goal))
     screws = []
     for tool in model.tools:
-        pairs = [pair for pair in tool.pairs if pair.rubs and not tool.open]
+        pairs = [pair for pair in tool.pairs if pair.has_friction and not tool.open]
         if not pairs or not model.system.ranks.any(any(bool(last.found[pair].active.any()) for pair in pairs)):
             continue
         Q, s = _motion(tool, last, values, goal.time)

@@ -92,7 +92,7 @@ class Increment:
     @property
     def has_friction(self) -> bool:
         """Whether there is friction with tools that are not open."""
-        return any(pair.rubs and not pair.tool.open for pair in self.model.system.pairs_of_tools())
+        return any(pair.has_friction and not pair.tool.open for pair in self.model.system.pairs_of_tools())
 
     @property
     def undeformed(self) -> bool:

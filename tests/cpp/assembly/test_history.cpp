@@ -18,7 +18,7 @@ History begun() {
 void check_layout() {
     History history = begun();
     CHECK(history.size() == 4 && history.stride() == 12 && history.state().size() == 24);
-    CHECK(history.quantities()[1].name == "slip");
+    CHECK(history.history_variables()[1].name == "slip");
     CHECK(history.state(1) == history.state().data() + 12);
     for (int q = 0; q < 6; ++q)
         for (int k = 0; k < 4; ++k) CHECK_NEAR(history.state()[4 * q + k], k + 1, 0.0);
@@ -26,11 +26,11 @@ void check_layout() {
 
 /// A table gives places and list; what is appended follows.
 void check_table() {
-    constexpr QuantityTable first{{{"multiplier"}}};
-    constexpr QuantityTable table = first.then({{"place", 3}, {"slip"}});
-    CHECK(first.size() == 1 && table.size() == 5 && QuantityTable<0>{}.size() == 0);
+    constexpr VariableTable first{{{"multiplier"}}};
+    constexpr VariableTable table = first.then({{"place", 3}, {"slip"}});
+    CHECK(first.size() == 1 && table.size() == 5 && VariableTable<0>{}.size() == 0);
     CHECK(table["multiplier"] == 0 && table["place"] == 1 && table["slip"] == 4);
-    const std::vector<Quantity> list = table.list();
+    const std::vector<HistoryVariable> list = table.list();
     CHECK(list.size() == 3 && list[0].name == "multiplier" && list[1].name == "place" && list[1].size == 3);
     CHECK(list[2].name == "slip" && list[2].size == 1);
 }

@@ -21,7 +21,7 @@ struct Skewed {
     double penalty, mu;
 
     static constexpr bool symmetric = false, follows_places = false;
-    static constexpr QuantityTable table = ContactHistory::table.then({{"place", 3}});
+    static constexpr VariableTable table = ContactHistory::table.then({{"place", 3}});
     enum { Multiplier = table["multiplier"], Where = table["place"] };
     double stiffness(const double*) const { return penalty; }
     double reach(const double* trial) const { return trial[Multiplier] / penalty; }

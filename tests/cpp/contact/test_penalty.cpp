@@ -53,7 +53,8 @@ void check_press() {
 /// A law whose places remember nothing else has one number a place; laws of several places reach as far as their farthest.
 void check_wrapped() {
     ContactLawOf<Penalty> wrapped{law};
-    CHECK(wrapped.symmetric() && wrapped.quantities().size() == 1 && wrapped.quantities()[0].name == "multiplier");
+    CHECK(wrapped.symmetric() && wrapped.history_variables().size() == 1
+          && wrapped.history_variables()[0].name == "multiplier");
     const std::vector<double> multipliers{1.0, 4.0, 2.0};
     CHECK_NEAR(wrapped.reach(3, multipliers.data(), 1), 0.08, 1e-17);
     wrapped.set_penalty(100.0);

@@ -13,7 +13,7 @@ constexpr int cells = 6;  // a full batch and a part of one
 
 /// Throws where it is stretched by more than a tenth; answers like SVK elsewhere.
 struct Picky {
-    static constexpr QuantityTable<0> table{};
+    static constexpr VariableTable<0> table{};
     void initial(double*) const {}
     LaneMask respond(const Vec<Lanes, 6>& E, const Lanes* state, Vec<Lanes, 6>& S, Mat<Lanes, 6, 6>& CC,
                      Lanes* trial) const {
@@ -25,7 +25,7 @@ struct Picky {
 
 /// Fails unless e_1 lies along y, the element is 2 x 2 and the step is a quarter.
 struct Curious {
-    static constexpr QuantityTable<0> table{};
+    static constexpr VariableTable<0> table{};
     void initial(double*) const {}
     LaneMask respond(const Vec<Lanes, 6>& E, const Lanes* state, Vec<Lanes, 6>& S, Mat<Lanes, 6, 6>& CC, Lanes* trial,
                      const Point<Lanes>& point) const {

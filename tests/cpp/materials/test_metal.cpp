@@ -205,7 +205,7 @@ void check_history() {
     const MetalParts longest{kappa, mu, voce, four, falling, spcc, johnson_cook};
     const MetalHistory table(longest);
     int size = 0;
-    for (const Quantity& quantity : table.list()) size += quantity.size;
+    for (const HistoryVariable& quantity : table.list()) size += quantity.size;
     CHECK(size == table.size() && size == MetalHistory::largest());
     CHECK(table.back_stress[3] == table.back_stress[0] + 18 && table.inner_back_stress == table.back_stress[3] + 6);
     CHECK(table.stagnation_centre == table.bounding_growth + 1 && table.overstress == table.stagnation_radius + 1);

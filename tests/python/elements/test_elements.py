@@ -15,9 +15,9 @@ from umform import materials as mt
 from umform.elements import CATALOGUE, Element, Mode, Tying, element, thickness_rule
 from umform.elements.staggered import section_rule
 from umform.errors import InvalidValue
+from umform.history_variables import history_of
 from umform.mesh import strip
 from umform.model import Model
-from umform.quantities import history_of
 
 LAWS = ("svk", "neo-hooke", "neo-hooke-power", "j2")
 FOR_BENDS = ("BEND8", "BEND18")

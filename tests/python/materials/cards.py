@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from umform import materials as mt
-from umform.quantities import named
+from umform.history_variables import named
 
 STEEL = {"E": 210e3, "nu": 0.3}
 ALUMINIUM = {"E": 70e3, "nu": 0.33}
@@ -78,7 +78,7 @@ CARDS |= {
 
 def eqps(law, history):
     """Accumulated plastic strain (n, 1) of histories (n, size) of a law."""
-    return named(history, law.quantities)["eqps"]
+    return named(history, law.history_variables)["eqps"]
 
 
 def voigt(A, shear=1.0):

@@ -17,9 +17,9 @@ import pytest
 import umform as uf
 from umform import materials as mt
 from umform.errors import FileProblem, InvalidValue, NoConvergence, NotFinite
+from umform.history_variables import history_of, named
 from umform.problem import Problem
 from umform.problem.errors import DeckError
-from umform.quantities import history_of, named
 from umform.report.materials import material_text
 
 _SPEC = importlib.util.spec_from_file_location("cards", Path(__file__).with_name("cards.py"))
@@ -249,11 +249,11 @@ def test_a_umat_sees_what_its_interface_says(build_library):
     factors = np.array([1, 2, 3, 4, 6, 5]) * 100.0  # ours has 23 before 13
     assert S[0] == pytest.approx(factors * h)
     assert CC[0] == pytest.approx(np.diag(factors))
-    own = named(after, law.quantities)["state"][0]
+    own = named(after, law.history_variables)["state"][0]
     assert own[:6] == pytest.approx(h[[0, 1, 2, 3, 5, 4]])
     assert own[6:] == pytest.approx([0.25, 1e8 + 1e6 + 1000.0, 2.5])
     _, _, later = law.respond(h[None], after, size=2.5, step=0.5)
-    assert named(later, law.quantities)["state"][0, 6:] == pytest.approx([0.75, 1e8 + 2e6 + 1000.0, 2.5])
+    assert named(later, law.history_variables)["state"][0, 6:] == pytest.approx([0.75, 1e8 + 2e6 + 1000.0, 2.5])
     still, _, same = law.respond(h[None], later, size=2.5)  # at rest: no time, no change
     assert np.array_equal(still, S)
     assert same[0, 12] == 0.75
@@ -333,7 +333,7 @@ def test_addresses_of_ctypes_and_numba(elastic):
     for function in (library.elastic, numba, numba.address):
         law = uf.CompiledLaw(function, state=2, properties=[*SVK, MANY, MANY, MANY], name="svk")
         assert np.array_equal(law.law().respond(E, np.zeros((3, 2)))[0], wanted)
-        assert law.law().quantities == {"state": 2}
+        assert law.law().history_variables == {"state": 2}
 
 
 def test_a_cfunc_of_numba():

@@ -10,7 +10,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from umform import materials as mt
-from umform.quantities import named
+from umform.history_variables import named
 
 _SPEC = importlib.util.spec_from_file_location("cards", Path(__file__).with_name("cards.py"))
 cards = importlib.util.module_from_spec(_SPEC)
@@ -69,7 +69,7 @@ def test_tangent_where_principal_stretches_meet(E):
     """Shears of T in the principal axes ask for all second divided cards.differences."""
     law = mt.Metal(**cards.STEEL, hardening=cards.CURVES["voce"], yield_function=cards.FUNCTIONS["hill48"]).law()
     start = np.random.default_rng(1).normal(size=(1, law.state_size)) * 0.02
-    plastic, eqps = named(start, law.quantities).values()
+    plastic, eqps = named(start, law.history_variables).values()
     plastic[:, 2] = -plastic[:, 0] - plastic[:, 1]
     eqps[:] = 0.1
     E = np.atleast_2d(np.asarray(E, dtype=float))

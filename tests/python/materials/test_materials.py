@@ -10,8 +10,8 @@ from scipy.spatial.transform import Rotation
 
 from umform import materials as mt
 from umform.errors import HardeningNotMonotone, InvalidValue, NotFinite
+from umform.history_variables import history_of, named
 from umform.model import Model
-from umform.quantities import history_of, named
 from umform.run import solve
 from umform.steps import Move
 
@@ -53,11 +53,11 @@ def respond(law, E, state):
 
 def eqps_of(state):
     """Accumulated plastic strain in histories (..., size) of J2."""
-    return named(state, TENSION.law().quantities)["eqps"][..., 0][()]
+    return named(state, TENSION.law().history_variables)["eqps"][..., 0][()]
 
 
 def metric(state):
-    return named(state, TENSION.law().quantities)["Cp_inv"]
+    return named(state, TENSION.law().history_variables)["Cp_inv"]
 
 
 def stress(law, E, state):

@@ -10,10 +10,10 @@ from scipy.integrate import quad
 
 from umform import materials as mt
 from umform.errors import InvalidValue, NotFinite
+from umform.history_variables import named
 from umform.materials.user_law import UserLaw
 from umform.mesh import strip
 from umform.model import Model
-from umform.quantities import named
 from umform.run import solve
 from umform.steps import Move
 
@@ -92,7 +92,7 @@ def test_stress_of_plasticity_is_the_derivative_of_the_elastic_energy(name, rng)
         assert np.abs(S - gradient(law, E, state, 1e-5)).max() < 1e-6 * np.abs(S).max()
         work = energy(law, E, state)[1]
         assert work > spent
-        eqps = named(state, law.quantities)["eqps"].item()
+        eqps = named(state, law.history_variables)["eqps"].item()
         kinks = [e for e in (0.02, 0.1, 0.5) if e < eqps]
         expected = quad(lambda e: hardening.curve()(e)[0], 0.0, eqps, points=kinks or None, epsabs=0, limit=200)[0]
         assert work == pytest.approx(expected, rel=1e-9)

@@ -54,7 +54,7 @@ def test_newton_is_quadratic_and_the_balance_closes(card):
     assert len(result.rows) == 11  # no increment was cut
     assert uf.fields.point_fields(model).eqps.max() > 0.05
     assert np.abs(result.balance().drift).max() < 0.02
-    assert set(cards.CARDS[card].law().quantities) == set(uf.fields.point_fields(model).history)
+    assert set(cards.CARDS[card].law().history_variables) == set(uf.fields.point_fields(model).history)
 
 
 def test_rotation_of_the_sheet_changes_nothing():

@@ -5,7 +5,7 @@ import pytest
 
 import umform as uf
 from umform.errors import InvalidValue, NoConvergence
-from umform.quantities import named
+from umform.history_variables import named
 
 E, NU, YIELD, HARDENING = 206e3, 0.3, 200.0, 2000.0
 MU, KAPPA = E / (2 * (1 + NU)), E / (3 * (1 - 2 * NU))

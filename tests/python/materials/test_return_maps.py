@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from umform import materials as mt
-from umform.quantities import named
+from umform.history_variables import named
 
 _SPEC = importlib.util.spec_from_file_location("cards", Path(__file__).with_name("cards.py"))
 cards = importlib.util.module_from_spec(_SPEC)
@@ -89,7 +89,7 @@ def test_stress_lies_on_the_yield_surface(card):
     h = cards.increments(20, 0.05, seed=4)
     T, _, state = law.respond(h, np.tile(law.initial(), (20, 1)))
     for stress, row in zip(T, state, strict=True):
-        parts = named(row, law.quantities)
+        parts = named(row, law.history_variables)
         back = sum((values for name, values in parts.items() if "back_stress" in name), np.zeros(6))
         assert function(stress - back)[0] == pytest.approx(curve(parts["eqps"].item())[0], rel=1e-11)
         assert parts["plastic_strain"][:3].sum() == pytest.approx(0.0, abs=1e-14)

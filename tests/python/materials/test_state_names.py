@@ -46,7 +46,7 @@ def stretched(law):
 )
 def test_each_law_names_its_history_in_order(law, names):
     native = law.law()
-    assert list(native.quantities.items()) == list(names.items())
+    assert list(native.history_variables.items()) == list(names.items())
     assert native.state_size == sum(names.values()) == len(native.initial())
 
 
@@ -75,7 +75,7 @@ def test_j2_has_its_metric_and_its_plastic_strain():
     assert list(parts) == ["Cp_inv", "eqps"]
     assert parts["Cp_inv"].shape == (2, model.bodies.only.block.points, 6)
     assert parts["eqps"].min() > 0.01
-    assert model.bodies.only.block.quantities == {"Cp_inv": 6, "eqps": 1}
+    assert model.bodies.only.block.history_variables == {"Cp_inv": 6, "eqps": 1}
 
 
 def test_initial_values_go_with_the_names():

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from umform import _core
+from umform.history_variables import history_of
 from umform.mesh import strip
-from umform.quantities import history_of
 from umform.surfaces import Cylinder, Sphere, UserSurface
 
 
@@ -57,7 +57,7 @@ def test_a_law_says_what_its_points_remember():
     assert (law.penalty, law.symmetric) == (7.0, True)
     block, _ = facets_on(BALL, penalty=7.0)
     assert block.symmetric
-    assert block.quantities == {"multiplier": 1}
+    assert block.history_variables == {"multiplier": 1}
     assert block.state.shape == (block.points, 1)
 
 

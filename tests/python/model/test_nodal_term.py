@@ -7,10 +7,10 @@ import pytest
 
 from umform import materials as mt
 from umform.errors import FileProblem, InvalidValue, RigidBodyMotion
+from umform.history_variables import named
 from umform.mesh import strip
 from umform.model import Connectivity, Model, NodalTerm, Term
 from umform.model.term import Energies, Found
-from umform.quantities import named
 from umform.run import resume, solve
 from umform.steps import Move
 
@@ -25,7 +25,7 @@ class Foam(NodalTerm):
         self.stiffness = stiffness
 
     def respond(self, u, history, at):
-        k, slope, crush = self.stiffness, 1.0, named(history, self.quantities)["crush"][:, 0]
+        k, slope, crush = self.stiffness, 1.0, named(history, self.history_variables)["crush"][:, 0]
         beyond = np.maximum(-k * (u[:, 2] - crush) - 0.4 + slope * crush, 0.0)
         crush = crush - beyond / (k + slope)
         forces, tangents = np.zeros((len(u), 3)), np.zeros((len(u), 3, 3))
@@ -34,7 +34,7 @@ class Foam(NodalTerm):
         return forces, tangents, crush[:, None]
 
     def energy(self, u, history):
-        crush = named(history, self.quantities)["crush"][:, 0]
+        crush = named(history, self.history_variables)["crush"][:, 0]
         return 0.5 * self.stiffness * (u[:, 2] - crush) ** 2, 0.5 * crush**2 - 0.4 * crush
 
 

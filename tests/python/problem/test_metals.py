@@ -38,7 +38,7 @@ def test_yield_functions(words):
         210e3, 0.3, hardening=mt.Perfect(160.0), yield_function=FUNCTIONS[words]
     )
     assert model.bodies.only.rolling.tolist() == [0.0, 1.0, 0.0]
-    assert model.bodies.only.block.quantities == {"plastic_strain": 6, "eqps": 1}
+    assert model.bodies.only.block.history_variables == {"plastic_strain": 6, "eqps": 1}
 
 
 def test_all_parts():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import umform as uf
-from umform.quantities import history_of
+from umform.history_variables import history_of
 
 CURVE = uf.Swift(strength=520.0, offset=0.004, exponent=0.2)
 STEEL = uf.J2(E=210e3, nu=0.3, hardening=CURVE)

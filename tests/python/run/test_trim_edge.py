@@ -8,10 +8,10 @@ import pytest
 import umform as uf
 from umform import _core
 from umform.errors import InvalidValue
+from umform.history_variables import history_of
 from umform.mesh.fitted.sheet import Sheet
 from umform.mesh.quality import jacobians
 from umform.model.transfer import Weights
-from umform.quantities import history_of
 
 STEEL = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(yield_stress=160.0, modulus=500.0))
 CURVE, BACK = uf.Linear(yield_stress=160.0, modulus=500.0), uf.Chaboche(((4000.0, 40.0),))

@@ -9,10 +9,10 @@ import pytest
 
 from umform import elements as el
 from umform import materials as mt
+from umform.history_variables import history_of
 from umform.materials.user_law import UserLaw
 from umform.mesh import strip
 from umform.model import Model
-from umform.quantities import history_of
 from umform.run import solve
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions

@@ -10,10 +10,10 @@ import pytest
 
 from umform import materials as mt
 from umform.errors import InvalidValue
+from umform.history_variables import history_of
 from umform.mesh import strip
 from umform.model import Model
 from umform.model.term import Border
-from umform.quantities import history_of
 from umform.ranks import ONE
 from umform.run import solve
 from umform.solution.newton import Newton

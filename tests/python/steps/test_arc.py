@@ -10,9 +10,9 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from umform import materials as mt
+from umform.history_variables import history_of
 from umform.mesh import strip
 from umform.model import Model
-from umform.quantities import history_of
 from umform.run import solve
 from umform.solution.options import NewtonOptions
 from umform.steps import Arc, Move

@@ -10,9 +10,9 @@ import pytest
 from umform import Box, Close, Free, Move, Plane, Release, UDie, resume, solve
 from umform import materials as mt
 from umform.errors import InvalidValue, NoConvergence
+from umform.history_variables import history_of
 from umform.mesh import strip
 from umform.model import Model
-from umform.quantities import history_of
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions
 

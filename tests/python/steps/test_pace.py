@@ -7,8 +7,8 @@ import pytest
 
 import umform as uf
 from umform.errors import InvalidValue
+from umform.history_variables import history_of
 from umform.model.change import strained, turned
-from umform.quantities import history_of
 from umform.results.balance import Worked
 from umform.steps.pace import Happened
 

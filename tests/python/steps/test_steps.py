@@ -10,11 +10,11 @@ import pytest
 
 from umform import materials as mt
 from umform.errors import InvalidValue, NoConvergence
+from umform.history_variables import history_of
 from umform.materials.user_law import UserLaw
 from umform.mesh import strip
 from umform.model import Model, System
 from umform.model.control import Prescribed
-from umform.quantities import history_of
 from umform.run import Result, solve
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions

@@ -181,7 +181,7 @@ def run(page: Page) -> None:
             wide = replace(Setup(friction=mu), variant=Variant("ANS3DEAS"), across=4)
             rows.append(("30 mm wide, free edges", *astuple(bend(page, wide, f"mu = {mu:g}, 30 mm wide")[0])))
         rows += [(f"published, code {k}", None, *angles) for k, angles in enumerate(PUBLISHED[mu], 1)]
-        page.table(f"mu = {mu:g}: quantities of the benchmark", columns, rows)
+        page.table(f"mu = {mu:g}: history_variables of the benchmark", columns, rows)
         nearest = list(found.values())[-1] if page.short else found["220 intervals"]
         for name, value, k in (("formed", nearest.formed, 0), ("released", nearest.released, 1)):
             middle = float(np.mean([angles[k] for angles in PUBLISHED[mu]]))

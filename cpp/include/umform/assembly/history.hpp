@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "umform/assembly/quantities.hpp"
+#include "umform/assembly/history_variables.hpp"
 
 namespace umform {
 
@@ -16,9 +16,9 @@ namespace umform {
 class History {
   public:
     History() = default;
-    History(int items, int points, std::vector<Quantity> quantities)
-        : items_(items), points_(points), quantities_(std::move(quantities)) {
-        for (const Quantity& quantity : quantities_) size_ += quantity.size;
+    History(int items, int points, std::vector<HistoryVariable> history_variables)
+        : items_(items), points_(points), quantities_(std::move(history_variables)) {
+        for (const HistoryVariable& quantity : quantities_) size_ += quantity.size;
         state_.assign(stride() * items, 0.0);
         trial_ = state_;
     }
@@ -29,7 +29,7 @@ class History {
     int size() const { return size_; }
     /// Numbers of one item.
     std::size_t stride() const { return static_cast<std::size_t>(points_) * size_; }
-    const std::vector<Quantity>& quantities() const { return quantities_; }
+    const std::vector<HistoryVariable>& history_variables() const { return quantities_; }
 
     const std::vector<double>& state() const { return state_; }
     const double* state(int item) const { return state_.data() + item * stride(); }
@@ -70,7 +70,7 @@ class History {
 
   private:
     int items_ = 0, points_ = 0, size_ = 0;
-    std::vector<Quantity> quantities_;
+    std::vector<HistoryVariable> quantities_;
     std::vector<double> state_, trial_;
 };
 

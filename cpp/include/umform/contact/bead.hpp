@@ -26,7 +26,7 @@ struct Bead {
     static constexpr bool symmetric = false;
     static constexpr bool follows_places = true;
     /// The multiplier is always zero.
-    static constexpr QuantityTable table = ContactHistory::table.then({{"held"},
+    static constexpr VariableTable table = ContactHistory::table.then({{"held"},
                                                                        {"place", 3},
                                                                        {"share"},
                                                                        {"traction", 3},

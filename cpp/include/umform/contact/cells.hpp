@@ -73,7 +73,7 @@ class OverCells : public FacetCells<Nodes> {
     using Values = std::array<double, Nodes>;
     static constexpr int size = 3 * Nodes;
     static constexpr bool symmetric = false, remembers = true;
-    static constexpr QuantityTable table{{{"gap of the cell"}, {"pressure"}, {"contact energy"}, {"contact work"}}};
+    static constexpr VariableTable table{{{"gap of the cell"}, {"pressure"}, {"contact energy"}, {"contact work"}}};
 
     struct Workspace {
         explicit Workspace(std::size_t cells) : reactions(cells), overlaps(cells), pressures(cells) {}

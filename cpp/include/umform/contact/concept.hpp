@@ -11,7 +11,7 @@ namespace umform {
 
 /// What the history of every contact law begins with.
 struct ContactHistory {
-    static constexpr QuantityTable table{{{"multiplier"}}};
+    static constexpr VariableTable table{{{"multiplier"}}};
     enum { Multiplier = table["multiplier"] };
 };
 
@@ -93,7 +93,7 @@ class ContactLaw {
     virtual ~ContactLaw() = default;
     virtual bool symmetric() const = 0;
     virtual bool follows_places() const = 0;
-    virtual std::vector<Quantity> quantities() const = 0;
+    virtual std::vector<HistoryVariable> history_variables() const = 0;
     /// Pressure per penetration.
     virtual double penalty() const = 0;
     virtual void set_penalty(double value) = 0;
@@ -123,7 +123,7 @@ class ContactLawOf final : public ContactLaw {
     explicit ContactLawOf(Law law) : law_(std::move(law)) {}
     bool symmetric() const override { return Law::symmetric; }
     bool follows_places() const override { return Law::follows_places; }
-    std::vector<Quantity> quantities() const override { return Law::table.list(); }
+    std::vector<HistoryVariable> history_variables() const override { return Law::table.list(); }
     double penalty() const override { return law_.penalty; }
     void set_penalty(double value) override { law_.penalty = value; }
     double stiffness(const double* history) const override { return law_.stiffness(history); }

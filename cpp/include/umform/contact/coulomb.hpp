@@ -18,7 +18,7 @@ struct Coulomb {
 
     static constexpr bool symmetric = false;
     static constexpr bool follows_places = true;
-    static constexpr QuantityTable table = ContactHistory::table.then({{"held"},
+    static constexpr VariableTable table = ContactHistory::table.then({{"held"},
                                                                        {"place", 3},
                                                                        {"normal", 3},
                                                                        {"tangential traction", 3},

@@ -19,10 +19,10 @@ class ContactBlockOf final : public ContactBlock {
         : ContactBlock(std::move(law)), rule_(part, X, setting), locator_(part, X, rule_, surface),
           turns_(part, make_colours(part), facets_of_a_turn), scale_(part.size()) {
         area_ = rule_.area;
-        std::vector<Quantity> quantities = law_->quantities();
-        for (const Quantity& quantity : quantities) of_law_ += quantity.size;
-        for (const Quantity& quantity : FaceRule::table.list()) quantities.push_back(quantity);
-        history_ = History(part.size(), rule_.count(), std::move(quantities));
+        std::vector<HistoryVariable> history_variables = law_->history_variables();
+        for (const HistoryVariable& quantity : history_variables) of_law_ += quantity.size;
+        for (const HistoryVariable& quantity : FaceRule::table.list()) history_variables.push_back(quantity);
+        history_ = History(part.size(), rule_.count(), std::move(history_variables));
     }
 
     int per_facet() const override { return rule_.count(); }

@@ -10,7 +10,7 @@ struct Penalty {
     double penalty;
 
     static constexpr bool symmetric = true, follows_places = false;
-    static constexpr QuantityTable table = ContactHistory::table;
+    static constexpr VariableTable table = ContactHistory::table;
 
     double stiffness(const double*) const { return penalty; }
     double reach(const double* trial) const { return trial[ContactHistory::Multiplier] / penalty; }

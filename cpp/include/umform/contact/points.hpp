@@ -14,7 +14,7 @@ class AtPoints : public FacetPoints<Nodes> {
     using Values = std::array<double, Nodes>;
     static constexpr int size = 3 * Nodes;
     static constexpr bool symmetric = true, remembers = false;
-    static constexpr QuantityTable<0> table{};
+    static constexpr VariableTable<0> table{};
 
     struct Workspace {
         explicit Workspace(std::size_t points) : reactions(points) {}

@@ -23,7 +23,7 @@ class ShellBlockOf final : public ShellBlock {
           part_(std::move(part)), X_(std::move(X)), rolling_(std::move(rolling)),
           turns_(part_, make_colours_of_groups(part_, lane_count), lane_count), batches_(make_batches(turns_)) {
         const std::size_t elements = part_.size(), modes = element_.modes();
-        history_ = History(part_.size(), element_.points(), material_->quantities());
+        history_ = History(part_.size(), element_.points(), material_->history_variables());
         history_.initialise([this](double* state) { material_->initial(state); });
         alpha_.assign(elements * modes, 0.0);
         alpha_before_ = alpha_converged_ = alpha_;

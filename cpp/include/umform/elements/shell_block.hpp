@@ -87,7 +87,7 @@ class ShellBlock {
 
     const std::vector<double>& state() const { return history_.state(); }
     /// The parts of the history of a point, in their order.
-    const std::vector<Quantity>& quantities() const { return history_.quantities(); }
+    const std::vector<HistoryVariable>& history_variables() const { return history_.history_variables(); }
     /// For each point, whether the last `evaluate` has changed its history: 1 where the material flows.
     std::vector<std::uint8_t> flowing() const { return history_.changed(); }
     const std::vector<double>& alpha() const { return alpha_converged_; }

@@ -26,14 +26,14 @@ struct Energy {
 
 /// A law answers at one point of a few elements, one a lane. `E` is the Green-Lagrange strain in a local orthonormal frame,
 /// `state` the converged history (never changed), `trial` the new one. False where it has no answer: the strain is outside of
-/// its domain, or its equations could not be solved. Its `table` has the parts of the history: a QuantityTable, or
+/// its domain, or its equations could not be solved. Its `table` has the parts of the history: a VariableTable, or
 /// one that depends on the parts of the law.
 template <class L>
 concept MaterialLaw =
     requires(const L& law, const Vec<Lanes, 6>& E, const Lanes* state, Vec<Lanes, 6>& S, Mat<Lanes, 6, 6>& CC,
              Lanes* trial, const Voigt& strain, double* history, const Point<Lanes>& point) {
         { law.table.size() } -> std::same_as<int>;
-        { law.table.list() } -> std::same_as<std::vector<Quantity>>;
+        { law.table.list() } -> std::same_as<std::vector<HistoryVariable>>;
         requires requires {
             { law.respond(E, state, S, CC, trial) } -> std::same_as<LaneMask>;
         } || requires {
@@ -92,7 +92,7 @@ class Material {
   public:
     virtual ~Material() = default;
     /// The parts of the history of a point, in their order.
-    virtual std::vector<Quantity> quantities() const = 0;
+    virtual std::vector<HistoryVariable> history_variables() const = 0;
     virtual int state_size() const = 0;
     virtual void initial(double* state) const = 0;
     /// Whether dS/dE is symmetric at any strain.
@@ -119,7 +119,7 @@ template <MaterialLaw Law>
 class MaterialOf final : public Material {
   public:
     explicit MaterialOf(Law law) : law_(std::move(law)) {}
-    std::vector<Quantity> quantities() const override { return law_.table.list(); }
+    std::vector<HistoryVariable> history_variables() const override { return law_.table.list(); }
     int state_size() const override { return law_.table.size(); }
     void initial(double* state) const override { law_.initial(state); }
     bool symmetric() const override { return has_symmetric_tangent(law_); }

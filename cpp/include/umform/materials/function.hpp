@@ -33,7 +33,7 @@ class MaterialFromFunction final : public Material {
     using EnergyFunction = std::function<void(int, const Voigt*, const double*, Energy*, std::int32_t)>;
 
     struct Traits {
-        std::vector<Quantity> state;
+        std::vector<HistoryVariable> state;
         std::vector<double> initial;
         bool symmetric = true, sees_points = false;
     };
@@ -41,7 +41,7 @@ class MaterialFromFunction final : public Material {
     MaterialFromFunction(Function function, Traits traits, EnergyFunction energy)
         : function_(std::move(function)), traits_(std::move(traits)), energy_(std::move(energy)) {}
 
-    std::vector<Quantity> quantities() const override { return traits_.state; }
+    std::vector<HistoryVariable> history_variables() const override { return traits_.state; }
     int state_size() const override { return static_cast<int>(traits_.initial.size()); }
     void initial(double* state) const override { std::copy(traits_.initial.begin(), traits_.initial.end(), state); }
     bool symmetric() const override { return traits_.symmetric; }

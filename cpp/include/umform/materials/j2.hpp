@@ -13,7 +13,7 @@ struct J2 {
     double kappa, mu;
     Hardening hardening;
 
-    static constexpr QuantityTable table{{{"Cp_inv", 6}, {"eqps"}}};
+    static constexpr VariableTable table{{{"Cp_inv", 6}, {"eqps"}}};
     enum { Metric = table["Cp_inv"], Eqps = table["eqps"] };
     static constexpr int size = table.size();
     void initial(double* state) const {

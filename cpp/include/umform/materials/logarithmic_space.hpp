@@ -12,7 +12,7 @@ class LogarithmicSpace final : public Material {
   public:
     explicit LogarithmicSpace(std::shared_ptr<const Material> law) : law_(std::move(law)) {}
 
-    std::vector<Quantity> quantities() const override { return law_->quantities(); }
+    std::vector<HistoryVariable> history_variables() const override { return law_->history_variables(); }
     int state_size() const override { return law_->state_size(); }
     void initial(double* state) const override { law_->initial(state); }
     bool symmetric() const override { return law_->symmetric(); }

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "umform/assembly/quantities.hpp"
+#include "umform/assembly/history_variables.hpp"
 #include "umform/materials/plastic_increment.hpp"
 
 namespace umform {
@@ -15,7 +15,7 @@ namespace umform {
 /// that done on back stresses, a falling modulus or a rate.
 class MetalHistory {
   public:
-    static constexpr QuantityTable always{{{"plastic_strain", 6}, {"eqps"}}};
+    static constexpr VariableTable always{{{"plastic_strain", 6}, {"eqps"}}};
     enum { PlasticStrain = always["plastic_strain"], Eqps = always["eqps"] };
 
     int kinematic_work = -1;
@@ -30,10 +30,10 @@ class MetalHistory {
     static constexpr int largest() { return MetalHistory(true, Chaboche::largest, true, true).size(); }
 
     constexpr int size() const { return size_; }
-    std::vector<Quantity> list() const {
-        std::vector<Quantity> quantities = always.list();
-        for (int k = 0; k < count_; ++k) quantities.push_back({std::string(more_[k].name), more_[k].size});
-        return quantities;
+    std::vector<HistoryVariable> list() const {
+        std::vector<HistoryVariable> history_variables = always.list();
+        for (int k = 0; k < count_; ++k) history_variables.push_back({std::string(more_[k].name), more_[k].size});
+        return history_variables;
     }
 
   private:
@@ -51,14 +51,14 @@ class MetalHistory {
         if (rate) overstress = add({"overstress"});
     }
 
-    constexpr int add(QuantityRow row) {
+    constexpr int add(VariableRow row) {
         const int place = size_;
         more_[count_++] = row;
         size_ += row.size;
         return place;
     }
 
-    std::array<QuantityRow, 6 + Chaboche::largest> more_{};
+    std::array<VariableRow, 6 + Chaboche::largest> more_{};
     int count_ = 0, size_ = always.size();
 };
 

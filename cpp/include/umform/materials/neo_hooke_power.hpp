@@ -9,7 +9,7 @@ namespace umform {
 struct NeoHookePower {
     double mu, beta;
 
-    static constexpr QuantityTable<0> table{};
+    static constexpr VariableTable<0> table{};
     void initial(double*) const {}
 
     template <class Real>

@@ -8,7 +8,7 @@ namespace umform {
 struct SaintVenantKirchhoff {
     double lambda, mu;
 
-    static constexpr QuantityTable<0> table{};
+    static constexpr VariableTable<0> table{};
     void initial(double*) const {}
 
     template <class Real>

@@ -23,7 +23,7 @@ using UmatFunction = void(double* stress, double* statev, double* ddsdde, double
 
 /// Its history: what a UMAT gets at the beginning of an increment and would not know else, then its state variables.
 struct UmatState {
-    static constexpr QuantityTable table{{{"umat_stress", 6}, {"umat_strain", 6}, {"umat_time"}, {"umat_energies", 3}}};
+    static constexpr VariableTable table{{{"umat_stress", 6}, {"umat_strain", 6}, {"umat_time"}, {"umat_energies", 3}}};
     static constexpr int stress = table["umat_stress"], strain = table["umat_strain"], time = table["umat_time"],
                          energies = table["umat_energies"], variables = table.size();
 };

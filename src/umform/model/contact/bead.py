@@ -137,7 +137,7 @@ class Bead(Contact):
         super().__init__(mesh, faces, tool, settings, name)
 
     @property
-    def rubs(self) -> bool:
+    def has_friction(self) -> bool:
         """Whether it holds the sheet along the tool."""
         return True
 

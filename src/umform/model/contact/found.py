@@ -76,7 +76,7 @@ class ContactFound(Found):
         Pressures at zero penetration.
     penalty : float
         Pressure per penetration.
-    rubs : bool
+    has_friction : bool
         Whether there is friction.
     has_potential : bool
         Whether the energy follows from the pressures; that of cells is integrated along the path.
@@ -89,7 +89,7 @@ class ContactFound(Found):
     area: Floats = field(default_factory=lambda: np.empty(0), repr=False)
     multiplier: Floats = field(default_factory=lambda: np.empty(0), repr=False)
     penalty: float = 0.0
-    rubs: bool = False
+    has_friction: bool = False
     has_potential: bool = True
 
     @cached_property
@@ -176,7 +176,7 @@ class ContactFound(Found):
     def points(self) -> ContactPoints:
         """Positions, gap, pressure, normal and area of all points; with friction also traction, slip and status."""
         plain = ContactPoints(self.x, self.gap, self.pressure, self.normal, self.area)
-        if not self.rubs:
+        if not self.has_friction:
             return plain
         return replace(plain, friction=self.friction, slip=self.slip, status=self.status.copy())
 

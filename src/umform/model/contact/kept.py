@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
+from umform.history_variables import named
 from umform.mesh import Ids
 from umform.model.contact.pair import Contact
 from umform.model.tool import Pose
-from umform.quantities import named
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
@@ -31,7 +31,7 @@ class KeptContact:
         Rows (cell, number of the face).
     history : ndarray, shape (faces, points, size)
         That of the points, with places and vectors in global axes.
-    quantities : dict of str to int
+    history_variables : dict of str to int
         Its parts and their sizes.
     penalty : float
         The penalty, if it has grown; zero otherwise.
@@ -39,16 +39,16 @@ class KeptContact:
 
     faces: Ids
     history: Floats
-    quantities: dict[str, int]
+    history_variables: dict[str, int]
     penalty: float = 0.0
 
     @classmethod
     def of(cls, contact: Contact) -> KeptContact:
         """The converged history of a pair with friction."""
-        quantities = contact.block.quantities
-        history = _turned(contact.state()["history"], quantities, contact.pose)
+        history_variables = contact.block.history_variables
+        history = _turned(contact.state()["history"], history_variables, contact.pose)
         grown = contact.adapts and contact.penalty > contact.initial_penalty
-        return cls(contact.faces.copy(), history, quantities, contact.penalty if grown else 0.0)
+        return cls(contact.faces.copy(), history, history_variables, contact.penalty if grown else 0.0)
 
     def left(self, parents: Numbers, same: NDArray[np.bool_]) -> KeptContact:
         """What a part keeps of it.
@@ -76,8 +76,8 @@ class KeptContact:
         InvalidValue
             If it has other points or another law.
         """
-        quantities, history = contact.block.quantities, contact.state()["history"]
-        if quantities != self.quantities or history.shape[1:] != self.history.shape[1:]:
+        history_variables, history = contact.block.history_variables, contact.state()["history"]
+        if history_variables != self.history_variables or history.shape[1:] != self.history.shape[1:]:
             raise InvalidValue(
                 "a contact that keeps its history has the points and the law of the one before",
                 where=f"contact {contact.name}",
@@ -89,17 +89,17 @@ class KeptContact:
         rows = np.array([row.get((int(cell), int(face)), -1) for cell, face in contact.faces])
         kept = np.flatnonzero(rows >= 0)
         rotation, shift = contact.pose
-        history[kept] = _turned(self.history[rows[kept]], quantities, (rotation.T, -shift @ rotation))
+        history[kept] = _turned(self.history[rows[kept]], history_variables, (rotation.T, -shift @ rotation))
         contact.restore({"history": history})
         contact.begin_with(self.penalty)
         return len(kept)
 
 
-def _turned(history: Floats, quantities: dict[str, int], pose: Pose) -> Floats:
+def _turned(history: Floats, history_variables: dict[str, int], pose: Pose) -> Floats:
     """A history with its places and vectors turned, and its places shifted."""
     rotation, shift = pose
     out = history.copy()
-    for name, values in named(out, quantities).items():
+    for name, values in named(out, history_variables).items():
         if name in _PLACES or name in _VECTORS:
             values[:] = values @ rotation.T
         if name in _PLACES:

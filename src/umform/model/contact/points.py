@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from umform import _core
 from umform.errors import ModelError
+from umform.history_variables import history_of, named
 from umform.mesh import FACE_NODES, Ids, Mesh, Selector
 from umform.mesh.numbers import unique
 from umform.model.contact.found import ContactFound
@@ -21,7 +22,6 @@ from umform.model.cut import Cut
 from umform.model.elsewhere import not_here
 from umform.model.term import Term, Tree
 from umform.model.tool import Pose, Tool
-from umform.quantities import history_of, named
 
 Floats = NDArray[np.float64]
 
@@ -157,7 +157,7 @@ class PairPoints(Term):
             raise self._not_here()
         block = self._new_block()
         block.name, block.open = f"contact {self.name}", self.tool.open
-        if self.rubs:
+        if self.has_friction:
             block.set_pose(*self.pose)
             block.locate(np.zeros(block.dofs))
             block.begin()
@@ -186,7 +186,7 @@ class PairPoints(Term):
         return self._settings.friction
 
     @property
-    def rubs(self) -> bool:
+    def has_friction(self) -> bool:
         """Whether it has a slip history."""
         return self.friction is not None
 
@@ -198,12 +198,12 @@ class PairPoints(Term):
     @property
     def symmetric(self) -> bool:  # type: ignore[override]
         """Whether the tangents of its law and its rule are symmetric."""
-        return not self.rubs and self.cells is None
+        return not self.has_friction and self.cells is None
 
     @property
     def remembers(self) -> bool:
         """Whether an evaluation writes history other than multipliers."""
-        return self.rubs or self.cells is not None
+        return self.has_friction or self.cells is not None
 
     @property
     def multipliers(self) -> Floats:
@@ -213,7 +213,7 @@ class PairPoints(Term):
     def forget_multipliers(self) -> None:
         """Remove pressures of points without penetration."""
         state = self.block.state
-        named(state, self.block.quantities)["multiplier"][:] = 0.0
+        named(state, self.block.history_variables)["multiplier"][:] = 0.0
         self.block.restore(state)
 
     def _not_here(self) -> ModelError:
@@ -251,7 +251,7 @@ class PairPoints(Term):
             area=self._areas,
             multiplier=multiplier,
             penalty=self.penalty,
-            rubs=self.rubs,
+            has_friction=self.has_friction,
             has_potential=self.has_potential,
         )
 

@@ -71,14 +71,14 @@ def _bent(
     brake = StripBrake(sequence, bend, mesh, before, frames)
     trials: tuple[tuple[float, float], ...] = ()
 
-    def told(name: str, fraction: float, detail: str = "") -> None:
+    def shown(name: str, fraction: float, detail: str = "") -> None:
         tick(f"bend {number + 1}, {name}", fraction, detail)
 
     if bend.angle is None:
         assert bend.stroke is not None
-        state, measures = brake.load(bend.stroke, told), brake.unload()
+        state, measures = brake.load(bend.stroke, shown), brake.unload()
     else:
-        state, measures, trials = bent_to_angle(brake, bend.angle, tolerance, told)
+        state, measures, trials = bent_to_angle(brake, bend.angle, tolerance, shown)
     forces, result = brake.forces(), brake.run.close()
     strips = [
         (float(result["stroke"][frame.number]), Strip.of(mesh, frame.points["displacement"])) for frame in result.frames

@@ -44,8 +44,8 @@ def hemming(case: Hemming, *, tolerance: float = 0.1, frames: int = FRAMES, prog
     run = OpenRun(model, options=OPTIONS, frames=max(1, frames // PARTS))
     with progress_bar(progress) as tick:
         *moves, release = made.steps
-        for part, (move, told) in enumerate(zip(moves, parts(tick, "flattening", [1.0] * PARTS), strict=True), 1):
-            run.take(move, tick=told)
+        for part, (move, show) in enumerate(zip(moves, parts(tick, "flattening", [1.0] * PARTS), strict=True), 1):
+            run.take(move, tick=show)
             strip = Strip.of(model.mesh, model.u)
             if not case.insert:
                 _refuse_touch(case, strip, way * (1.0 - part / PARTS))

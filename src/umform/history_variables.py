@@ -1,6 +1,6 @@
-"""Histories by name: where each quantity that a point remembers is among its numbers.
+"""Histories by name: where each variable that a point remembers is among its numbers.
 
-A law of the kernels states names and sizes once; `block.quantities` and `law.quantities` are these tables. A law of
+A law of the kernels states names and sizes once; `history_variables` of a law and of a block are these tables. A law of
 the user's own states them as ``state={"back_stress": 6, "eqps": 1}``. Columns are found here only.
 """
 
@@ -19,26 +19,26 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 
-def columns(quantities: Mapping[str, int]) -> dict[str, slice]:
+def columns(history_variables: Mapping[str, int]) -> dict[str, slice]:
     """Columns of each quantity in the last axis of a history.
 
     Parameters
     ----------
-    quantities : mapping of str to int
+    history_variables : mapping of str to int
         Names and sizes in their order.
     """
-    ends = accumulate(quantities.values())
-    return {name: slice(end - size, end) for (name, size), end in zip(quantities.items(), ends, strict=True)}
+    ends = accumulate(history_variables.values())
+    return {name: slice(end - size, end) for (name, size), end in zip(history_variables.items(), ends, strict=True)}
 
 
-def named(history: Floats, quantities: Mapping[str, int]) -> dict[str, Floats]:
-    """The quantities of a history by name, as views.
+def named(history: Floats, history_variables: Mapping[str, int]) -> dict[str, Floats]:
+    """The history_variables of a history by name, as views.
 
     Parameters
     ----------
     history : ndarray, shape (..., numbers)
         Of any points.
-    quantities : mapping of str to int
+    history_variables : mapping of str to int
         Names and sizes in their order.
 
     Returns
@@ -48,15 +48,15 @@ def named(history: Floats, quantities: Mapping[str, int]) -> dict[str, Floats]:
     Examples
     --------
     >>> import numpy as np
-    >>> from umform.quantities import named
+    >>> from umform.history_variables import named
     >>> history = np.arange(14.0).reshape(2, 7)  # of two points
     >>> named(history, {"back_stress": 6, "eqps": 1})["eqps"]
     array([[ 6.],
            [13.]])
     """
-    return {name: history[..., part] for name, part in columns(quantities).items()}
+    return {name: history[..., part] for name, part in columns(history_variables).items()}
 
 
 def history_of(block: _core.ShellBlock | _core.ContactBlock) -> dict[str, Floats]:
     """A copy of the converged history of elements (cells, points, size) or facets (points, size), by name."""
-    return named(block.state, block.quantities)
+    return named(block.state, block.history_variables)

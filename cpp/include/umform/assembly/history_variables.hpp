@@ -12,62 +12,62 @@
 namespace umform {
 
 /// A part of the history of a point, by its name.
-struct Quantity {
+struct HistoryVariable {
     std::string name;
     int size;  // numbers
 };
 
 /// The same in a table that the compiler knows.
-struct QuantityRow {
+struct VariableRow {
     std::string_view name;
     int size = 1;
 };
 
 /// The parts of a history in their order. `table["slip"]` is where the slip begins; a name that is not there does not compile.
 template <std::size_t Count>
-class QuantityTable {
+class VariableTable {
   public:
-    constexpr QuantityTable() = default;
-    constexpr QuantityTable(const QuantityRow (&rows)[Count]) { append(rows, 0); }
+    constexpr VariableTable() = default;
+    constexpr VariableTable(const VariableRow (&rows)[Count]) { append(rows, 0); }
 
     constexpr int size() const {
         int numbers = 0;
-        for (const QuantityRow& row : rows_) numbers += row.size;
+        for (const VariableRow& row : rows_) numbers += row.size;
         return numbers;
     }
     consteval int operator[](std::string_view name) const {
         int place = 0;
-        for (const QuantityRow& row : rows_) {
+        for (const VariableRow& row : rows_) {
             if (row.name == name) return place;
             place += row.size;
         }
-        throw std::out_of_range("the history has no quantity of this name");
+        throw std::out_of_range("the history has no variable of this name");
     }
     /// This table and behind it more rows.
     template <std::size_t More>
-    constexpr QuantityTable<Count + More> then(const QuantityRow (&rows)[More]) const {
-        QuantityTable<Count + More> all;
+    constexpr VariableTable<Count + More> then(const VariableRow (&rows)[More]) const {
+        VariableTable<Count + More> all;
         all.append(rows_, 0);
         all.append(rows, Count);
         return all;
     }
-    std::vector<Quantity> list() const {
-        std::vector<Quantity> quantities;
-        quantities.reserve(Count);
-        for (const QuantityRow& row : rows_) quantities.push_back({std::string(row.name), row.size});
-        return quantities;
+    std::vector<HistoryVariable> list() const {
+        std::vector<HistoryVariable> history_variables;
+        history_variables.reserve(Count);
+        for (const VariableRow& row : rows_) history_variables.push_back({std::string(row.name), row.size});
+        return history_variables;
     }
 
   private:
     template <std::size_t>
-    friend class QuantityTable;
+    friend class VariableTable;
 
     template <class Rows>
     constexpr void append(const Rows& rows, std::size_t at) {
-        for (const QuantityRow& row : rows) rows_[at++] = row;
+        for (const VariableRow& row : rows) rows_[at++] = row;
     }
 
-    std::array<QuantityRow, Count> rows_{};
+    std::array<VariableRow, Count> rows_{};
 };
 
 }  // namespace umform
