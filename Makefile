@@ -97,7 +97,7 @@ dome: env  ## a sphere pressed into sheets of up to 160 000 elements: time, memo
 	@$(BIN)/python benchmarks/dome.py --json build/dome.json --plot docs/images/dome.png --page docs/performance-increments.md $(ARGS)
 	@$(BIN)/python tools/performance_numbers.py
 
-balances: env  ## 63 jobs of all kinds whose balances are watched (some 4 minutes of CPU); writes docs/balances.md
+balances: env  ## 63 jobs of all kinds whose balances are watched (a minute of CPU); writes docs/balances.md
 	@$(BIN)/python benchmarks/balances.py --json build/balances.json --page docs/balances.md $(ARGS)
 
 robust: env  ## 300 random jobs and how many finish (some 10 minutes of CPU), then the balances; writes docs/robust-rate.md
@@ -113,7 +113,7 @@ ubend: book  ## a U-bend with friction, beside CalculiX if it is there (a quarte
 	@$(BIN)/python benchmarks/ubend.py --page docs/performance-codes.md $(ARGS)
 	@$(BIN)/python tools/performance_numbers.py
 
-cup: book  ## the cup of the ESAFORM benchmark 2021 on four meshes (some ten minutes)
+cup: book  ## the cup of the ESAFORM benchmark 2021, and an isotropic one, on four meshes each (a minute and a half of CPU)
 	$(SAY) 'Drawing the cup'
 	@$(BIN)/python benchmarks/esaform_cup.py --json build/cup.json --page docs/performance-increments.md $(ARGS)
 

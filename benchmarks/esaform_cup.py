@@ -1,6 +1,6 @@
 """The cup of AA6016-T4 of the ESAFORM benchmark 2021 and an isotropic one on four meshes: height, force, CPU seconds.
 
-    python benchmarks/esaform_cup.py                  # all meshes (some ten minutes)
+    python benchmarks/esaform_cup.py                  # all meshes (a minute and a half of CPU)
     python benchmarks/esaform_cup.py --only "15 degrees"
 
 Release included. Degrees are what an element turns over the edge of the punch or of the die at most.

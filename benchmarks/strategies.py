@@ -62,7 +62,8 @@ def run_chapter(title: str) -> None:
     """Run all of its cases."""
     chapter = next(chapter for chapter in chapters() if chapter.title == title)
     with tempfile.TemporaryDirectory() as folder:
-        (Path(folder) / "images").mkdir()
+        for kind in ("images", "results"):
+            (Path(folder) / kind).mkdir()
         for case in chapter.cases:
             assert case.name in cases()
             run_case(Order(case.name, Path(folder), short=True))
