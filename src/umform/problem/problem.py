@@ -30,7 +30,7 @@ from umform.run import Result
 from umform.spec import Scalar, scalars
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Problem:
     """A deck with valid keys, types and names.
 
@@ -50,6 +50,10 @@ class Problem:
     source: Source
     before: Problem | None = None
     start: Result | None = None
+
+    def __repr__(self) -> str:
+        """Short: its tables are in `toml`."""
+        return f"Problem({self.contents.title or self.source.name!r}, {len(self.contents.steps)} steps)"
 
     @classmethod
     def read(

@@ -9,12 +9,14 @@ from pathlib import Path as File
 from typing import Any
 
 from umform.errors import FileProblem
-from umform.problem.errors import DeckError, DeckKey, shortened, written
+from umform.problem.errors import DeckError, DeckKey, shortened, slip, written
 from umform.problem.keys import written_out
 from umform.problem.lines import Path, lines_of, nearest_line
 from umform.problem.syntax import no_toml
 from umform.problem.written import deck_text, plain
 
+#: Tables of things by name.
+_NAMED = ("tools", "contacts", "beads", "controls", "measures")
 #: Keys of a sheet metal of the library.
 _OF_A_METAL = ("material.library", "material.rolling", "material.law")
 
@@ -164,6 +166,15 @@ def _change(data: dict[str, Any], key: str, value: Any, default: Callable[[str],
     """Give a key another value."""
     holder: Any = data
     *way, last = key.split(".")
+    if len(way) == 2 and way[0] in _NAMED and way[1] not in data.get(way[0], {}):
+        known = list(data.get(way[0], {}))
+        return DeckKey(
+            f"there is nothing of this name among the {way[0]}",
+            where=key,
+            value=way[1],
+            cause=slip(way[1], known, f"another name than those of the deck: {', '.join(known) or 'it has none'}"),
+            remedy=f"a whole table adds one: {way[0]}.{way[1]}",
+        )
     for number, part in enumerate(way):
         if isinstance(holder, list) and part.isdecimal() and int(part) < len(holder):
             holder = holder[int(part)]

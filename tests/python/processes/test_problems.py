@@ -137,6 +137,15 @@ def test_changes_neither_reach_the_tables_they_came_from_nor_outlive_later_ones(
     assert longer.with_({"mesh": table}).contents.mesh.length == 10.0
 
 
+def test_a_path_to_a_thing_that_is_not_there_is_a_slip():
+    with pytest.raises(DeckError) as refused:
+        problem_of(BEND).with_({"tools.dye.opening": 1.0})
+    (error,) = refused.value.errors
+    assert (error.where, error.value) == ("tools.dye.opening", "dye")
+    assert error.cause == "a typing error: did you mean die?"
+    assert repr(problem_of(BEND)) == "Problem('Air bending', 3 steps)"
+
+
 def test_a_path_into_a_metal_of_the_library_writes_its_law_out():
     text = '[mesh]\ngenerator="strip"\nlength=9.0\nwidth=1.0\nthickness=1.0\ncells=[2,1]\n[material]\nlibrary="DC04"\n'
     text += '[controls.pull]\nkind="displacement"\nnodes="x1"\ndirection="x"\n[[steps]]\nkind="move"\nto={pull=0.1}\n'

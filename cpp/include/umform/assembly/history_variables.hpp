@@ -28,7 +28,11 @@ template <std::size_t Count>
 class VariableTable {
   public:
     constexpr VariableTable() = default;
-    constexpr VariableTable(const VariableRow (&rows)[Count]) { append(rows, 0); }
+    template <std::size_t Rows>
+        requires(Rows == Count)
+    constexpr VariableTable(const VariableRow (&rows)[Rows]) {
+        append(rows, 0);
+    }
 
     constexpr int size() const {
         int numbers = 0;
@@ -69,5 +73,8 @@ class VariableTable {
 
     std::array<VariableRow, Count> rows_{};
 };
+
+template <std::size_t Rows>
+VariableTable(const VariableRow (&)[Rows]) -> VariableTable<Rows>;
 
 }  // namespace umform
