@@ -26,8 +26,8 @@ struct FallingModulus {
 struct MetalParts {
     double kappa, mu;
     Hardening hardening;
-    Chaboche back_stress;
-    FallingModulus modulus;
+    Chaboche back_stress = {};
+    FallingModulus modulus = {};
     TwoSurfaces two_surfaces = {};
     RateFactor rate = {};
 
