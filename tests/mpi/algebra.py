@@ -52,7 +52,7 @@ def flattened(model):
 
 
 def dofs(share):
-    return (3 * share.nodes[:, None] + np.arange(3)).ravel()
+    return (3 * share.system.nodes[:, None] + np.arange(3)).ravel()
 
 
 def refused_tool(press=False):
@@ -161,9 +161,11 @@ def main():
         load = np.random.default_rng(1).normal(size=u.size)
         expected = whole.system.extend(serial.solve(whole.system.restrict(load)))
         mine = np.zeros(share.u.size)
-        mine.reshape(-1, 3)[share.system.whole.owned] = load.reshape(-1, 3)[share.nodes[share.system.whole.owned]]
+        mine.reshape(-1, 3)[share.system.whole.owned] = load.reshape(-1, 3)[
+            share.system.nodes[share.system.whole.owned]
+        ]
         found = share.system.extend(petsc.solve(share.system.restrict(mine)))
-        difference = np.abs(found - expected.reshape(-1, 3)[share.nodes].ravel()).max() / np.abs(expected).max()
+        difference = np.abs(found - expected.reshape(-1, 3)[share.system.nodes].ravel()).max() / np.abs(expected).max()
         answer["error"].append(world().max(float(difference)))
         answer["largest"].append(share.system.largest_entry(own.values) / whole.system.largest_entry(one.values) - 1.0)
     values = own.values.copy()

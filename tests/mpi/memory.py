@@ -62,7 +62,7 @@ def measured(columns, folder):
     gc.collect()
     kept = tracemalloc.get_traced_memory()[0]
     tracemalloc.stop()
-    cells = len(result.model.cells) if ranks.rank > 0 else 0  # the first rank gets its whole model back
+    cells = len(result.model.system.cells) if ranks.rank > 0 else 0  # the first rank gets its whole model back
     of_all = {name: ranks.comm.gather(value) for name, value in (("cells", cells), ("peak", peak), ("kept", kept))}
     return {"whole": columns * WIDE, **of_all}
 
