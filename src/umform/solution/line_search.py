@@ -33,7 +33,6 @@ def shortened(
     r: Floats,
     evaluation: Evaluation,
     length: float,
-    near: float = 0.0,
 ) -> tuple[Evaluation, float]:
     """The evaluation where the slope along the increment has decreased, and the accepted part of the increment.
 
@@ -51,15 +50,12 @@ def shortened(
         At ``u + length du``.
     length : float
         Accepted part of the increment.
-    near : float
-        Residual, relative to the forces, below which any length is accepted: the next increment is as good as a
-        shorter one, and costs the same.
     """
     along = system.coefficients(du)
     slope = system.ranks.dot(r, along)
     for _ in range(_TRIALS):
         overshoot = _overshoot(system, along, slope, evaluation)
-        if overshoot <= _OVERSHOOT or _residual(system, evaluation) <= near:
+        if overshoot <= _OVERSHOOT:
             break
         part = min(max(1.0 / (1.0 + overshoot), _SHORTEST), _LONGEST)  # the secant of the slope
         system.shorten(part)
@@ -93,11 +89,3 @@ def _overshoot(system: System, along: Floats, slope: float, evaluation: Evaluati
         return math.inf
     ratio = -system.ranks.dot(system.restrict(evaluation.residual), along) / slope if slope else 0.0
     return ratio if math.isfinite(ratio) else math.inf
-
-
-def _residual(system: System, evaluation: Evaluation) -> float:
-    """Norm of the residual relative to the forces; infinite if a cell failed."""
-    if evaluation.failed >= 0:
-        return math.inf
-    r = system.restrict(evaluation.residual)
-    return math.sqrt(system.ranks.dot(r, r)) / (evaluation.force_scale or 1.0)

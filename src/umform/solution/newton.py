@@ -41,8 +41,6 @@ _T = TypeVar("_T")
 _FLIGHT = 1e4
 #: Residual, relative to the forces, at which iterations end where a penalty will grow. docs/theory, 4.11
 _NEAR = 1e-2
-#: Residual, relative to its tolerance, below which an increment of drawing is not shortened. docs/theory, 5.4
-_CLOSE = 30.0
 
 
 @dataclass
@@ -345,8 +343,7 @@ class Newton:
         if tangent.shifted:
             return lengthened(system, goal, u, du, r, evaluation, length)
         if tangent.searches:
-            near = _CLOSE * self.options.residual if self.options.keep else 0.0
-            return shortened(system, goal, u, du, r, evaluation, length, near)
+            return shortened(system, goal, u, du, r, evaluation, length)
         return evaluation, length
 
     def ready_solver(self) -> Bordered:
