@@ -190,3 +190,11 @@ def test_a_sweep_takes_a_problem_of_python(tmp_path):
     forces = [row["stroke_force:peak"] for row in found.rows]
     bend = air_bending(BEND, progress=False)
     assert forces[0] == bend.result["stroke_force"].max() > forces[1]
+
+
+def test_the_cup_of_the_readme_keeps_its_allowed_penetration():
+    """Where penalties grow over the whole stroke; a converged state that Newton's method took too early let them stop."""
+    case = Cup(**ESAFORM | Cup.meshes["coarse"], material=uf.sheet_metals.get("AA6016-T4").law)
+    drawn = draw(case, frames=0, progress=False)
+    for pair in drawn.result.model.contacts:
+        assert drawn.result[f"{pair.name}_penetration"].max() <= pair.allowed
