@@ -193,7 +193,7 @@ def test_a_sweep_takes_a_problem_of_python(tmp_path):
 
 
 def test_the_cup_of_the_readme_keeps_its_allowed_penetration():
-    """Where penalties grow over the whole stroke; a converged state that Newton's method took too early let them stop."""
+    """Penalties grow over the whole stroke; a state that is accepted too early lets them stop."""
     case = Cup(**ESAFORM | Cup.meshes["coarse"], material=uf.sheet_metals.get("AA6016-T4").law)
     drawn = draw(case, frames=0, progress=False)
     for pair in drawn.result.model.contacts:
