@@ -103,7 +103,7 @@ class Friction:
     """Coefficient of a sliding point, approached from mu with the distance slid; with a table its first entry falls to
     it, and all others in proportion; default: mu."""
     decay: Above | None = None
-    """Decay: distance slid after which 1 / e of the difference remains; it goes with ``kinetic``."""
+    """Decay: distance slid after which 1 / e of the difference remains; it needs ``kinetic``."""
     cap: Above | None = None
     """Largest tangential traction, for instance the shear strength of the sheet or its coating; default: no limit."""
 
