@@ -24,7 +24,7 @@ from balances_page import page, summary
 from corpus import JOBS, Watched
 from corpus.answers import Answer
 from imbalance import FORCES, largest_drift
-from umform.model.tool_controls import ToolMotion
+from umform.model.tools.tool_controls import ToolMotion
 from umform.results.penetration import penetrations
 
 

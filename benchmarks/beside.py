@@ -20,16 +20,16 @@ import draws
 import needs_book  # noqa: F401
 import record
 import umform as uf
+from umform.analysis.newton import newton
+from umform.analysis.newton.newton import Newton
+from umform.analysis.newton.strategies import Increment
+from umform.analysis.steps.loop import Run
 from umform.attempts import Attempts
-from umform.model.evaluated import Evaluated
+from umform.model.equations.evaluated import Evaluated
 from umform.problem import load
 from umform.problem.templates import template_file
 from umform.processes.draw import draw
 from umform.processes.draw.press import OPTIONS
-from umform.solution import newton
-from umform.solution.newton import Newton
-from umform.solution.strategies import Increment
-from umform.steps.loop import Run
 from umform.timing import Timing, timings
 from umform_book.drawing import hemisphere, s_rail, square_cup
 from umform_book.page import Page

@@ -18,11 +18,11 @@ from unittest.mock import patch
 
 import record
 import umform as uf
+from umform.analysis.newton.options import NewtonOptions
 from umform.model.contact.points import PairPoints
 from umform.processes.draw import Cup, Drawn, UBend, draw, extrapolated
 from umform.processes.draw.cup import ESAFORM
 from umform.processes.draw.u_bend import NUMISHEET
-from umform.solution.options import NewtonOptions
 from umform.timing import Timing, timings
 
 BEGIN, END = "<!-- draws -->\n", "<!-- /draws -->"

@@ -33,7 +33,7 @@ def peak() -> float:
 def stages(elements: int, solver: str) -> Iterator[tuple[str, float, float]]:
     """Name, peak after it and bytes that are known to be held, both in MB, of the stages of one iteration."""
     import umform as uf
-    from umform.solution.newton import Newton
+    from umform.analysis.newton.newton import Newton
 
     yield "umform and numpy loaded", peak(), math.nan
     side = round(math.sqrt(elements))

@@ -15,9 +15,9 @@ import needs_book  # noqa: F401
 import record
 import umform as uf
 from sheets import sheet
+from umform.analysis.newton.options import NewtonOptions
 from umform.processes.bending import case as bending
 from umform.processes.bending.spec import FreeBending
-from umform.solution.options import NewtonOptions
 from umform_book.nonlinear import hemisphere, slit_annulus
 from umform_book.nonlinear.course import TIED
 from umform_book.nonlinear.tracing import Setup

@@ -64,9 +64,9 @@ def memory(peak: bool = False) -> float:
 
 def measure(cells: int) -> dict[str, object]:
     """Seconds (wall and CPU) of the parts of an iteration and memory after them, the largest of all ranks."""
+    from umform.analysis.ranks.outline import Outline
+    from umform.analysis.ranks.run import hand_out
     from umform.parallel.mpi_ranks import world
-    from umform.parallel.outline import Outline
-    from umform.parallel.run import hand_out
     from umform.parallel.solver import Petsc
 
     ranks, wall, cpu, held = world(), {}, {}, {"start": memory()}
@@ -106,9 +106,9 @@ def measure(cells: int) -> dict[str, object]:
 
 def describe(cells: int) -> dict[str, object]:
     """Bytes an element that the first rank takes to describe a sheet and to cut it; of the other, an own element."""
+    from umform.analysis.ranks.outline import Outline
+    from umform.analysis.ranks.run import hand_out
     from umform.parallel.mpi_ranks import world
-    from umform.parallel.outline import Outline
-    from umform.parallel.run import hand_out
 
     ranks = world()
     before, start = memory(), time.process_time()

@@ -1,7 +1,7 @@
 """What it saves to use the factors of the iteration before once more: factorisations, iterations, CPU time.
 
 A plate that is bent far, and a sphere that is pressed into a clamped sheet; with new factors always, and with old ones
-where `umform.solution.factor_reuse` lets them
+where `umform.analysis.newton.factor_reuse` lets them
 serve. The two take turns. First the times that its estimate of the costs rests on.
 """
 
@@ -16,13 +16,13 @@ import numpy as np
 
 import dome
 import umform as uf
+from umform.analysis.newton.factor_reuse import cost_of_factors
+from umform.analysis.newton.newton import Newton
+from umform.analysis.newton.options import NewtonOptions
 from umform.processes.air_bending import problem
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bending import case as bending
 from umform.processes.bending.spec import FreeBending
-from umform.solution.factor_reuse import cost_of_factors
-from umform.solution.newton import Newton
-from umform.solution.options import NewtonOptions
 
 
 def plate(cells: int) -> tuple[uf.Model, uf.Move]:

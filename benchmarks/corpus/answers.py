@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 import umform as uf
+from umform.analysis.steps import Step
 from umform.problem.findings import accept
 from umform.problem.plausible import of_model
-from umform.steps import Step
 
 Floats = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ import umform as uf
 from corpus.answers import DIAGONAL, FRONT_BACK, Answer, carried, unlike
 from corpus.laws import law
 from jobs import plates
-from umform.steps import Step
+from umform.analysis.steps import Step
 
 #: How all contacts of a part are computed, if a job does not say otherwise.
 _RULE = {"points": 2}

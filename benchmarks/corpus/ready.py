@@ -9,6 +9,7 @@ import umform as uf
 from corpus.answers import LEFT_RIGHT, Answer, carried, unlike
 from corpus.laws import law
 from umform import sheet_metals
+from umform.analysis.steps import Step
 from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.air_bending.bottoming import with_travel
 from umform.processes.bend_sequence import Bend, BendSequence, bend_sequence
@@ -18,7 +19,6 @@ from umform.processes.draw_bead.case import build
 from umform.processes.draw_bead.spec import DrawBead
 from umform.processes.hemming import Hemming, hemming
 from umform.processes.hemming.spec import ACUTE
-from umform.steps import Step
 
 _COARSE: dict[str, Any] = {"elements_per_thickness": 1.0, "layers": 1}
 

@@ -10,8 +10,8 @@ import numpy as np
 import umform as uf
 from corpus.answers import LEFT_RIGHT, Answer, carried, solve, unlike
 from corpus.laws import law
-from umform.model.support import Support
-from umform.steps import Step
+from umform.analysis.steps import Step
+from umform.model.supports.support import Support
 from umform.surfaces import Surface
 
 

@@ -12,7 +12,7 @@ from corpus.sections import Sheet
 from forming.sheets import draw_sheet, judged, sheet_of
 from jobs.drawing import Drawing
 from jobs.lot import Done
-from umform.steps import Step
+from umform.analysis.steps import Step
 
 _Corners = list[tuple[float, float]]
 

@@ -12,7 +12,7 @@ from corpus.laws import law
 from forming.sheets import FRICTIONS, THICKNESSES, UNITS, draw_increments, draw_law, draw_rule, increments, judged
 from jobs.drawing import Drawing
 from jobs.lot import Done
-from umform.steps import Step
+from umform.analysis.steps import Step
 
 _ELEMENTS = ("ANS3DEAS", "ANS3DEAS", "ANS3DEAS", "BEND8", "EAS3DEAS")
 

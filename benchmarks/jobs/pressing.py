@@ -6,7 +6,7 @@ from typing import Any
 
 import umform as uf
 from jobs.drawing import Drawing
-from umform.model.control import Control
+from umform.model.terms.control import Control
 
 
 def increments(drawing: Drawing, stroke: float, thickness: float) -> int:

@@ -11,7 +11,7 @@ from worker import means, work
 
 from problem import Problem
 from umform import J2, SVK, Cylinder, Linear, Mesh, Model, Move, NewtonOptions, Result, set_threads
-from umform.run import solve as solve_steps
+from umform.analysis.run import solve as solve_steps
 
 
 def solve(problem: Problem, options: Mapping[str, Any]) -> dict[str, Any]:

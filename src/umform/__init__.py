@@ -19,6 +19,18 @@ if TYPE_CHECKING:
     from umform import surfaces as surfaces
     from umform._core import set_threads as set_threads
     from umform._core import threads as threads
+    from umform.analysis.newton.options import NewtonOptions as NewtonOptions
+    from umform.analysis.run import Result as Result
+    from umform.analysis.run import resume as resume
+    from umform.analysis.run import solve as solve
+    from umform.analysis.run.stages import Stage as Stage
+    from umform.analysis.run.stages import solve_stages as solve_stages
+    from umform.analysis.steps import Arc as Arc
+    from umform.analysis.steps import Close as Close
+    from umform.analysis.steps import Free as Free
+    from umform.analysis.steps import Move as Move
+    from umform.analysis.steps import Pace as Pace
+    from umform.analysis.steps import Release as Release
     from umform.elements import Element as Element
     from umform.elements import Mode as Mode
     from umform.elements import Tying as Tying
@@ -27,26 +39,14 @@ if TYPE_CHECKING:
     from umform.mesh import Mesh as Mesh
     from umform.model import Body as Body
     from umform.model import Model as Model
-    from umform.model.axes import cylindrical as cylindrical
-    from umform.model.axes import turned as turned
     from umform.model.contact.friction import Friction as Friction
     from umform.model.contact.friction import FrictionByRegion as FrictionByRegion
     from umform.model.contact.friction import Region as Region
     from umform.model.element_check import check_element as check_element
-    from umform.model.trim import Trim as Trim
+    from umform.model.supports.axes import cylindrical as cylindrical
+    from umform.model.supports.axes import turned as turned
+    from umform.model.transfer.trim import Trim as Trim
     from umform.results import fields as fields
-    from umform.run import Result as Result
-    from umform.run import resume as resume
-    from umform.run import solve as solve
-    from umform.run.stages import Stage as Stage
-    from umform.run.stages import solve_stages as solve_stages
-    from umform.solution.options import NewtonOptions as NewtonOptions
-    from umform.steps import Arc as Arc
-    from umform.steps import Close as Close
-    from umform.steps import Free as Free
-    from umform.steps import Move as Move
-    from umform.steps import Pace as Pace
-    from umform.steps import Release as Release
     from umform.studies.sweep import Sweep as Sweep
     from umform.studies.sweep import sweep as sweep
     from umform.surfaces import Box as Box
@@ -78,14 +78,14 @@ _HOME = {
     "umform.errors": ("UmformError",),
     "umform.mesh": ("Mesh",),
     "umform.model": ("Body", "Model"),
-    "umform.model.axes": ("cylindrical", "turned"),
+    "umform.model.supports.axes": ("cylindrical", "turned"),
     "umform.model.contact.friction": ("Friction", "FrictionByRegion", "Region"),
     "umform.model.element_check": ("check_element",),
-    "umform.model.trim": ("Trim",),
-    "umform.run": ("Result", "resume", "solve"),
-    "umform.run.stages": ("Stage", "solve_stages"),
-    "umform.solution.options": ("NewtonOptions",),
-    "umform.steps": ("Arc", "Close", "Free", "Move", "Pace", "Release"),
+    "umform.model.transfer.trim": ("Trim",),
+    "umform.analysis.run": ("Result", "resume", "solve"),
+    "umform.analysis.run.stages": ("Stage", "solve_stages"),
+    "umform.analysis.newton.options": ("NewtonOptions",),
+    "umform.analysis.steps": ("Arc", "Close", "Free", "Move", "Pace", "Release"),
     "umform.surfaces": (
         "Box",
         "Cylinder",

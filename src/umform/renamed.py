@@ -17,6 +17,9 @@ RENAMED = {
 MOVED = {
     "umform.calibration": "umform.studies.calibration",
     "umform.deck": "umform.problem, its Deck is Problem, and what build() makes is Prepared",
+    "umform.run": "umform.analysis.run",
+    "umform.solution": "umform.analysis.newton",
+    "umform.steps": "umform.analysis.steps",
     "umform.sweeps": "umform.studies.sweep",
 }
 

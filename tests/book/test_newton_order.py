@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from umform.solution.records import Iteration
+from umform.results.records import Iteration
 from umform_book.newton_order import (
     CONTACT,
     FEW,

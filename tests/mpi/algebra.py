@@ -10,13 +10,13 @@ import json
 import numpy as np
 
 import umform as uf
+from umform.analysis.ranks.outline import Outline
+from umform.analysis.ranks.run import hand_out
 from umform.errors import NotFinite, SingularMatrix
 from umform.mesh import strip
 from umform.model import Body, Term
-from umform.model.term import Found, Global
+from umform.model.terms.term import Found, Global
 from umform.parallel.mpi_ranks import world
-from umform.parallel.outline import Outline
-from umform.parallel.run import hand_out
 from umform.parallel.solver import Petsc
 from umform.solvers import make_solver
 

@@ -13,12 +13,12 @@ from pathlib import Path
 import numpy as np
 
 import umform as uf
+from umform.analysis.newton.options import NewtonOptions
 from umform.history_variables import named
 from umform.mesh import strip
 from umform.model import Body, NodalTerm
 from umform.problem import load
 from umform.problem.templates import template_file
-from umform.solution.options import NewtonOptions
 
 STEEL = {"kappa": 175e3, "mu": 80.77e3}
 #: Of the command line: the trouble that the functions of the cases make, and the solver that decks are built for.

@@ -16,9 +16,9 @@ import numpy as np
 from cases import Foam
 
 import umform as uf
+from umform.analysis.ranks import run
 from umform.mesh import strip
 from umform.model import Body
-from umform.parallel import run
 from umform.parallel.mpi_ranks import world
 
 #: Columns of cells that a rank after the first has.

@@ -15,9 +15,9 @@ import h5py
 import numpy as np
 import pytest
 
+from umform.analysis.run.checkpoint import read_checkpoint
 from umform.errors import FileProblem
 from umform.problem.templates import template_file
-from umform.run.checkpoint import read_checkpoint
 
 UMFORM = ("-m", "umform")
 SHORT = ("--set", "mesh.cells=[12, 2]", "--set", "steps.0.increments=4", "--set", "steps.0.to.punch=-3.0")

@@ -83,7 +83,8 @@ SOURCE = Path(umform.__file__).parent
 FILES = [
     *sorted(SOURCE.glob("materials/*.py")),
     *sorted(SOURCE.glob("surfaces/*.py")),
-    *(SOURCE / "model" / f"{name}.py" for name in ("axes", "support", "supports", "ties", "tool", "contacts")),
+    *(SOURCE / "model/supports" / f"{name}.py" for name in ("axes", "support", "supports", "ties")),
+    *(SOURCE / "model" / f"{name}.py" for name in ("tools/tool", "contact/contacts")),
 ]
 
 

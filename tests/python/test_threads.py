@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import umform
-from umform.run import solve
-from umform.steps import Move
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 
 
 @pytest.fixture(autouse=True)

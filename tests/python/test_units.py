@@ -11,8 +11,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from umform.run import solve
-from umform.steps import Move, Release
+from umform.analysis.run import solve
+from umform.analysis.steps import Move, Release
 
 UNITS = {
     "m-N-Pa": (1e-3, 1.0),

@@ -13,7 +13,7 @@ from umform_book.newton_order import NewtonOrder, measure
 _AT_REST = 1e-6
 
 if TYPE_CHECKING:
-    from umform.run import Result
+    from umform.analysis.run import Result
 
 
 @dataclass(frozen=True)

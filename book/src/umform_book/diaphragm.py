@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from umform.mesh import Selector
 from umform.model import Model
-from umform.model.axes import cylindrical
+from umform.model.supports.axes import cylindrical
 
 
 def rigid_diaphragm(model: Model, edge: Selector) -> None:

@@ -10,7 +10,7 @@ from statistics import median
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from umform.solution.records import Iteration
+    from umform.results.records import Iteration
 
 #: An order below this is low and needs a reason.
 LOW = 1.8

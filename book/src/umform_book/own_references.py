@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.run import solve
-from umform.steps import Move
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform_book.nonlinear import pinched_cylinder as elastic
 from umform_book.nonlinear.tracing import LOAD, trace
 from umform_book.plastic import pinched_cylinder as plastic

@@ -19,10 +19,10 @@ from umform_book.printed import shown
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from umform.analysis.run import Result
+    from umform.analysis.steps import Step
     from umform.model import Model
     from umform.results.shape import Shape
-    from umform.run import Result
-    from umform.steps import Step
 
 Item = TypeVar("Item")
 Cell = str | float | int | None
@@ -86,8 +86,8 @@ class Page:
 
     def solve(self, label: str, model: Model, steps: Sequence[Step] | Step, **options: Any) -> Result:
         """Solve a nonlinear problem and enter its balance of work and forces, and the order of Newton's method."""
-        from umform.run import solve
-        from umform.solution.options import NewtonOptions
+        from umform.analysis.newton.options import NewtonOptions
+        from umform.analysis.run import solve
 
         newton = replace(options.pop("options", NewtonOptions()), factor_cost=0.0)  # the order is Newton's own
         try:

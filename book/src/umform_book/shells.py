@@ -9,7 +9,7 @@ from umform import mesh
 from umform.materials import SVK
 from umform.mesh import Mesh
 from umform.model import Model
-from umform.model.dead_load import Load
+from umform.model.terms.dead_load import Load
 from umform_book.variants import Variant
 
 Floats = NDArray[np.float64]

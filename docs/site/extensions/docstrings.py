@@ -9,7 +9,7 @@ from sphinx.application import Sphinx
 #: What shows a public name best.
 PICTURES = {
     "umform.Model": ("free_bending.png", "Force of a strip bent over a cylinder, by elements and contact points"),
-    "umform.model.tool.Tool": ("press_brake.png", "Section of a press brake: die, punch and sheet"),
+    "umform.model.tools.tool.Tool": ("press_brake.png", "Section of a press brake: die, punch and sheet"),
     "umform.model.contact.Contact": ("cells.png", "Forces of contact at points and over cells"),
     "umform.J2": ("flow_curves.png", "Flow curves of sheet metals"),
     "umform.Metal": ("rolling_angle.png", "Springback against the angle between bend line and rolling direction"),

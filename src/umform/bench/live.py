@@ -9,15 +9,15 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from umform.analysis.steps import Release
 from umform.bench.folders import LIVE
 from umform.processes.air_bending.brake import force_per_width
 from umform.processes.air_bending.branches import Brake
 from umform.processes.air_bending.section import Section
-from umform.steps import Release
 
 if TYPE_CHECKING:
+    from umform.analysis.steps.loop import Run
     from umform.results.history import History
-    from umform.steps.loop import Run
 
 #: Seconds between two files, at least.
 _OFTEN = 0.1

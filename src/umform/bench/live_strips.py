@@ -10,8 +10,8 @@ from umform.processes.bend_sequence import BendSequence
 from umform.processes.bend_sequence.sides import Strip
 
 if TYPE_CHECKING:
+    from umform.analysis.steps.loop import Run
     from umform.model import Model
-    from umform.steps.loop import Run
 
 #: Most points of a curve, and of one face of an outline.
 _MOST = 300

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from umform.analysis.run.watching import watching
 from umform.bench.folders import RESULTS
 from umform.bench.forces import after, press
 from umform.bench.live import Watch
@@ -16,7 +17,6 @@ from umform.processes.bend_sequence import Part, bend_sequence
 from umform.processes.bend_sequence import files as part_files
 from umform.processes.hemming import Hem, Hemming, hemming
 from umform.processes.hemming import files as hem_files
-from umform.run.watching import watching
 
 #: Files of such jobs.
 FILES = (*part_files.FILES, *hem_files.FILES)

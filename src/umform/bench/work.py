@@ -14,6 +14,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from umform.analysis.run.watching import watching
 from umform.bench.folders import DECK, ORDER, OUTCOME, RESULTS, owned
 from umform.bench.forces import after, press
 from umform.bench.limits import limit_memory
@@ -34,7 +35,6 @@ from umform.processes.air_bending.budget import error_budget
 from umform.processes.air_bending.case import air_bending
 from umform.processes.air_bending.files import FILES, record, write_files
 from umform.processes.air_bending.search import find_stroke
-from umform.run.watching import watching
 
 #: What a run needs after its first increments: pictures, and the pages of the shape and of the report.
 _LATER = (

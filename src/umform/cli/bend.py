@@ -40,11 +40,11 @@ from umform.processes.air_bending.spec import AirBending
 from umform.spec import check_value, parameters
 
 if TYPE_CHECKING:
+    from umform.analysis.run import Result
     from umform.model import Model
     from umform.processes.air_bending.bend import AirBend
     from umform.processes.air_bending.branches import Brake
     from umform.processes.air_bending.measures import Measures
-    from umform.run import Result
 
 
 _GOAL, _TOOLS = "What to do", "Tools"

@@ -12,8 +12,8 @@ from umform.errors import InvalidBead
 from umform.mesh import Selector
 from umform.model.contact.bead import Bead, BeadOptions, bead_line
 from umform.model.contact.pair import Contact
-from umform.model.evaluated import Evaluated
-from umform.model.tool import Tool
+from umform.model.equations.evaluated import Evaluated
+from umform.model.tools.tool import Tool
 from umform.spec import takes
 
 

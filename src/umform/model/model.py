@@ -14,28 +14,28 @@ from umform.errors import InvalidValue
 from umform.materials import Material
 from umform.mesh import Mesh, Selector
 from umform.mesh.numbers import unique
-from umform.model import removal
-from umform.model.assembled import Parts
 from umform.model.beads import Beads
-from umform.model.bodies import Bodies
-from umform.model.body import Body
+from umform.model.bodies.bodies import Bodies
+from umform.model.bodies.body import Body
+from umform.model.changes import removal
+from umform.model.changes.kept_gap import stop_at_gap
+from umform.model.changes.opening import put_tool_back
 from umform.model.contact import Contact
-from umform.model.contacts import Contacts
-from umform.model.dead_load import Load
-from umform.model.gauge import gauge_dofs
-from umform.model.kept_gap import stop_at_gap
-from umform.model.loads import Loads
+from umform.model.contact.contacts import Contacts
+from umform.model.contact.tools import Tools
+from umform.model.equations.assembled import Parts
+from umform.model.equations.gauge import gauge_dofs
+from umform.model.equations.rest import Rest
 from umform.model.moved_names import MOVED, moved
-from umform.model.opening import put_tool_back
-from umform.model.press import check_stiffness
-from umform.model.rest import Rest
-from umform.model.state import Snapshot, State
-from umform.model.support import Support
-from umform.model.supports import Supports
+from umform.model.supports.support import Support
+from umform.model.supports.supports import Supports
 from umform.model.system import System
-from umform.model.tool import Tool
-from umform.model.tool_controls import ToolForce
-from umform.model.tools import Tools
+from umform.model.terms.dead_load import Load
+from umform.model.terms.loads import Loads
+from umform.model.terms.state import Snapshot, State
+from umform.model.tools.press import check_stiffness
+from umform.model.tools.tool import Tool
+from umform.model.tools.tool_controls import ToolForce
 from umform.spec import takes
 
 Floats = NDArray[np.float64]

@@ -7,13 +7,13 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.model import removal
-from umform.model.checks import check_model
-from umform.model.evaluated import Evaluated
-from umform.model.evaluation import Evaluation
-from umform.model.kept_gap import check_kept_gaps
-from umform.model.state import Snapshot
-from umform.model.support import Support
+from umform.model.changes import removal
+from umform.model.changes.kept_gap import check_kept_gaps
+from umform.model.equations.checks import check_model
+from umform.model.equations.evaluated import Evaluated
+from umform.model.equations.evaluation import Evaluation
+from umform.model.supports.support import Support
+from umform.model.terms.state import Snapshot
 
 Floats = NDArray[np.float64]
 
@@ -114,12 +114,12 @@ class System(Evaluated):
                 term.revert()
 
     def check(self, gauge: Support | None = None) -> None:
-        """Reject a model that cannot be solved, before the run starts, see :func:`umform.model.checks.check_model`."""
+        """Reject a model that cannot be solved, before the run starts, see `check_model`."""
         check_model(self, gauge)
         check_kept_gaps(self)
 
     def mechanism(self, values: Floats, motion: Floats) -> Floats | None:
         """What can move although a tangent looks singular; None for a very thin sheet that is held. eq. (5.99)"""
-        from umform.model.mechanisms import mechanism
+        from umform.model.equations.mechanisms import mechanism
 
         return mechanism(self, values, motion)

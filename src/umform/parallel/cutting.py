@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from umform.mesh import Ids
 from umform.model import Model
-from umform.model.cut import Cut
+from umform.model.terms.cut import Cut
 from umform.parallel.numbering import Owners, tied_pairs
 
 Floats = NDArray[np.float64]

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.model.contact import Contact, ContactPoints
-from umform.model.frame import Frame
-from umform.model.term import Term, Tree
+from umform.model.equations.frame import Frame
+from umform.model.terms.term import Term, Tree
 from umform.parallel.mpi_ranks import MpiRanks
 from umform.parallel.places import Places
 

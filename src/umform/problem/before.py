@@ -21,14 +21,14 @@ from umform.io.trees import read_tree, write_tree
 from umform.model import Model, Snapshot
 from umform.model.contact import Contact
 from umform.model.contact.kept import KeptContact
-from umform.model.rigid_motion import RigidMotion
+from umform.model.transfer.rigid_motion import RigidMotion
 from umform.problem.errors import DeckError, DeckKey
 from umform.problem.parts import Name, Part, Vector
 from umform.problem.profiles import ProfilePart, profile_of
 from umform.problem.source import Source
 
 if TYPE_CHECKING:
-    from umform.model.trim import Trim
+    from umform.model.transfer.trim import Trim
 
 #: Tables of the previous deck.
 TAKEN = ("mesh", "material", "element")
@@ -176,7 +176,7 @@ class Cut(Part):
 
     def build(self, folder: File) -> Trim:
         """The cut."""
-        from umform.model.trim import Trim  # most decks have no cut
+        from umform.model.transfer.trim import Trim  # most decks have no cut
 
         return Trim(profile_of(self.line, folder), self.view, self.formed, self.edge)
 

@@ -6,11 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from umform.analysis.newton.newton import Newton
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.run import Result
+from umform.analysis.steps import Step
 from umform.model import Model
 from umform.model.contact import Contact
-from umform.model.control import Control
-from umform.model.support import Support
-from umform.model.tool import Tool as RigidTool
+from umform.model.supports.support import Support
+from umform.model.terms.control import Control
+from umform.model.tools.tool import Tool as RigidTool
 from umform.problem.contents import Contents
 from umform.problem.errors import DeckError
 from umform.problem.measure_checks import check_measures
@@ -19,10 +23,6 @@ from umform.problem.sheet_building import Earlier, SheetBuilder
 from umform.problem.source import Source
 from umform.problem.steps import Free, Named
 from umform.problem.supports import Rigid
-from umform.run import Result
-from umform.solution.newton import Newton
-from umform.solution.options import NewtonOptions
-from umform.steps import Step
 from umform.surfaces import Tool
 
 

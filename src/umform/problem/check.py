@@ -8,6 +8,8 @@ from functools import partial
 
 import numpy as np
 
+from umform.analysis.newton.newton import Newton
+from umform.analysis.run.loose import carried, carried_motions
 from umform.errors import NotFinite, RigidBodyMotion, SingularMatrix, ToolSwallowsSheet
 from umform.materials import Plastic
 from umform.model.contact.encounter import sheet_thickness
@@ -24,9 +26,7 @@ from umform.problem.problem import Problem
 from umform.problem.references import references
 from umform.problem.resolution import resolution
 from umform.problem.steps import Move
-from umform.run.loose import carried, carried_motions
 from umform.sheet_metals import get
-from umform.solution.newton import Newton
 from umform.surfaces import CadTool, Offset, Placed, Triangulated
 
 #: Mean number of iterations of an increment.

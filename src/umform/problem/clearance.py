@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from umform.model import Model
 from umform.model.contact import Contact
 from umform.model.contact.encounter import sheet_thickness
-from umform.model.control import Control
-from umform.model.tool import Pose, Tool
+from umform.model.terms.control import Control
+from umform.model.tools.tool import Pose, Tool
 from umform.problem.controls import Drive, Moment, Press, Spring, Turn
 from umform.problem.findings import Finding, ok, warning
 from umform.problem.prepared import Prepared

@@ -13,8 +13,8 @@ from pydantic_core import PydanticCustomError
 
 from umform.model import Model
 from umform.model.contact import Contact, ContactOptions, friction
-from umform.model.tool import Motion
-from umform.model.tool import Tool as RigidTool
+from umform.model.tools.tool import Motion
+from umform.model.tools.tool import Tool as RigidTool
 from umform.problem.parts import Name, Part, Positive, Vector
 from umform.problem.selection import Selection, faces_of
 from umform.problem.tagged import deck_type, refused, table, with_keys, write_as

@@ -9,8 +9,8 @@ from pydantic import Field
 
 from umform.model import Model
 from umform.model.contact import Contact
-from umform.model.control import Control
-from umform.model.tool_controls import ToolForce, ToolWay
+from umform.model.terms.control import Control
+from umform.model.tools.tool_controls import ToolForce, ToolWay
 from umform.problem.parts import Axis, Name, Part, Positive, Vector, Way
 from umform.problem.selection import Selection, faces_of, nodes_of
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from umform.analysis.run.checkpoint import read_note
 from umform.errors import FileProblem
 from umform.problem.problem import Problem
-from umform.run.checkpoint import read_note
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from umform.analysis.run import Result
 from umform.errors import UmformError
 from umform.io.tables import write_csv
 from umform.problem.measures.base import FORMED, RELEASED, Formed, Measured, Row
@@ -15,7 +16,6 @@ from umform.problem.prepared import Prepared
 from umform.problem.problem import Problem
 from umform.problem.unloading import loading_steps
 from umform.results.quantity import Quantity
-from umform.run import Result
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from umform.model.control import Control
-from umform.model.dead_load import Load
-from umform.model.pressure import Pressure
+from umform.analysis.run import Result
+from umform.analysis.steps import Release
+from umform.model.terms.control import Control
+from umform.model.terms.dead_load import Load
+from umform.model.terms.pressure import Pressure
 from umform.plotting import history_picture, house_style, shape_picture
 from umform.problem.prepared import Prepared
 from umform.report.symmetry import mirrors, whole
 from umform.results.leading import leading_controls
 from umform.results.shape import Shape
-from umform.run import Result
-from umform.steps import Release
 
 
 def curve(problem: Prepared, result: Result) -> Figure:

@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.run.tipping import tipping
+from umform.analysis.steps import Step
 from umform.errors import ModelError
 from umform.mesh.quality import jacobians
 from umform.model import Model
@@ -15,8 +17,6 @@ from umform.problem.findings import Finding, Level, error, ok, warning
 from umform.problem.r_values import r_values
 from umform.problem.sizes import sheet_length
 from umform.problem.units import units
-from umform.run.tipping import tipping
-from umform.steps import Step
 
 #: (name of a contact, shift of its tool) -> the key that does it.
 Placing = Callable[[str, NDArray[np.float64]], str]

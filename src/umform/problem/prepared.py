@@ -8,12 +8,12 @@ from functools import partial
 from os import PathLike
 from typing import Any
 
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.run import Result, resume, solve
+from umform.analysis.steps import Step
 from umform.model import Model
 from umform.model.contact import Contact
-from umform.model.control import Control
-from umform.run import Result, resume, solve
-from umform.solution.options import NewtonOptions
-from umform.steps import Step
+from umform.model.terms.control import Control
 from umform.surfaces import Tool, ToolSizes
 
 

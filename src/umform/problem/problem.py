@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
+from umform.analysis.run import Result
 from umform.errors import InvalidValue, UmformError
 from umform.mesh import Mesh
 from umform.model import Model
@@ -26,7 +27,6 @@ from umform.problem.profiles import as_written
 from umform.problem.references import unknown_names
 from umform.problem.source import Source, change, parse, read_file
 from umform.problem.written import deck_text, plain
-from umform.run import Result
 from umform.spec import Scalar, scalars
 
 

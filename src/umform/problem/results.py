@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.run import Result
 from umform.errors import UmformError
 from umform.io.atomic import write_problem
 from umform.io.staging import Staging
@@ -24,7 +25,6 @@ from umform.problem.measured import TABLE, Taken, data_files, picture_files
 from umform.problem.prepared import Prepared
 from umform.problem.problem import Problem
 from umform.problem.written import toml
-from umform.run import Result
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -11,6 +11,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from umform.analysis.run import Result
 from umform.errors import UmformError
 from umform.io.atomic import remove_left_behind
 from umform.io.folders import chosen_folder, folder_for
@@ -25,7 +26,6 @@ from umform.problem.resolution import coarse
 from umform.problem.results import CHECKPOINT, FILES, RESULTS, says_what_is_kept, write, written_at
 from umform.results.outcome import Outcome
 from umform.results.quantity import Quantity
-from umform.run import Result
 
 _Answer = TypeVar("_Answer")
 log = logging.getLogger("umform")

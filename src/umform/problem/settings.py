@@ -7,9 +7,9 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from umform.analysis.newton.options import NewtonOptions
 from umform.problem.parts import Pair, Part, Positive
 from umform.problem.tagged import with_keys
-from umform.solution.options import NewtonOptions
 
 
 @with_keys(NewtonOptions)

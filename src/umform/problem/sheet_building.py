@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Protocol
 
+from umform.analysis.run import Result
+from umform.analysis.run.stages import continued
 from umform.elements import Rolling
 from umform.elements.technology import Element
 from umform.errors import UmformError
@@ -18,8 +20,6 @@ from umform.problem.outline import Outlined
 from umform.problem.places import Place
 from umform.problem.rolling import direction
 from umform.problem.source import Source
-from umform.run import Result
-from umform.run.stages import continued
 from umform.surfaces import Tool, ToolSizes
 
 

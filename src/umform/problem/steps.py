@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from umform import steps
+from umform.analysis import steps
 from umform.model.contact import Contact
-from umform.model.control import Control
-from umform.model.support import Support
+from umform.model.supports.support import Support
+from umform.model.terms.control import Control
 from umform.problem.parts import Name, Pair, Part
 from umform.problem.tagged import table, with_keys
 from umform.spec.types import Increments

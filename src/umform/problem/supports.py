@@ -9,8 +9,8 @@ from pydantic import Field
 
 from umform.errors import InvalidValue
 from umform.model import Model
-from umform.model.axes import Axes, cylindrical
-from umform.model.support import Support as Held
+from umform.model.supports.axes import Axes, cylindrical
+from umform.model.supports.support import Support as Held
 from umform.problem.parts import Axis, Name, Part, Vector, Way
 from umform.problem.selection import Selection, nodes_of
 

@@ -22,8 +22,8 @@ from umform.surfaces.sampled import sampled
 from umform.surfaces.triangles import Box3, Triangles, inside_of
 
 if TYPE_CHECKING:
-    from umform.model.frame import Frame
-    from umform.model.tool import Tool as RigidTool
+    from umform.model.equations.frame import Frame
+    from umform.model.tools.tool import Tool as RigidTool
     from umform.results.history import History
 
 Floats = NDArray[np.float64]

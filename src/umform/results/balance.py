@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from umform.model import Evaluation, Model, Tool
 from umform.model.contact import ContactFound
 from umform.model.contact.found import moment as moment_of
-from umform.model.term import At, Energies
+from umform.model.terms.term import At, Energies
 from umform.ranks import Ranks
 
 Floats = NDArray[np.float64]

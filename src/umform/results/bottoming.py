@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from umform.model import Model
 from umform.model.contact.encounter import sheet_thickness
-from umform.model.tool_controls import ToolMotion
+from umform.model.tools.tool_controls import ToolMotion
 from umform.results.history import History
 
 Floats = NDArray[np.float64]

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
 from umform.model import Evaluation, Model
-from umform.model.frame import Frame
+from umform.model.equations.frame import Frame
 from umform.results import fields
 from umform.results.balance import Balance, ExternalWork, Worked, drift
+from umform.results.records import Iteration
 from umform.results.volume import VolumeChange, volume_change
-from umform.solution.records import Iteration
 from umform.timing import Timing
 
 log = logging.getLogger("umform")

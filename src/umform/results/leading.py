@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from umform.model.control import Control
+    from umform.model.terms.control import Control
     from umform.results.history import History
 
 

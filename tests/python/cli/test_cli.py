@@ -57,7 +57,7 @@ def test_a_public_name_loads_its_own_home_only():
 
 def test_all_public_names_together_load_numpy_and_the_kernels_only():
     loaded = loaded_by("import umform as uf; [getattr(uf, name) for name in uf.__all__]")
-    assert {"numpy", "umform._core", "umform.run.execute", "umform.sheet_metals", "umform.processes"} <= loaded
+    assert {"numpy", "umform._core", "umform.analysis.run.execute", "umform.sheet_metals", "umform.processes"} <= loaded
     assert not loaded & (HEAVY - {"numpy", "umform._core"})
 
 
@@ -102,7 +102,7 @@ CHECKING = f"from umform.cli import main; sys.argv = ['umform', 'check', {str(te
 @pytest.mark.parametrize("code", [SOLVING, CHECKING])
 def test_solving_and_checking_load_nothing_for_files_and_pictures(code):
     loaded = loaded_by(code)
-    assert "umform.run.execute" in loaded
+    assert "umform.analysis.run.execute" in loaded
     assert not loaded & {"meshio", "h5py", "matplotlib", "scipy.sparse", "scipy.optimize", "scipy.spatial"}
 
 
@@ -346,4 +346,4 @@ def test_log_of_increments(tmp_path):
     command = [sys.executable, "-m", "umform", "-v", "demo", "free-bending", "--out", tmp_path, *RUN]
     run = subprocess.run([str(part) for part in command], capture_output=True, text=True, check=True)
     assert "step 1  time" in run.stderr
-    assert "umform.solution.newton" not in run.stdout
+    assert "umform.analysis.newton.newton" not in run.stdout

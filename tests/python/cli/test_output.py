@@ -13,9 +13,9 @@ import pytest
 from typer.testing import CliRunner
 
 from umform import cli
+from umform.analysis.run import Result
 from umform.io.tables import write_csv
 from umform.problem.templates import write_template
-from umform.run import Result
 
 SOURCE = Path(cli.__file__).parents[2]
 FAST = ["--set", "steps.0.increments=4", "--set", "output.pictures=false", "--set", "output.report=false"]
@@ -102,7 +102,7 @@ def made(folder):
     return folder / ".umform-run"
 
 
-@pytest.mark.parametrize("writer", ["umform.report.page.write_report", "umform.run.Result.write"])
+@pytest.mark.parametrize("writer", ["umform.report.page.write_report", "umform.analysis.run.Result.write"])
 def test_what_was_written_before_the_disk_was_full_is_named(writer, deck, tmp_path, monkeypatch):
     monkeypatch.setattr(writer, disk_full)
     words = ["--set", "steps.0.increments=4", "--set", "output.pictures=false"]

@@ -17,12 +17,12 @@ import pytest
 from typer.testing import CliRunner
 
 from umform import cli
+from umform.analysis.newton.newton import Newton
+from umform.analysis.run import solve
+from umform.analysis.run.checkpoint import read_checkpoint
+from umform.analysis.steps import Move
 from umform.errors import FileProblem
 from umform.problem.templates import write_template
-from umform.run import solve
-from umform.run.checkpoint import read_checkpoint
-from umform.solution.newton import Newton
-from umform.steps import Move
 
 SOURCE = Path(cli.__file__).parents[2]
 #: Contact, plasticity and a release, in some seconds.

@@ -170,7 +170,7 @@ def test_ctrl_c_in_the_budget_keeps_the_bend(monkeypatch, tmp_path):
 
 def test_a_handler_of_the_program_is_left_alone():
     """Our handler is removed after the block; one that a program has set is kept."""
-    from umform.run.interrupt import gentle_interrupt
+    from umform.analysis.run.interrupt import gentle_interrupt
 
     before = signal.getsignal(signal.SIGTERM)
     with gentle_interrupt() as stop:

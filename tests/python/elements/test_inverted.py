@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from umform import materials as mt
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform.elements import element as catalogue_element
 from umform.errors import NoConvergence
 from umform.mesh import strip
 from umform.model import Model
-from umform.run import solve
-from umform.steps import Move
 
 ELEMENTS = ["DISP3D", "ANS3DEAS", "EAS3DEAS", "MI9K3DEAS", "BEND18"]
 LAWS = ["svk", "neo-hooke", "neo-hooke-power", "j2"]

@@ -9,7 +9,7 @@ from umform.elements import thickness_rule
 from umform.elements.staggered import default_points, phases, section_rule
 from umform.mesh import strip
 from umform.mesh.fitted.sheet import Sheet
-from umform.model.transfer import Weights
+from umform.model.transfer.transfer import Weights
 from umform_book.metals import HARDENING
 from umform_book.plastic.pulled_section import ElementSection, FibreSection
 

@@ -6,13 +6,13 @@ import pytest
 import pyvista as pv
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform.errors import InvalidValue, WrongCellType
 from umform.io import VtkHdfSeries, read_mesh_arrays
 from umform.io.cells import cell_type, to_vtk
 from umform.mesh import strip
 from umform.model import Model
-from umform.run import solve
-from umform.steps import Move
 
 LAGRANGE_HEXAHEDRON = 72
 

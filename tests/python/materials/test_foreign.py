@@ -270,7 +270,7 @@ def pulled(material, steps=2, to=0.1):
 @needs_compiler
 def test_pnewdt_below_one_cuts_the_increment(build_library, caplog):
     library = build_library("careful", CAREFUL)
-    caplog.set_level("INFO", logger="umform.steps")
+    caplog.set_level("INFO", logger="umform.analysis.steps")
     model, run = pulled(uf.Umat(library, state=9, properties=[1e3, 0.012], directional=False))
     result = run()
     assert len(result.rows) > 5

@@ -9,11 +9,11 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from umform import materials as mt
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform.errors import HardeningNotMonotone, InvalidValue, NotFinite
 from umform.history_variables import history_of, named
 from umform.model import Model
-from umform.run import solve
-from umform.steps import Move
 
 KAPPA, MU = 175e3, 80.77e3
 PAIRS = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)]

@@ -9,13 +9,13 @@ import pytest
 from scipy.integrate import quad
 
 from umform import materials as mt
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform.errors import InvalidValue, NotFinite
 from umform.history_variables import named
 from umform.materials.user_law import UserLaw
 from umform.mesh import strip
 from umform.model import Model
-from umform.run import solve
-from umform.steps import Move
 
 KAPPA, MU = 175e3, 80.77e3
 ELASTIC = {

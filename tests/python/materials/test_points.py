@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from umform import materials as mt
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform.errors import InvalidValue
 from umform.materials import Points, UserLaw, check_law
 from umform.mesh import Mesh, strip
 from umform.model import Model
-from umform.run import solve
-from umform.steps import Move
 
 #: Five times as stiff along e_1 as across, and a shear modulus of its own.
 ORTHOTROPIC = np.diag([500.0, 100.0, 150.0, 60.0, 40.0, 50.0])

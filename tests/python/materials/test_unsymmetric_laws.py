@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform.errors import InvalidValue
 from umform.materials import SVK, UserLaw, check_law
 from umform.mesh import strip
 from umform.model import Model
-from umform.run import solve
-from umform.steps import Move
 
 C = np.diag([800.0] * 3 + [400.0] * 3)
 C[:3, :3] += 600.0

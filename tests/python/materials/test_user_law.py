@@ -9,12 +9,12 @@ import pytest
 
 import umform
 from umform import materials as mt
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform.errors import InvalidValue, NoConvergence, NotFinite
 from umform.materials import UserLaw, check_law
 from umform.mesh import strip
 from umform.model import Model
-from umform.run import solve
-from umform.steps import Move
 
 LAME, MU = 600.0, 400.0
 C = np.diag([2 * MU] * 3 + [MU] * 3) + LAME * np.outer([1, 1, 1, 0, 0, 0], [1, 1, 1, 0, 0, 0])

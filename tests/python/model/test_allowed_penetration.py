@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 import umform as uf
+from umform.analysis.newton import keeping, newton
+from umform.analysis.newton.options import NewtonOptions
 from umform.errors import NoConvergence
 from umform.model.contact import Contact
 from umform.model.contact.encounter import Encounter
 from umform.results.penetration import force_error, penetrations
-from umform.solution import keeping, newton
-from umform.solution.options import NewtonOptions
-from umform.solution.records import Failed
+from umform.results.records import Failed
 
 STEEL = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(yield_stress=200.0, modulus=1000.0))
 

@@ -9,12 +9,12 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from umform import materials as mt
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.run import solve
+from umform.analysis.steps import Free, Move
 from umform.errors import InvalidBead, InvalidValue
 from umform.mesh import strip
 from umform.model import Model
-from umform.run import solve
-from umform.solution.options import NewtonOptions
-from umform.steps import Free, Move
 from umform.surfaces import Cylinder, Plane, Sphere, UserSurface
 
 ELASTIC = mt.NeoHooke(E=1000.0, nu=0.3)

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from umform import materials as mt
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.run import resume, solve
+from umform.analysis.steps import Move
 from umform.errors import EmptySet, InvalidValue, ModelError
 from umform.mesh import strip
 from umform.model import Body, Model
 from umform.results.fields import body_fields
-from umform.run import resume, solve
-from umform.solution.options import NewtonOptions
-from umform.steps import Move
 
 MILD = mt.J2(E=210e3, nu=0.3, hardening=mt.Linear(160.0, 1000.0))
 STRONG = mt.J2(E=210e3, nu=0.3, hardening=mt.Linear(320.0, 2000.0))

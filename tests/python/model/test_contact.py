@@ -10,14 +10,15 @@ from scipy.spatial.transform import Rotation
 
 from umform import _core
 from umform import materials as mt
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform.errors import InvalidValue, NoConvergence, NotFinite, RigidBodyMotion
 from umform.mesh import strip
-from umform.model import Model, forces
+from umform.model import Model
 from umform.model.contact.points import hat_functions
+from umform.model.terms import forces
 from umform.results import fields
-from umform.run import solve
-from umform.solution.options import NewtonOptions
-from umform.steps import Move
 from umform.surfaces import Cylinder, Plane, Sphere, UserSurface
 
 ELASTIC = mt.NeoHooke(E=1000.0, nu=0.3)

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 from umform import materials as mt
+from umform.analysis.newton.newton import Newton
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.run import solve
+from umform.analysis.steps import Arc, Move
 from umform.errors import InvalidValue
 from umform.mesh import strip
 from umform.model import Model
-from umform.run import solve
-from umform.solution.newton import Newton
-from umform.solution.options import NewtonOptions
-from umform.solution.records import Failed
-from umform.steps import Arc, Move
+from umform.results.records import Failed
 from umform.surfaces import Cylinder, Plane, Sphere
 
 ELEMENT = {"hex8": "ANS3DEAS", "hex18": "MI9K3DEAS"}

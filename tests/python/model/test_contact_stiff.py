@@ -8,16 +8,16 @@ import numpy as np
 import pytest
 
 from umform import materials as mt
+from umform.analysis.newton.criteria import Criteria
+from umform.analysis.newton.newton import Newton
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.newton.softening import softened
+from umform.analysis.run import solve
+from umform.analysis.steps import Move, Release
 from umform.mesh import strip
 from umform.model import Model
-from umform.model.term import At
-from umform.run import solve
-from umform.solution.criteria import Criteria
-from umform.solution.newton import Newton
-from umform.solution.options import NewtonOptions
-from umform.solution.records import Cause, Failed
-from umform.solution.softening import softened
-from umform.steps import Move, Release
+from umform.model.terms.term import At
+from umform.results.records import Cause, Failed
 from umform.surfaces import Cylinder, Plane
 from umform_book.contact.strip_on_cylinder import flat_strip
 from umform_book.variants import Variant, with_tying

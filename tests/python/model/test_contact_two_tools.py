@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from umform import materials as mt
+from umform.analysis.newton.newton import Newton
+from umform.analysis.newton.strategies import Increment
+from umform.analysis.newton.strategy_statistics import StrategyStatistics
+from umform.analysis.run import resume, solve
+from umform.analysis.steps import Move, Release
+from umform.analysis.steps.loop import Run
 from umform.mesh import strip
 from umform.model import Model
-from umform.run import resume, solve
-from umform.solution.newton import Newton
-from umform.solution.strategies import Increment
-from umform.solution.strategy_statistics import StrategyStatistics
-from umform.steps import Move, Release
-from umform.steps.loop import Run
 from umform.surfaces import Cylinder, Punch, VDie
 
 ELEMENT = {"hex8": "ANS3DEAS", "hex18": "MI9K3DEAS"}

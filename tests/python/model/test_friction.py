@@ -10,14 +10,14 @@ from scipy.spatial.transform import Rotation
 
 import umform as uf
 from umform import materials as mt
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform.errors import InvalidFriction, InvalidValue, NoConvergence
 from umform.mesh import strip
 from umform.model import Model
 from umform.model.contact.face_basis import in_face_basis
 from umform.model.contact.friction import friction_kernel
-from umform.run import solve
-from umform.solution.options import NewtonOptions
-from umform.steps import Move
 from umform.surfaces import Arc, Cylinder, Extruded, Line, Plane, Profile, Sphere, Torus, Triangulated, UserSurface
 
 ELASTIC = mt.NeoHooke(E=1000.0, nu=0.3)

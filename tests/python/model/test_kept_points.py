@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from umform import materials as mt
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.run import solve
+from umform.analysis.steps import Move, Release
 from umform.mesh import strip
 from umform.model import Model
-from umform.model.evaluated import Evaluated
-from umform.run import solve
-from umform.solution.options import NewtonOptions
-from umform.steps import Move, Release
+from umform.model.equations.evaluated import Evaluated
 from umform.surfaces import Cylinder
 
 STEEL = mt.J2(E=210e3, nu=0.3, hardening=mt.Linear(200.0, 1000.0))

@@ -22,7 +22,7 @@ print(*sys.modules)
 
 def test_supports_along_the_axes_load_no_scipy():
     run = subprocess.run([sys.executable, "-c", _ORDINARY], capture_output=True, text=True, check=True)
-    assert "umform.model.constraints" in run.stdout.split()
+    assert "umform.model.supports.constraints" in run.stdout.split()
     assert not {"scipy", "matplotlib", "h5py"} & set(run.stdout.split())
 
 

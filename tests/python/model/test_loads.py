@@ -10,12 +10,12 @@ import pytest
 
 from umform import _core
 from umform import materials as mt
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform.errors import InvalidValue, NotFinite, RigidBodyMotion, ToolSwallowsSheet, WrongCellType
 from umform.mesh import Mesh, strip
 from umform.model import Model
-from umform.model import forces as nodal
-from umform.run import solve
-from umform.steps import Move
+from umform.model.terms import forces as nodal
 from umform.surfaces import Plane, Sphere
 
 LAW = mt.NeoHooke(E=1000.0, nu=0.3)

@@ -7,13 +7,13 @@ import pytest
 
 from umform import cylindrical, turned
 from umform import materials as mt
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform.errors import InvalidValue, RigidBodyMotion
 from umform.mesh import strip
 from umform.model import Model
-from umform.model.ties import node_pairs
-from umform.run import solve
-from umform.solution.options import NewtonOptions
-from umform.steps import Move
+from umform.model.supports.ties import node_pairs
 
 ELASTIC = mt.SVK(E=1e4, nu=0.3)
 TIGHT = NewtonOptions(residual=1e-12)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import umform as uf
+from umform.analysis.newton.newton import Newton
 from umform.errors import SingularMatrix
-from umform.model import mechanisms
-from umform.solution.newton import Newton
+from umform.model.equations import mechanisms
 
 LENGTH, WIDTH = 100.0, 20.0
 SIZES = [(1e-4, 0.0, 1.0), (1e-4, 0.3, 1e-6), (3e-5, 1.0, 1e6), (1e-5, 0.3, 1.0)]

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from umform import materials as mt
+from umform.analysis.run import resume, solve
+from umform.analysis.steps import Move
 from umform.errors import FileProblem, InvalidValue, RigidBodyMotion
 from umform.history_variables import named
 from umform.mesh import strip
 from umform.model import Connectivity, Model, NodalTerm, Term
-from umform.model.term import Energies, Found
-from umform.run import resume, solve
-from umform.steps import Move
+from umform.model.terms.term import Energies, Found
 
 STEEL = mt.SVK(E=210e3, nu=0.3)
 

@@ -7,10 +7,10 @@ import pytest
 
 from umform import Free, Move, cylindrical, resume, solve
 from umform import materials as mt
+from umform.analysis.newton.options import NewtonOptions
 from umform.errors import InvalidValue, NoConvergence, RigidBodyMotion
 from umform.mesh import strip
 from umform.model import Model
-from umform.solution.options import NewtonOptions
 from umform.surfaces import Cylinder, Plane
 
 ELASTIC = mt.SVK(E=1e4, nu=0.3)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import umform as uf
+from umform.analysis.run.stages import continued
 from umform.elements import element
-from umform.model.rigid_motion import RigidMotion
-from umform.run.stages import continued
+from umform.model.transfer.rigid_motion import RigidMotion
 
 STEEL = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(yield_stress=160.0, modulus=500.0))
 

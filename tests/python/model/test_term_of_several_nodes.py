@@ -10,7 +10,7 @@ from umform import _core
 from umform import materials as mt
 from umform.mesh import strip
 from umform.model import Model
-from umform.model.term import Found, Term
+from umform.model.terms.term import Found, Term
 
 
 class Pull(Term):

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from umform import materials as mt
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.run import solve
+from umform.analysis.steps import Move, Release
 from umform.errors import InvalidValue, NoConvergence, RigidBodyMotion
 from umform.mesh import strip
 from umform.mesh.generators import grid
 from umform.model import Model
-from umform.model.ties import node_pairs
-from umform.run import solve
-from umform.solution.options import NewtonOptions
-from umform.steps import Move, Release
+from umform.model.supports.ties import node_pairs
 from umform.surfaces import Plane
 
 ELASTIC = mt.SVK(E=1e4, nu=0.0)

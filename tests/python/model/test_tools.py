@@ -7,13 +7,13 @@ import pytest
 
 import umform as uf
 from umform import materials as mt
+from umform.analysis.newton.newton import Newton
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform.errors import InvalidValue, NoConvergence
 from umform.mesh import strip
 from umform.model import Model
-from umform.run import solve
-from umform.solution.newton import Newton
-from umform.solution.options import NewtonOptions
-from umform.steps import Move
 from umform.surfaces import Cylinder, Plane
 
 STEEL = mt.J2(E=210e3, nu=0.3, hardening=mt.Linear(160.0, 500.0))

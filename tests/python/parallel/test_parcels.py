@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 
 import umform as uf
+from umform.analysis.ranks.outline import Outline
 from umform.errors import InvalidValue
 from umform.mesh import strip
 from umform.model import Body, NodalTerm
-from umform.model.control import Prescribed
-from umform.model.dead_load import Load
-from umform.model.pressure import Pressure
-from umform.model.ties import MidLine
+from umform.model.supports.ties import MidLine
+from umform.model.terms.control import Prescribed
+from umform.model.terms.dead_load import Load
+from umform.model.terms.pressure import Pressure
 from umform.parallel.cutting import Cutting
-from umform.parallel.outline import Outline
 from umform.problem import load
 from umform.problem.templates import template_file
 
@@ -225,7 +225,7 @@ def test_what_a_deck_describes_can_be_sent(name):
 
 
 def test_a_function_without_a_name_is_refused_with_a_remedy():
-    from umform.parallel.outline import _pickled
+    from umform.analysis.ranks.outline import _pickled
 
     model, steps = sheet(motion=lambda time: np.zeros(3))
     with pytest.raises(InvalidValue, match="cannot be sent") as caught:

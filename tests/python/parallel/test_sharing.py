@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 
 import umform as uf
+from umform.analysis.ranks.run import _outline
+from umform.analysis.run import solve
 from umform.cli.ranks import split
 from umform.errors import InvalidValue, ModelError
 from umform.mesh import strip
 from umform.parallel.cutting import by_rank
 from umform.parallel.numbering import Owners, tied_pairs
 from umform.parallel.partition import columns
-from umform.parallel.run import _outline
 from umform.ranks import ONE
-from umform.run import solve
 
 STEEL = uf.SVK(E=210e3, nu=0.3)
 
@@ -105,7 +105,7 @@ def test_what_the_ranks_had_is_not_taken_for_a_fresh_state():
 
 
 def test_nothing_of_mpi_is_imported_without_being_asked_for():
-    code = "import sys, umform, umform.cli, umform.parallel.run; print({'mpi4py', 'petsc4py'} & set(sys.modules))"
+    code = "import sys, umform, umform.cli, umform.analysis.ranks.run; print({'mpi4py', 'petsc4py'} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "set()"
 

@@ -7,10 +7,10 @@ import pytest
 from typer.testing import CliRunner
 
 from umform import cli
+from umform.analysis.newton.newton import Newton
 from umform.problem import load
 from umform.problem.templates import template_file
 from umform.results.forming import KeelerBrazier
-from umform.solution.newton import Newton
 
 FILES = {"history.csv", "fields.vtkhdf", "report.html", "curve.png", "shape.png", "as-run.toml"}
 #: n - offset = 0.19 is the uniform strain.

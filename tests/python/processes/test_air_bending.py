@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from umform.analysis.run.open_run import OpenRun
 from umform.errors import InvalidValue, NotFinite
 from umform.problem import Problem
 from umform.processes.air_bending import (
@@ -26,7 +27,6 @@ from umform.processes.air_bending.formulas import shop_forces, tensile_strength
 from umform.processes.air_bending.problem import build, problem_of
 from umform.processes.air_bending.sheet import lines_along
 from umform.results.quantity import declared
-from umform.run.open_run import OpenRun
 
 COARSE = AirBending(stroke=3.0, elements_per_thickness=2.0, layers=1, increment=0.0125)
 

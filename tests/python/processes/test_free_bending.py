@@ -1,12 +1,12 @@
 import numpy as np
 import pytest
 
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform.errors import InvalidValue, NoConvergence
 from umform.processes import FreeBending, free_bending
 from umform.processes.bending import case as case_module
 from umform.processes.bending.case import build, measured
-from umform.run import solve
-from umform.steps import Move
 
 
 def test_forces_of_the_reference_in_a_few_steps():

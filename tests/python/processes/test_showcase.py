@@ -9,14 +9,14 @@ from pathlib import Path
 import h5py
 import pytest
 
+from umform.analysis.run import Result, solve
+from umform.analysis.steps import Move
 from umform.errors import FileProblem, MeshError, NoConvergence, SolveError, UmformError
 from umform.pool import run_all
 from umform.processes import FreeBending, demo, free_bending
 from umform.processes.bending import page, showcase
 from umform.processes.bending.case import build
 from umform.processes.bending.showcase import Selection
-from umform.run import Result, solve
-from umform.steps import Move
 
 BASE = FreeBending(steps=20, mesh=(12, 1))
 FILES = {

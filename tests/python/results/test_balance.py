@@ -9,11 +9,11 @@ import pytest
 
 import umform
 from umform import materials as mt
+from umform.analysis.run import solve
+from umform.analysis.steps import Move, Release
 from umform.mesh import strip
 from umform.model import Model
 from umform.results.balance import drift, energies
-from umform.run import solve
-from umform.steps import Move, Release
 from umform.surfaces import Cylinder, Plane
 
 COLUMNS = ("external_work", "elastic_energy", "plastic_work", "contact_energy")

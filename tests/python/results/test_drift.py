@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import umform as uf
+from umform.analysis.run.open_run import OpenRun
 from umform.report.page import write_report
 from umform.results.balanced import balanced
-from umform.run.open_run import OpenRun
 
 
 def about(result):

@@ -9,12 +9,12 @@ import pytest
 from scipy.linalg import polar
 
 from umform import materials as mt
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform.errors import InvalidValue
 from umform.mesh import strip
 from umform.model import Model
 from umform.results import fields
-from umform.run import solve
-from umform.steps import Move
 
 KAPPA, MU = 175e3, 80.77e3
 LAW = mt.NeoHooke(kappa=KAPPA, mu=MU)

@@ -61,8 +61,8 @@ def test_a_module_without_openblas_has_no_functions():
 
 
 def test_a_run_keeps_to_one_thread(threads, build):
-    from umform.run import solve
-    from umform.steps import Move
+    from umform.analysis.run import solve
+    from umform.analysis.steps import Move
 
     case = build.free_bending((6, 1))
     seen = []

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import umform as uf
-from umform.solution.newton import Newton
-from umform.solution.options import NewtonOptions
+from umform.analysis.newton.newton import Newton
+from umform.analysis.newton.options import NewtonOptions
 from umform.solvers import pardiso
 
 needs_mkl = pytest.mark.skipif(not pardiso.available(), reason="MKL is not installed")

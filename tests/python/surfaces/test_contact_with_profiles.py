@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from umform import materials as mt
+from umform.analysis.newton.newton import Newton
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform.mesh import strip
 from umform.model import Model
-from umform.run import solve
-from umform.solution.newton import Newton
-from umform.solution.options import NewtonOptions
-from umform.steps import Move
 from umform.surfaces import Cylinder, Extruded, Profile, Punch, VDie
 
 STEEL = mt.J2(kappa=175e3, mu=80.77e3, hardening=mt.Linear(160.0, 500.0))

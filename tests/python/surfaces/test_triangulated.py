@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from umform import materials as mt
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform.errors import FileProblem, HoleInSurface, InvalidValue, TurnedNormals, UnfitTriangles
 from umform.mesh import strip
 from umform.model import Model
-from umform.run import solve
-from umform.steps import Move
 from umform.surfaces import (
     Box,
     Cylinder,

@@ -9,13 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.run import Result
+from umform.analysis.steps import Move
 from umform.model.contact import ContactPoints
 from umform.processes.air_bending import AirBend, AirBending, air_bending
 from umform.processes.air_bending.brake import OPTIONS, against_flank, force_per_width
 from umform.processes.air_bending.problem import build
 from umform.processes.air_bending.section import Section
-from umform.run import Result
-from umform.steps import Move
 from umform_book.balance import balance_row
 from umform_book.page import Page
 

@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.polynomial import Polynomial
 
+from umform.analysis.run import Result
+from umform.analysis.steps import Move
 from umform.processes.air_bending import AirBending
 from umform.processes.air_bending.brake import OPTIONS, force_per_width
 from umform.processes.air_bending.problem import build
 from umform.processes.bending.measures import SMOOTH_DEGREE, jump
-from umform.run import Result
-from umform.steps import Move
 from umform_book.air_bending.runs import Floats
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot

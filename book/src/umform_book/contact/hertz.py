@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.run import Result
+from umform.analysis.steps import Move
 from umform.materials import SVK
 from umform.model import Model
 from umform.model.contact import Contact, ContactPoints
-from umform.run import Result
-from umform.solution.options import NewtonOptions
-from umform.steps import Move
 from umform.surfaces import Cylinder, Sphere
 from umform_book.contact.figures import rule_name
 from umform_book.contact.half_space import E_STAR, NU, E, block

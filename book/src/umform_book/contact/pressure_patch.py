@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 from scipy.interpolate import RegularGridInterpolator
 
 from umform import mesh
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.steps import Move
 from umform.materials import SVK
 from umform.mesh import Mesh
 from umform.model import Model
 from umform.model.contact import Contact
 from umform.results.shape import Shape
-from umform.solution.options import NewtonOptions
-from umform.steps import Move
 from umform.surfaces import Cylinder, Plane, Sphere, Surface
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot, rule_name

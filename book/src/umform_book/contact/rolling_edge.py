@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.run import Result
-from umform.steps import Move
+from umform.analysis.run import Result
+from umform.analysis.steps import Move
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot, rule_name
 from umform_book.contact.hertz_line import EIGHT, EIGHTEEN

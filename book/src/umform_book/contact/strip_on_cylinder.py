@@ -13,7 +13,7 @@ from umform import mesh
 from umform.materials import SVK
 from umform.model import Model
 from umform.model.contact import Contact
-from umform.model.dead_load import Load
+from umform.model.terms.dead_load import Load
 from umform.surfaces import Cylinder
 from umform_book.variants import Variant
 

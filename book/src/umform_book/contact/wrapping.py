@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import mesh
+from umform.analysis.run import Result
+from umform.analysis.steps import Move
 from umform.materials import SVK
 from umform.mesh import Mesh
 from umform.model import Model
-from umform.run import Result
-from umform.steps import Move
 from umform.surfaces import Cylinder
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot, rule_name

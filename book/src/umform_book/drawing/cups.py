@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.run import Result
 from umform.errors import NoConvergence
 from umform.materials import J2, Metal, Voce, Yld2004
 from umform.materials.j2 import Plastic
@@ -16,7 +17,6 @@ from umform.processes.draw.cup import ESAFORM
 from umform.processes.draw.drawn import let_go, passage
 from umform.processes.draw.press import OPTIONS
 from umform.results.forming import EarProfile, LargestForce, ear_profile, forming_fields, largest_force, section
-from umform.run import Result
 from umform.sheet_metals import get
 from umform_book.page import Page
 

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.steps import Move
 from umform.elements import element
 from umform.mesh import Mesh, disc
 from umform.model import Model
 from umform.results.forming import sheet_strains
-from umform.steps import Move
 from umform.surfaces import Profile, Revolved, Sphere
 from umform_book.drawing.cups import NEWTON
 from umform_book.drawing.membrane import Round, Sheet, Stretched, stretch

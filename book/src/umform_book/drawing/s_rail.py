@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from umform.analysis.run import Result
+from umform.analysis.steps import Close, Move
 from umform.errors import NoConvergence
 from umform.materials import J2, Swift
 from umform.mesh import Bent, Mesh, bending_sizes, grid
 from umform.model import Model
 from umform.results.forming import forming_fields
-from umform.run import Result
-from umform.steps import Close, Move
 from umform.surfaces import Extruded, Plane, Profile, Triangles, Triangulated
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot

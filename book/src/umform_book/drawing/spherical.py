@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import _core
+from umform.analysis.run import Result
+from umform.analysis.steps import Move
 from umform.elements import element
 from umform.materials import J2, Metal
 from umform.mesh import Mesh, disc
 from umform.model import Model
 from umform.results.forming import draw_in
-from umform.run import Result
 from umform.sheet_metals import get
-from umform.steps import Move
 from umform.surfaces import Plane, Profile, Revolved, Sphere
 from umform_book.drawing.cups import NEWTON
 from umform_book.page import Page

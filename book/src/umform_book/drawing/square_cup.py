@@ -7,15 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.run import Result
+from umform.analysis.steps import Close, Move
 from umform.errors import NoConvergence
 from umform.materials import J2, Hill48, Metal, Swift
 from umform.mesh import Mesh, grid
 from umform.model import Model
-from umform.model.tool_controls import ToolMotion
+from umform.model.tools.tool_controls import ToolMotion
 from umform.results.forming import draw_in, forming_fields
-from umform.run import Result
 from umform.sheet_metals import get
-from umform.steps import Close, Move
 from umform.surfaces import LedAround, Plane, Profile
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot

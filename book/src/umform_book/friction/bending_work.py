@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from umform import mesh
+from umform.analysis.run import Result
+from umform.analysis.steps import Move
 from umform.materials import J2, Linear
 from umform.model import Model
-from umform.run import Result
-from umform.steps import Move
 from umform.surfaces import Cylinder
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot

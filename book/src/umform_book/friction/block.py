@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import mesh
+from umform.analysis.run import Result
+from umform.analysis.steps import Move
 from umform.materials import SVK
 from umform.model import Model
 from umform.model.contact import Contact
-from umform.model.control import Control
-from umform.model.tool import Tool
-from umform.run import Result
-from umform.steps import Move
+from umform.model.terms.control import Control
+from umform.model.tools.tool import Tool
 from umform.surfaces import Plane
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot, rule_name

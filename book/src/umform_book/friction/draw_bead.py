@@ -8,13 +8,13 @@ import numpy as np
 from scipy.optimize import brentq
 
 from umform import mesh
+from umform.analysis.steps import Move
 from umform.materials import J2, Linear
 from umform.model import Model
 from umform.processes.draw_bead import DrawBead
 from umform.processes.draw_bead.case import build, limits_of
 from umform.processes.draw_bead.equivalent import width
 from umform.processes.draw_bead.measures import Drawn
-from umform.steps import Move
 from umform.surfaces import Plane
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot

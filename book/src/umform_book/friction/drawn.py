@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from scipy.optimize import fsolve
 
 from umform import mesh
+from umform.analysis.run import Result
+from umform.analysis.steps import Move
 from umform.materials import SVK
 from umform.model import Model
-from umform.run import Result
-from umform.steps import Move
 from umform.surfaces import Cylinder
 from umform_book.contact.figures import Curve, plot, rule_name
 from umform_book.contact.hertz_line import EIGHT, EIGHTEEN, least_rule

@@ -7,10 +7,10 @@ from statistics import median
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.run import Result
+from umform.analysis.steps import Move
 from umform.processes import FreeBending
 from umform.processes.bending.case import build
-from umform.run import Result
-from umform.steps import Move
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
 from umform_book.contact.hertz_line import EIGHT

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 import umform as uf
 from umform import mesh
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform.materials import SVK
 from umform.model import Model
-from umform.run import solve
-from umform.solution.options import NewtonOptions
-from umform.steps import Move
 from umform.surfaces import Sphere
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import mesh
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.steps import Move
 from umform.materials import SVK
 from umform.model import Model
-from umform.solution.options import NewtonOptions
-from umform.steps import Move
 from umform.surfaces import Cylinder
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import mesh
+from umform.analysis.steps import Move
 from umform.materials import J2, Linear
 from umform.model import Model
-from umform.steps import Move
 from umform.surfaces import Cylinder
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform.model import Model
 from umform.model.contact import Contact
-from umform.model.control import Control
-from umform.run import solve
-from umform.solution.options import NewtonOptions
-from umform.steps import Move
+from umform.model.terms.control import Control
 
 Floats = NDArray[np.float64]
 

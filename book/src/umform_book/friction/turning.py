@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 from scipy.integrate import dblquad
 
 from umform import mesh
+from umform.analysis.steps import Move
 from umform.materials import SVK
 from umform.mesh import Mesh
 from umform.model import Model
-from umform.steps import Move
 from umform.surfaces import Cylinder, Plane
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot

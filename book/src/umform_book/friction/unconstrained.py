@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import mesh
+from umform.analysis.run import Result
+from umform.analysis.steps import Move
 from umform.materials import J2, Swift
 from umform.model import Model
-from umform.run import Result
-from umform.steps import Move
 from umform.surfaces import Cylinder, UDie
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot

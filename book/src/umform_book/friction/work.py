@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from umform import mesh
+from umform.analysis.run import Result
+from umform.analysis.steps import Move
 from umform.materials import SVK
 from umform.model import Model
-from umform.run import Result
-from umform.steps import Move
 from umform.surfaces import Cylinder
 from umform_book.case import Case
 from umform_book.friction.block import EIGHT, MU, PRESSED, SLIP, block

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from umform.materials import SVK
 from umform.mesh import Mesh
 from umform.model import Model
-from umform.model.forces import edge_forces, traction_forces
+from umform.model.terms.forces import edge_forces, traction_forces
 from umform_book.linear_algebra import linear_solution
 from umform_book.variants import Variant
 

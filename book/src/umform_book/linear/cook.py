@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from umform.materials import SVK
 from umform.mesh import Mesh
 from umform.model import Model
-from umform.model.forces import traction_forces
+from umform.model.terms.forces import traction_forces
 from umform.results.shape import Shape
 from umform_book.case import Case
 from umform_book.convergence import normalised, show, study

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.steps import Move
 from umform.materials import Metal
-from umform.steps import Move
 from umform_book.case import Case
 from umform_book.material.fibres import Fibres, path_of
 from umform_book.metals import HARDENING

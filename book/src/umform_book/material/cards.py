@@ -10,14 +10,14 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import umform as uf
+from umform.analysis.steps import Move
 from umform.materials import Metal
 from umform.materials.paths import point_path, tension
 from umform.model import Model
-from umform.model.control import Prescribed
+from umform.model.terms.control import Prescribed
 from umform.plotting import COLOURS
 from umform.results.fields import body_fields
 from umform.sheet_metals import SheetMetal, cards, get, uniaxial
-from umform.steps import Move
 from umform_book.case import Case
 from umform_book.page import Page
 from umform_book.variants import Variant

@@ -9,12 +9,12 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from umform.analysis.run import Result
+from umform.analysis.steps import Move
+from umform.analysis.steps.arc_length.arc import Arc
 from umform.mesh import Ids
 from umform.model import Model
-from umform.model.dead_load import Load
-from umform.run import Result
-from umform.steps import Move
-from umform.steps.arc_length.arc import Arc
+from umform.model.terms.dead_load import Load
 
 Floats = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ from umform import mesh
 from umform.elements import Element, element
 from umform.materials import J2
 from umform.model import Model
-from umform.model.control import Prescribed
+from umform.model.terms.control import Prescribed
 from umform_book.plastic.plane_strain import State, stretched, yield_curve
 
 Floats = NDArray[np.float64]

@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import mesh
+from umform.analysis.run import Result
+from umform.analysis.steps import Move
 from umform.materials import J2, Material
 from umform.model import Model
-from umform.model.control import Prescribed
-from umform.run import Result
-from umform.steps import Move
+from umform.model.terms.control import Prescribed
 from umform_book.page import Page
 from umform_book.plastic.plane_strain import BendingPath, zero_moment
 from umform_book.variants import Variant

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import mesh
+from umform.analysis.run import solve
+from umform.analysis.steps import Move
 from umform.model import Model, Snapshot
-from umform.run import solve
-from umform.steps import Move
 from umform_book.case import Case
 from umform_book.linear_algebra import stiffness
 from umform_book.page import Page

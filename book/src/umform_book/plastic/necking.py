@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.run import Result
+from umform.analysis.steps import Move
 from umform.errors import NoConvergence
-from umform.run import Result
-from umform.steps import Move
 from umform_book.case import Case
 from umform_book.convergence import show, study
 from umform_book.page import Page

@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import mesh
+from umform.analysis.run import Result
+from umform.analysis.steps import Move
 from umform.materials import J2, Linear
 from umform.model import Model
-from umform.model.control import Prescribed
+from umform.model.terms.control import Prescribed
 from umform.results.shape import Shape
-from umform.run import Result
-from umform.steps import Move
 from umform_book.case import Case
 from umform_book.diaphragm import rigid_diaphragm
 from umform_book.page import Page

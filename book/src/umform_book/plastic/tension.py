@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from umform.analysis.steps import Move
 from umform.materials import J2, Swift, Voce
 from umform.results.shape import Shape
-from umform.steps import Move
 from umform_book.case import Case
 from umform_book.convergence import show, study
 from umform_book.page import Page

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from umform import mesh
+from umform.analysis.run import Result, solve
+from umform.analysis.steps import Move
 from umform.materials import J2, Linear
 from umform.mesh import Mesh
 from umform.model import Model
 from umform.results.shape import Shape
-from umform.run import Result, solve
-from umform.steps import Move
 from umform_book.case import Case
 from umform_book.page import Page
 from umform_book.printed import shown

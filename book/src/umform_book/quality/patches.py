@@ -14,7 +14,7 @@ from umform.materials import J2, SVK, Perfect
 from umform.materials.material import Material
 from umform.mesh import Mesh
 from umform.model import Model
-from umform.model.forces import body_forces, rigid_body_modes
+from umform.model.terms.forces import body_forces, rigid_body_modes
 from umform_book.linear_algebra import linear_solution
 from umform_book.references import record
 

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import mesh
+from umform.analysis.steps import Move
 from umform.elements import element as catalogue_element
 from umform.elements.technology import Element
 from umform.model import Model
-from umform.steps import Move
 from umform_book.page import Page
 from umform_book.plastic.plane_strain import Section, plane_strain_modulus
 from umform_book.sharp_bends.candidates import YIELD_STRESS, steel

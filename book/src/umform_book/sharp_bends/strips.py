@@ -11,10 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.run import Result
+from umform.analysis.steps import Move
 from umform.errors import UmformError
 from umform.model import Model
-from umform.run import Result
-from umform.steps import Move
 from umform.surfaces import Cylinder
 from umform_book.page import Page
 from umform_book.sharp_bends.candidates import Candidate

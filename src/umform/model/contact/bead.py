@@ -19,8 +19,8 @@ from umform.model.contact.encounter import sheet_thickness
 from umform.model.contact.found import ContactFound
 from umform.model.contact.pair import Contact
 from umform.model.contact.settings import ContactSettings
-from umform.model.term import Energies, Found
-from umform.model.tool import Tool
+from umform.model.terms.term import Energies, Found
+from umform.model.tools.tool import Tool
 from umform.ranks import Ranks
 from umform.spec import About, check_fields
 from umform.spec.types import ContactPoints, NotNegative, Positive

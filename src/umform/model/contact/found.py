@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.model.term import Found
+from umform.model.terms.term import Found
 
 Floats = NDArray[np.float64]
 

@@ -11,7 +11,7 @@ from umform.errors import InvalidValue
 from umform.history_variables import named
 from umform.mesh import Ids
 from umform.model.contact.pair import Contact
-from umform.model.tool import Pose
+from umform.model.tools.tool import Pose
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]

@@ -15,9 +15,9 @@ from umform.mesh.numbers import unique
 from umform.model.contact.face_basis import in_face_basis
 from umform.model.contact.found import ContactFound, ContactPoints
 from umform.model.contact.points import PairPoints, hat_functions
-from umform.model.control import Control
-from umform.model.term import At, Energies, Found, Into, Tree
-from umform.model.tool import Pose
+from umform.model.terms.control import Control
+from umform.model.terms.term import At, Energies, Found, Into, Tree
+from umform.model.tools.tool import Pose
 from umform.ranks import Ranks
 
 Floats = NDArray[np.float64]

@@ -17,11 +17,11 @@ from umform.mesh.numbers import unique
 from umform.model.contact.found import ContactFound
 from umform.model.contact.friction import AnyFriction, friction_kernel
 from umform.model.contact.settings import ContactSettings
-from umform.model.control import Twins
-from umform.model.cut import Cut
-from umform.model.elsewhere import not_here
-from umform.model.term import Term, Tree
-from umform.model.tool import Pose, Tool
+from umform.model.terms.control import Twins
+from umform.model.terms.cut import Cut
+from umform.model.terms.elsewhere import not_here
+from umform.model.terms.term import Term, Tree
+from umform.model.tools.tool import Pose, Tool
 
 Floats = NDArray[np.float64]
 

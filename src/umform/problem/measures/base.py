@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.run import Result
 from umform.model import Model, Tool
 from umform.problem.parts import Part
 from umform.report.symmetry import Mirror, mirrors, whole
 from umform.results.forming import Laid
 from umform.results.quantity import Quantity
 from umform.results.shape import Shape, outer_quads
-from umform.run import Result
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -8,14 +8,14 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.run import Result
 from umform.errors import InvalidValue
 from umform.model import Model
-from umform.model.control import Control, Prescribed
-from umform.model.tool_controls import ToolMotion
+from umform.model.terms.control import Control, Prescribed
+from umform.model.tools.tool_controls import ToolMotion
 from umform.problem.measures.base import Formed, Measured, MeasurePart, in_states
 from umform.problem.parts import Name
 from umform.report.symmetry import modelled_part
-from umform.run import Result
 
 Floats = NDArray[np.float64]
 

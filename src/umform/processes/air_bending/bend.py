@@ -9,6 +9,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.run import Result
 from umform.processes.air_bending.brake import force_per_width, loading
 from umform.processes.air_bending.changes import Budget
 from umform.processes.air_bending.formulas import shop_forces
@@ -18,7 +19,6 @@ from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.spec import AirBending
 from umform.results.outcome import Outcome
 from umform.results.quantity import Quantity, in_rows, quantities_of
-from umform.run import Result
 
 Floats = NDArray[np.float64]
 #: Penetration, relative to the thickness, that is reported.

@@ -8,11 +8,11 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.steps.release import Release
 from umform.model.contact import ContactPoints
-from umform.model.control import Control
+from umform.model.terms.control import Control
 from umform.processes.air_bending.spec import AirBending
-from umform.solution.options import NewtonOptions
-from umform.steps.release import Release
 
 #: Near zero force the sheet rests on single rows of contact points, and plain Newton jumps between two rows. Tight
 #: tolerances give angles to 1e-6 degrees. The quadratic predictor saves a fourth of the evaluations.

@@ -7,8 +7,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.run.open_run import Mark, OpenRun
+from umform.analysis.steps import Move
 from umform.model import Model
-from umform.model.control import Control
+from umform.model.terms.control import Control
 from umform.processes.air_bending.bend import AirBend, Loaded
 from umform.processes.air_bending.brake import (
     INCREMENTS,
@@ -24,8 +26,6 @@ from umform.processes.air_bending.problem import build
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.spec import AirBending
 from umform.progress import Tick, silent
-from umform.run.open_run import Mark, OpenRun
-from umform.steps import Move
 
 Floats = NDArray[np.float64]
 

@@ -11,7 +11,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from umform.model.frame import Frame
+from umform.model.equations.frame import Frame
 from umform.plotting import COLOURS, Picture, house_style
 from umform.processes.air_bending.bend import AirBend
 from umform.processes.air_bending.formulas import shop_forces

@@ -8,7 +8,7 @@ from umform.elements import element
 from umform.mesh import grid
 from umform.model import Model
 from umform.model.contact.settings import ContactOptions, ContactSettings, contact_settings
-from umform.model.control import Control
+from umform.model.terms.control import Control
 from umform.problem.keys import law_keys
 from umform.problem.problem import Problem
 from umform.problem.profiles import profile_table

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.run import Result
 from umform.problem.problem import Problem
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.remarks import coarse_mesh, extrapolated, tools_text
@@ -15,7 +16,6 @@ from umform.processes.bend_sequence.sides import Sides, Strip
 from umform.processes.bend_sequence.spec import Bend, BendSequence
 from umform.results.outcome import Outcome
 from umform.results.quantity import Quantity, prefixed, quantities_of, side_by_side, table
-from umform.run import Result
 
 Floats = NDArray[np.float64]
 

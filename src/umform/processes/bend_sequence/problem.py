@@ -7,16 +7,16 @@ import math
 import numpy as np
 
 from umform import mesh
+from umform.analysis.run import Result
 from umform.elements import element
 from umform.mesh import Mesh
-from umform.model.rigid_motion import RigidMotion
+from umform.model.transfer.rigid_motion import RigidMotion
 from umform.problem.before import Placement
 from umform.problem.problem import Problem
 from umform.processes.air_bending.problem import problem_of as single_bend
 from umform.processes.air_bending.problem import touching
 from umform.processes.bend_sequence.spec import Bend, BendSequence
 from umform.processes.bend_sequence.strip import strip_lines
-from umform.run import Result
 
 
 def problem_of_bend(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from umform.analysis.run import Result
 from umform.mesh import Mesh
 from umform.processes.air_bending.bend import Loaded
 from umform.processes.air_bending.measures import Measures
@@ -13,7 +14,6 @@ from umform.processes.bend_sequence.sides import Strip
 from umform.processes.bend_sequence.spec import BendSequence
 from umform.processes.bend_sequence.strip_brake import StripBrake
 from umform.progress import Show, Tick, progress_bar
-from umform.run import Result
 
 #: Approximate number of states of a bend that are kept for pictures and for collisions.
 FRAMES = 30

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.mesh import Mesh
-from umform.model.rigid_motion import RigidMotion
+from umform.model.transfer.rigid_motion import RigidMotion
 from umform.processes.air_bending.section import Section
 
 Floats = NDArray[np.float64]

@@ -6,9 +6,10 @@ from dataclasses import fields
 
 import numpy as np
 
+from umform.analysis.run import Result
 from umform.mesh import Mesh
 from umform.model import Model
-from umform.model.control import Control
+from umform.model.terms.control import Control
 from umform.problem.problem import Problem
 from umform.processes.air_bending.bend import Loaded
 from umform.processes.air_bending.branches import Brake, Floats
@@ -19,7 +20,6 @@ from umform.processes.bend_sequence.problem import problem_of_bend
 from umform.processes.bend_sequence.sides import Sides, Strip
 from umform.processes.bend_sequence.spec import Bend, BendSequence
 from umform.progress import Tick, silent
-from umform.run import Result
 
 
 class StripBrake(Brake):

@@ -9,10 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.newton.newton import Newton
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.run import Result, solve
+from umform.analysis.steps import Move, Release
 from umform.elements import element as catalogue_element
 from umform.errors import UmformError
 from umform.model import Model
-from umform.model.control import Prescribed
+from umform.model.terms.control import Prescribed
 from umform.processes.bending.measures import at_marks, jump, roughness
 from umform.processes.bending.problem import problem_of
 from umform.processes.bending.spec import FreeBending
@@ -21,10 +25,6 @@ from umform.results.balanced import Balanced, balanced
 from umform.results.quantity import Quantity, values
 from umform.results.run_record import run_record
 from umform.results.shape import Shape
-from umform.run import Result, solve
-from umform.solution.newton import Newton
-from umform.solution.options import NewtonOptions
-from umform.steps import Move, Release
 from umform.timing import Timing
 
 if TYPE_CHECKING:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 
+from umform.analysis.run import Result, solve
 from umform.errors import ModelError, NoConvergence, SolveError
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
@@ -11,7 +12,6 @@ from umform.processes.draw.endings import Ending, ending_of
 from umform.processes.draw.u_bend import UBend
 from umform.progress import Show
 from umform.results.forming import FormingLimit, KeelerBrazier, add_forming_fields
-from umform.run import Result, solve
 
 log = logging.getLogger("umform")
 

@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.run import Result
 from umform.errors import InvalidValue
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.endings import Ending, tears_from
@@ -38,7 +39,6 @@ from umform.results.forming import (
 )
 from umform.results.outcome import Outcome
 from umform.results.quantity import Band, Quantity, in_rows
-from umform.run import Result
 
 Floats = NDArray[np.float64]
 

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.run import Result
 from umform.errors import NoConvergence
 from umform.results.bottoming import bottoming, bottoms
 from umform.results.forming import FormingLimit, distance_from, forming_fields
 from umform.results.forming.strains import beyond_limit
-from umform.run import Result
 
 if TYPE_CHECKING:
     from umform.processes.draw.cup import Cup

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from umform.solution.options import NewtonOptions
-from umform.steps import Free, Pace, Step
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.steps import Free, Pace, Step
 
 #: Tolerances of drawing: what one increment leaves over is a force of the next. Tighter ones change no number.
 OPTIONS = NewtonOptions(residual=1e-3, increment=1e-2, keep=True)

@@ -14,13 +14,13 @@ from umform.spec import About, check_fields, parameters
 from umform.spec.types import ContactPoints, Friction, Length, Penalty
 
 if TYPE_CHECKING:
+    from umform.analysis.newton.options import NewtonOptions
+    from umform.analysis.steps import Pace
     from umform.materials import Material, Metal
     from umform.materials.j2 import Plastic
     from umform.model import Model
     from umform.problem.problem import Problem
     from umform.processes.draw.press import Press
-    from umform.solution.options import NewtonOptions
-    from umform.steps import Pace
 
 #: Clearances beside the punch in thicknesses: less is a wrong number rather than ironing, more leaves the sheet loose.
 _TIGHTEST, _LOOSEST = 0.9, 20.0
@@ -42,7 +42,7 @@ def _options() -> NewtonOptions:
 
 
 def _pace() -> Pace:
-    from umform.steps import Pace
+    from umform.analysis.steps import Pace
 
     return Pace()
 
@@ -129,7 +129,7 @@ class Draw:
         """Layers by the rule for sharp bends, for the smallest radius of the tools. eq. (2.29)"""
         from umform.elements import element
         from umform.elements.locking import layers_for
-        from umform.model.through_thickness import completed, points_through
+        from umform.model.bodies.through_thickness import completed, points_through
 
         yield_stress, _ = self.material.hardening.curve()(0.0)
         made, law = element(self.element), cast("Material", self.material)

@@ -13,9 +13,9 @@ from umform.processes.limit import allowed_penetration
 from umform.spec.types import ContactPoints, Force, Friction, Length, Penalty
 
 if TYPE_CHECKING:
+    from umform.analysis.newton.options import NewtonOptions
     from umform.mesh import Mesh, Sizes
     from umform.problem.problem import Problem
-    from umform.solution.options import NewtonOptions
 
 #: Tools and blank of the NUMISHEET benchmark 93.
 NUMISHEET: dict[str, Any] = {

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from umform.analysis.run import solve
+from umform.analysis.steps import Step
 from umform.model import Model
 from umform.processes.draw_bead.limits import Limits
 from umform.processes.draw_bead.measures import Drawn
@@ -11,8 +13,6 @@ from umform.processes.draw_bead.problem import problem_of
 from umform.processes.draw_bead.spec import DrawBead
 from umform.processes.limit import FINER, Limit
 from umform.progress import Show, parts, progress_bar
-from umform.run import solve
-from umform.steps import Step
 
 #: Margin of the penalty that follows from a coarser mesh.
 _MARGIN = 1.2

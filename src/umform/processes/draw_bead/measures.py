@@ -8,12 +8,12 @@ from typing import Annotated, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.run import Result
 from umform.processes.draw_bead.limits import Limits
 from umform.processes.draw_bead.spec import DrawBead
 from umform.results import fields
 from umform.results.outcome import Outcome
 from umform.results.quantity import Quantity, quantities_of
-from umform.run import Result
 
 Floats = NDArray[np.float64]
 

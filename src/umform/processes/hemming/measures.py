@@ -9,6 +9,7 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.run import Result
 from umform.problem.problem import Problem
 from umform.processes.air_bending.remarks import coarse_mesh, extrapolated, tools_text
 from umform.processes.air_bending.section import Section
@@ -17,7 +18,6 @@ from umform.processes.bend_sequence.sides import Strip
 from umform.processes.hemming.spec import Hemming
 from umform.results.outcome import Outcome
 from umform.results.quantity import Quantity, quantities_of
-from umform.run import Result
 
 Floats = NDArray[np.float64]
 

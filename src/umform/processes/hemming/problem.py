@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from umform.model.rigid_motion import RigidMotion
+from umform.model.transfer.rigid_motion import RigidMotion
 from umform.problem.before import Placement
 from umform.problem.problem import Problem
 from umform.processes.air_bending.brake import unloading_keys

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from umform.analysis.run.open_run import OpenRun
 from umform.errors import InvalidValue
 from umform.processes.air_bending.brake import OPTIONS
 from umform.processes.bend_sequence.run import FRAMES, bend_sequence
@@ -10,7 +11,6 @@ from umform.processes.hemming.measures import Hem, clearances, measured
 from umform.processes.hemming.problem import PARTS, problem_of_hem
 from umform.processes.hemming.spec import Hemming
 from umform.progress import Show, parts, progress_bar
-from umform.run.open_run import OpenRun
 
 #: Gap that counts as contact, relative to the thickness.
 _TOUCHES = -0.01

@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.run import Result
 from umform.errors import InvalidValue
 from umform.problem.errors import slip
 from umform.report.symmetry import mirrors, with_images
 from umform.results.forming import lay_by_best_fit
 from umform.results.quantity import Quantity
-from umform.run import Result
 
 #: A user-defined function: a number or a quantity from a result. Other processes must be able to import it.
 Function = Callable[[Result], float | Quantity]

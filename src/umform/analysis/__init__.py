@@ -1,0 +1,1 @@
+"""A run: Newton's method, the steps that it takes, and the whole of them."""

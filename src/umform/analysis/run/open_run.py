@@ -1,0 +1,156 @@
+"""A run with interactive steps and branches: it may return to an earlier state."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.newton.strategy_statistics import StrategyStatistics
+from umform.analysis.run.checked import checked
+from umform.analysis.run.going import begun, taken
+from umform.analysis.run.result import Result
+from umform.analysis.steps import Step
+from umform.analysis.steps.trail import Trail
+from umform.model import Evaluation, Model
+from umform.model.terms.state import Snapshot
+from umform.progress import Tick, silent
+from umform.results.coarse import warn_of_volume
+from umform.results.drift import warn_of_drift
+from umform.results.history import Mark as HistoryMark
+from umform.results.penetration import warn_of_contact
+from umform.results.records import Iteration
+from umform.results.untouched import warn_of_untouched
+from umform.solvers.protocol import Remembering
+from umform.timing import new_timing
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A state between two steps to which a run can return.
+
+    Attributes
+    ----------
+    snapshot : Snapshot
+        State of the model.
+    before : dict of str to ndarray
+        Input histories of the evaluation there.
+    steps : list of Step
+        Steps up to this state.
+    trail : Trail or None
+        Last increments, for the extrapolation.
+    history : HistoryMark
+        The corresponding part of the result.
+    factors : int or None
+        State of the sparse solver.
+    statistics : StrategyStatistics
+        Statistics of earlier increments that select the first strategy.
+    """
+
+    snapshot: Snapshot
+    before: dict[str, Floats]
+    steps: list[Step]
+    trail: Trail | None
+    history: HistoryMark
+    factors: int | None
+    statistics: StrategyStatistics
+
+
+class OpenRun:
+    """A run whose steps are chosen as it proceeds; its result equals that of `umform.solve` with its steps to the last
+    bit.
+
+    Parameters
+    ----------
+    model : Model
+        The model.
+    solver : str
+        Sparse solver of one process.
+    options : NewtonOptions, optional
+        Tolerances, line search, predictor.
+    frames : int
+        Approximate number of states kept for pictures in each step.
+
+    Attributes
+    ----------
+    result : Result
+        History and frames of the steps up to the present state.
+    steps : list of Step
+        These steps.
+    iterations : int
+        Newton iterations of all steps, including those of other branches.
+    """
+
+    def __init__(
+        self, model: Model, *, solver: str = "auto", options: NewtonOptions | None = None, frames: int = 60
+    ) -> None:
+        timing = new_timing()
+        with timing.run:
+            self.result = Result(model, timing)
+            self._run = begun(self.result, solver, options, frames)
+        self.steps: list[Step] = []
+        self.iterations = 0
+        self._run.newton.callbacks.append(self._count)
+
+    def _count(self, iteration: Iteration) -> None:
+        self.iterations += 1
+
+    @property
+    def evaluation(self) -> Evaluation:
+        """The evaluation of the present state."""
+        return self._run.evaluation
+
+    def take(self, *steps: Step, tick: Tick = silent) -> None:
+        """Execute more steps from the present state.
+
+        Raises
+        ------
+        NoConvergence
+            If an increment fails at its smallest size; like any exception that ends a step, it has the results so far
+            as its attribute ``result``.
+        """
+        run = self._run
+        self.steps += checked(run.model, list(steps))
+        whole = self.result.timing.run
+        with whole:
+            taken(run, self.steps, tick)
+        whole.calls = 1  # all steps form one run
+
+    def mark(self) -> Mark:
+        """The present state, to which the run can return."""
+        run, solver = self._run, self._run.newton.ready_solver().solver.solver
+        factors = solver.memory() if isinstance(solver, Remembering) else None
+        before = {term.key: term.before for term in run.model.system.terms if term.before.size > 0}
+        return Mark(
+            run.model.system.snapshot(),
+            before,
+            list(self.steps),
+            run.trail,
+            self.result.mark(),
+            factors,
+            replace(run.statistics),
+        )
+
+    def go_back(self, mark: Mark) -> None:
+        """Return to a state of any branch, with its steps and result."""
+        run, solver = self._run, self._run.newton.ready_solver().solver.solver
+        run.model.system.restore(mark.snapshot)
+        run.evaluation = run.model.system.repeat(mark.before)
+        run.trail, run.loop, run.number = mark.trail, None, len(mark.steps) + 1
+        if isinstance(solver, Remembering) and mark.factors is not None:
+            solver.recall(mark.factors)
+        run.statistics = replace(mark.statistics)
+        self.result.go_back(mark.history)
+        self.steps = list(mark.steps)
+
+    def close(self) -> Result:
+        """The result of the steps, with the warnings of the end of a run."""
+        warn_of_contact(self._run.model, self.result)
+        warn_of_untouched(self._run.model, self.result)
+        warn_of_drift(self._run.model, self.result)
+        warn_of_volume(self._run.model, self.result)
+        return self.result

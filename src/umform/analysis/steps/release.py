@@ -1,0 +1,234 @@
+"""Move a control back until its force is zero or contact is lost."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Self
+
+from umform.analysis.steps.increment import no_convergence, take_increment
+from umform.analysis.steps.loop import Run
+from umform.analysis.steps.saved import Saved, tightened
+from umform.model import Evaluation
+from umform.model.terms.control import Control
+from umform.model.tools.tool_controls import ToolForce
+from umform.results.records import Converged, Failed
+from umform.spec import check_fields
+from umform.spec.types import Duration, Positive
+
+#: Part of the zero-force tolerance that the residual of an increment may reach.
+_PART = 0.1
+#: An increment shorter than this part of the distance to the bound is round-off.
+_SHORT = 1.0 - 1e-9
+
+
+@dataclass(frozen=True)
+class Release:
+    """Retract a displacement or a tool until its force is zero (or contact is lost).
+
+    A force-controlled tool retracts under displacement control; a step :class:`umform.Close` presses it again. The
+    column of its control has the required force, zero at the end.
+
+    The increments of a release are solved until the error of the force is a part of the tolerance, even if the
+    tolerance of the residual in :class:`umform.NewtonOptions` is looser.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=210e3, nu=0.3))
+    >>> clamp = model.fix("x0")
+    >>> tip = model.prescribe("x1_lower", "z", name="tip")
+    >>> result = uf.solve(model, [uf.Move(tip, to=-0.1, steps=2), uf.Release(tip)])
+    >>> bool(abs(result["tip_force"][-1]) < 1e-5 * abs(result["tip_force"]).max())
+    True
+    """
+
+    control: Control
+    """A prescribed displacement or a tool motion, or the force on a tool."""
+    increment: Positive | None = None
+    """First increment; default: 1/1000 of the present value. It doubles while Newton converges easily, up to a
+    twentieth of the value."""
+    tolerance: Positive = 1e-6
+    """Force that counts as zero, relative to the force at the beginning."""
+    time: Duration = 1.0
+    """Time for the full way back to zero: for rate-dependent metals, and for motions of tools in time."""
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+
+@dataclass
+class Releasing:
+    """Secant on force against displacement with saved states; loss of contact is bracketed to 1e-6 of the value. eq.
+    (5.14)
+
+    Attributes
+    ----------
+    start_time, start_value, scale : float
+        Time, value of the control and magnitude of its force at the beginning.
+    force, size : float
+        Present force, and the next increment while the zero is not bracketed.
+    before : pair of float, optional
+        Value and force of the previous state.
+    bound : float, optional
+        A value at which the force is zero or has changed its sign.
+    finest : float
+        Resolution of the distance to the bound: where the force changes sign, only its zero counts.
+    taken : float, optional
+        The last increment, for the extrapolation.
+    failures, attempts : int
+        Increments that did not converge, and those beyond zero.
+    done : bool
+        Whether the force is zero.
+    """
+
+    start_time: float
+    start_value: float
+    scale: float
+    force: float
+    size: float
+    finest: float
+    before: Sequence[float] | None = None
+    bound: float | None = None
+    taken: float | None = None
+    failures: int = 0
+    attempts: int = 0
+    done: bool = False
+
+    @classmethod
+    def begin(cls, run: Run, step: Release) -> Self:
+        """The loop at the beginning of the step; done if there is nothing to release."""
+        if isinstance(step.control, ToolForce):
+            run.model.tools.press_of(step.control).held = True
+        model, control = run.model, _retracted(run, step)
+        evaluation, value = run.evaluation, control.value
+        force = control.force(evaluation, model.system.ranks)
+        size = -math.copysign(step.increment or abs(value) / 1000.0, value)
+        loop = cls(model.system.time, value, abs(force), force, size, finest=1e-6 * abs(value))
+        if value == 0.0 or loop.scale <= 1e-9 * evaluation.force_scale:
+            run.result.note(f"step {run.number}: nothing to release, the force of {control.name} is zero")
+            loop.done = True
+        return loop
+
+    @classmethod
+    def recall(cls, run: Run, step: Release, memory: dict[str, Any]) -> Self:
+        """The restored loop."""
+        return cls(**memory)
+
+    def memory(self) -> dict[str, Any]:
+        """State of the loop, for checkpoints."""
+        return dict(vars(self))
+
+    def advance(self, run: Run, step: Release) -> None:
+        """Try one increment."""
+        model, control = run.model, _retracted(run, step)
+        before, value = run.evaluation, control.value
+        saved, touching = Saved.of(model, before), before.touching(model.system.ranks)
+        attempts = run.newton.timing.attempts
+        mark = attempts.mark()
+        target = _next_release(value, self.force, self.before, self.bound, self.size, self.finest)
+        if self.failures and self.bound is None and target != value:
+            target = _short_of_zero(value, self.force, self.before, target)
+        if target * self.start_value < 0.0:
+            target = 0.0
+        if target == value or self.attempts > 50:  # the force jumps across zero
+            jump = Failed("the zero of the force cannot be closed in", [])
+            raise no_convergence(run, jump, [control], [target])
+        time = self.start_time + step.time * (1.0 - target / self.start_value)
+        extrapolation = None if self.taken is None else (target - value) / self.taken
+        try:
+            newton = tightened(run, _PART * step.tolerance * self.scale)
+            converged = take_increment(run, [target], [control], time, extrapolation, keep=False, newton=newton)
+        except Failed as failure:
+            self.size, self.taken, self.failures = 0.25 * self.size, None, self.failures + 1
+            if self.failures > 20:
+                raise no_convergence(run, failure, [control], [target]) from None
+            return
+        force = control.force(converged.evaluation, model.system.ranks)
+        zero = abs(force) <= step.tolerance * self.scale
+        lifted = touching and not converged.evaluation.touching(model.system.ranks)
+        if lifted:
+            lifted = zero = zero or abs(force) <= _hidden(run, before, converged, target - value)
+        resolution = 1e-6 * abs(self.start_value)
+        if (force * self.force < 0.0 and not zero) or (lifted and abs(target - value) > 2.5 * resolution):
+            attempts.take_back(mark, "release beyond zero force")
+            self._go_back(run, saved, target, resolution if lifted else 0.0)
+            if not lifted:
+                self.size, self.before = (target - value) * self.force / (self.force - force), None
+            return
+        self.before, self.taken, self.force = (value, self.force), target - value, force
+        if isinstance(step.control, ToolForce):
+            step.control.value = model.tools.press_of(step.control).takes(target, -force)[0]
+        self.done = zero or target == 0.0
+        if self.bound is None and abs(2.0 * self.size) <= abs(self.start_value) / 20.0 and _at_ease(converged):
+            self.size *= 2.0
+        part = 1.0 if self.done else 1.0 - min(1.0, abs(force) / self.scale)
+        name = f"step {run.number}: release"
+        run.keep(converged, [control], name=name, fraction=part, frame=run.frames > 0 and self.done)
+        if self.done:
+            how = "contact has lifted off" if lifted else "the force is zero" if zero else "the way back is complete"
+            run.result.note(f"step {run.number}: {how} at {control.name} = {control.value:.6g}")
+
+    def _go_back(self, run: Run, saved: Saved, target: float, finest: float) -> None:
+        """Restore the state before an increment beyond zero; its end is the new bound."""
+        self.bound, self.finest, self.attempts = target, finest, self.attempts + 1
+        saved.restore(run)
+        self.taken = None
+
+
+def _retracted(run: Run, step: Release) -> Control:
+    """The control to retract: for a force-driven tool its travel, which the step prescribes."""
+    control = step.control
+    return run.model.tools.press_of(control).way if isinstance(control, ToolForce) else control
+
+
+def _hidden(run: Run, before: Evaluation, converged: Converged, way: float) -> float:
+    """Largest error of the force due to the residual of the increment. docs/theory, 5.7
+
+    Parameters
+    ----------
+    run : Run
+        The run.
+    before : Evaluation
+        Evaluation of the previous state.
+    converged : Converged
+        The increment.
+    way : float
+        Change of the control in the increment.
+    """
+    model = run.model
+    r, dx = model.system.restrict(converged.residual), model.system.coefficients(converged.x - before.x)
+    return math.sqrt(model.system.ranks.dot(r, r) * model.system.ranks.dot(dx, dx)) / abs(way)
+
+
+def _short_of_zero(value: float, force: float, before: Sequence[float] | None, target: float) -> float:
+    """The target, or a value just short of the zero of the secant: beyond it contact may be lost."""
+    if before is None or before[0] == value or force == before[1]:
+        return target
+    to_zero = -force * (value - before[0]) / (force - before[1])
+    return value + 0.99 * to_zero if 0.0 < to_zero / (target - value) < 1.0 else target
+
+
+def _at_ease(converged: Converged) -> bool:
+    return len(converged.iterations) <= 8
+
+
+def _next_release(
+    value: float, force: float, before: Sequence[float] | None, bound: float | None, size: float, resolution: float
+) -> float:
+    """Next value of a control on its way to zero force; with a bound, approach the zero from the loaded side."""
+    if bound is None:
+        return value + size
+    sign = 1.0 if bound > value else -1.0
+    if abs(bound - value) <= 2.5 * resolution:
+        return bound
+    if before is None or before[0] == value:  # beyond zero: the size is that of the secant
+        return value + size if abs(size) < _SHORT * abs(bound - value) else 0.5 * (value + bound)
+    slope = (force - before[1]) / (value - before[0])
+    zero = value - force / slope if slope != 0.0 else bound
+    if sign * (zero - value) <= 0.0 or sign * (bound - zero) < 0.0:
+        zero = 0.5 * (value + bound)
+    if abs(zero - value) <= 1.5 * resolution:
+        return value + sign * 2.0 * resolution
+    return value + 0.99 * (zero - value)

@@ -1,0 +1,1 @@
+"""Bodies: cells, element, law."""

@@ -1,0 +1,59 @@
+"""The bodies of a model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Self
+
+import numpy as np
+
+from umform.errors import InvalidValue, ModelError
+from umform.mesh import Mesh
+from umform.model.bodies.body import Body
+
+
+class Bodies(list[Body]):
+    """The bodies of a model."""
+
+    @classmethod
+    def on(cls, mesh: Mesh, bodies: Sequence[Body]) -> Self:
+        """Put bodies on a mesh.
+
+        Raises
+        ------
+        InvalidValue
+            If a cell belongs to no body or to two, or two bodies have the same name.
+        """
+        made = cls(body.on(mesh) for body in bodies)
+        names = [body.name for body in bodies]
+        if len(set(names)) < len(names):
+            raise InvalidValue("two bodies have the same name", value=", ".join(names), remedy="Body(..., name=...)")
+        count = np.zeros(len(mesh.connectivity), dtype=int)
+        for body in made:
+            count[body.cells] += 1
+        wrong = np.flatnonzero(count != 1)
+        if len(wrong):
+            raise InvalidValue(
+                "each cell belongs to one body",
+                where=f"cell {wrong[0]} (one of {len(wrong)})",
+                value=f"{count[wrong[0]]} bodies",
+                remedy="choose the cells of the bodies so that they share none and leave none out",
+            )
+        return made
+
+    @property
+    def only(self) -> Body:
+        """The only body.
+
+        Raises
+        ------
+        ModelError
+            If there are several.
+        """
+        if len(self) != 1:
+            raise ModelError(
+                "the model has several bodies",
+                value=", ".join(body.name for body in self),
+                remedy="ask the bodies themselves: model.bodies",
+            )
+        return self[0]

@@ -1,0 +1,1 @@
+"""Changes between steps: supports removed, tools opened, gaps kept."""

@@ -1,0 +1,1 @@
+"""Residual and tangent over the unknowns of a model, and the checks of them."""

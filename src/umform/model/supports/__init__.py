@@ -1,0 +1,1 @@
+"""Supports, local axes, linear constraints."""

@@ -1,0 +1,1 @@
+"""Rigid tools and what drives them."""
