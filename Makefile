@@ -90,7 +90,7 @@ demo: env  ## bend a strip over a cylinder; pictures and report in results/free-
 
 bench: env  ## time kernels, a run and the sparse solvers; the numbers go to build/bench.json, or JSON=file
 	@$(BIN)/python benchmarks/kernels.py --json $(JSON) $(ARGS)
-	@$(BIN)/python benchmarks/analysis/run.py --json $(JSON)
+	@$(BIN)/python benchmarks/run.py --json $(JSON)
 	@$(BIN)/python benchmarks/sparse.py --json $(JSON)
 
 dome: env  ## a sphere pressed into sheets of up to 160 000 elements: time, memory, evaluations thrown away (an hour)
@@ -130,7 +130,7 @@ compare: env  ## compare the speed of two commits: make compare ARGS="main HEAD"
 	@$(BIN)/python benchmarks/compare.py $(ARGS)
 
 peers: book  ## the same work in other codes that are installed, CalculiX first (some 15 minutes of CPU)
-	@$(BIN)/python benchmarks/peers/analysis/run.py --out benchmarks/peers/results.md --page docs/performance-codes.md $(ARGS)
+	@$(BIN)/python benchmarks/peers/run.py --out benchmarks/peers/results.md --page docs/performance-codes.md $(ARGS)
 	@$(BIN)/python tools/performance_numbers.py
 
 # ---- test ----

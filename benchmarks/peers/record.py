@@ -52,7 +52,7 @@ def restored(case: Mapping[str, Any], entries: Iterable[Entry]) -> Found:
 
 def text(record: Mapping[str, Any]) -> str:
     """All tables."""
-    command = "Made by `python benchmarks/peers/analysis/run.py --out benchmarks/peers/results.md`."
+    command = "Made by `python benchmarks/peers/run.py --out benchmarks/peers/results.md`."
     lines = ["# Beside other codes", "", command, "", *summary(record), ""]
     for case in record.values():
         lines += [f"## {case['title']}", "", f"{case['machine']}; one thread. {case['codes']}.", ""]

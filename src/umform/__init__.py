@@ -47,6 +47,8 @@ if TYPE_CHECKING:
     from umform.model.supports.axes import turned as turned
     from umform.model.transfer.trim import Trim as Trim
     from umform.results import fields as fields
+    from umform.studies.derivatives import Derivatives as Derivatives
+    from umform.studies.derivatives import derivatives as derivatives
     from umform.studies.sweep import Sweep as Sweep
     from umform.studies.sweep import sweep as sweep
     from umform.surfaces import Box as Box
@@ -106,6 +108,7 @@ _HOME = {
         "read_tool",
         "write_tool",
     ),
+    "umform.studies.derivatives": ("Derivatives", "derivatives"),
     "umform.studies.sweep": ("Sweep", "sweep"),
 }
 _MODULES = {

@@ -103,7 +103,7 @@ def test_short_run_beside_calculix(tmp_path: Path) -> None:
 
 def _run(*arguments: str, environment: dict[str, str] | None = None) -> str:
     told = subprocess.run(
-        [sys.executable, str(PEERS / "analysis/run.py"), *arguments],
+        [sys.executable, str(PEERS / "run.py"), *arguments],
         env=os.environ | (environment or {}),
         capture_output=True,
         text=True,

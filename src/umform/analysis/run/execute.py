@@ -14,6 +14,7 @@ from umform.analysis.run.going import checkpoints_of, go_on, loop_for, ready
 from umform.analysis.run.loose import carry_loose_sheet
 from umform.analysis.run.result import Result
 from umform.analysis.steps import Step
+from umform.analysis.steps.loop import Follower, Run
 from umform.errors import InvalidValue
 from umform.model import Model
 from umform.progress import Show
@@ -89,6 +90,34 @@ def solve(
     >>> float(result["tip"][-1])
     -0.1
     """
+    return solve_followed(
+        model,
+        steps,
+        None,
+        solver=solver,
+        options=options,
+        frames=frames,
+        progress=progress,
+        checkpoint=checkpoint,
+        every=every,
+        note=note,
+    )
+
+
+def solve_followed(
+    model: Model | None,
+    steps: Sequence[Step] | Step,
+    follower: Callable[[Run], Follower] | None,
+    *,
+    solver: str = "auto",
+    options: NewtonOptions | None = None,
+    frames: int = 60,
+    progress: Show = None,
+    checkpoint: str | PathLike[str] | None = None,
+    every: float = 60.0,
+    note: Mapping[str, Any] | None = None,
+) -> Result:
+    """Solve a model, with runs that follow it; parameters of :func:`solve`, and a function that makes these runs."""
 
     def work(model: Model, steps: Sequence[Step]) -> Result:
         timing = new_timing()
@@ -98,10 +127,11 @@ def solve(
             checkpoints = checkpoints_of(run, steps, checkpoint, every, note)
             tell_of_cells(model, result)
             result.add(run.evaluation, [], frame=frames > 0)
+            run.follower = None if follower is None else follower(run)
             go_on(run, steps, progress, checkpoints)
             return result
 
-    return _where(solver)(model, partial(_prepared, model, steps), work)
+    return _where(solver)(model, partial(prepared_steps, model, steps), work)
 
 
 def resume(
@@ -168,10 +198,10 @@ def resume(
             go_on(run, steps, progress, checkpoints)
             return result
 
-    return _where(solver)(model, partial(_prepared, model, steps), work)
+    return _where(solver)(model, partial(prepared_steps, model, steps), work)
 
 
-def _prepared(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
+def prepared_steps(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
     """The steps, if they are valid for the model; pressed tools touch the sheet, weak springs support a loose one."""
     sequence = checked(model, steps)
     assert model is not None

@@ -9,7 +9,7 @@ from typing import Any, Self
 import numpy as np
 
 from umform.analysis.steps.increment import no_convergence, take_increment
-from umform.analysis.steps.loop import Run
+from umform.analysis.steps.loop import Run, Take
 from umform.analysis.steps.saved import Saved, tightened
 from umform.errors import InvalidValue, NoConvergence
 from umform.model import Model
@@ -167,6 +167,22 @@ class Closing:
             left = 0.5 * abs(self.bound - press.way.value)
         self._go(run, step, press, force, sense * min(size, left))
 
+    def follow(self, run: Run, step: Close, lead: Run, take: Take) -> None:
+        """Repeat the last accepted increment of the loop of a leading run: the same travel, or the own force."""
+        assert isinstance(lead.loop, Closing)
+        press, self.done = run.model.tools.press_of(step.control), lead.loop.done
+        if self.done:
+            step.control.value = _takes(run, press)
+            take([step.force], [step.control], self.start_time + step.time)
+            return
+        way = lead.model.controls.named(press.way.name).value
+        with press.driven():
+            take([way], [press.way], self._time_at(step, way))
+        step.control.value = _takes(run, press)
+
+    def _time_at(self, step: Close, way: float) -> float:
+        return self.start_time + 0.99 * step.time * (abs(way - self.start_way) / self.limit)
+
     def _short_of_the_sheet(self, gap: float) -> float:
         """Travel to just before the sheet, then to just beyond: free travel does no work."""
         return gap - self.hair if gap > 2.0 * self.hair else max(gap, 0.0) + self.hair
@@ -184,10 +200,9 @@ class Closing:
         saved, attempts = Saved.of(model, run.evaluation), run.newton.timing.attempts
         mark = attempts.mark()
         extrapolation = None if self.taken is None else way / self.taken
-        travelled = abs(value + way - self.start_way) / self.limit
         try:
             with press.driven():
-                time = self.start_time + 0.99 * step.time * travelled
+                time = self._time_at(step, value + way)
                 converged = take_increment(run, [value + way], [press.way], time, extrapolation)
         except Failed as failure:
             self._shorten(run, step, 0.25, touched, failure)

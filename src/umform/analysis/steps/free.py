@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Self
 
 from umform.analysis.newton.newton import Newton
-from umform.analysis.steps.loop import Run
+from umform.analysis.steps.loop import Run, Take
 from umform.analysis.steps.move import Move
 from umform.analysis.steps.moving import Marching
 from umform.errors import InvalidValue
@@ -117,6 +117,12 @@ class Freeing(Marching):
 
     def _newton(self, run: Run) -> Newton:
         return run.newton.but(springs_back=True)
+
+    def follow(self, run: Run, step: Free, lead: Run, take: Take) -> None:  # type: ignore[override]
+        """Repeat the last accepted increment of the loop of a leading run."""
+        if self.fraction == 0.0:
+            _let_go(run, step)
+        super().follow(run, step.move(), lead, take)
 
     def advance(self, run: Run, step: Free) -> None:  # type: ignore[override]
         """Try one increment; until one has converged, supports and tools are active between attempts."""

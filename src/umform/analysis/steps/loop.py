@@ -40,6 +40,20 @@ class Loop(Protocol):
     def memory(self) -> dict[str, Any]:
         """State of the loop as numbers, lists and arrays; ``recall`` of its class restores it."""
 
+    def follow(self, run: Run, step: Any, lead: Run, take: Take) -> None:
+        """Repeat the last accepted increment of the loop of a leading run. docs/theory, 5.16"""
+
+
+#: Makes an increment to values of some controls at a time.
+Take = Callable[[Sequence[float], Sequence[Control], float], None]
+
+
+class Follower(Protocol):
+    """Runs that follow another one, increment by increment."""
+
+    def follow(self, lead: Run, *, frame: bool) -> None:
+        """Repeat the increment that the leading run has accepted."""
+
 
 @dataclass
 class Run:
@@ -65,6 +79,8 @@ class Run:
         Number of return maps of the model in stages up to the last increment.
     tick, pause : callable
         Shows progress; writes checkpoints and stops the run, between increments.
+    follower : Follower, optional
+        Runs that follow this one.
     """
 
     model: Model
@@ -79,6 +95,7 @@ class Run:
     staged: int = field(init=False)
     tick: Tick = silent
     pause: Callable[[], None] = field(default=lambda: None)
+    follower: Follower | None = None
 
     def __post_init__(self) -> None:
         self.staged = self._staged()
@@ -90,6 +107,8 @@ class Run:
         self.newton.timing.attempts.accepted += len(converged.iterations)
         self.result.add(converged.evaluation, converged.iterations + converged.passes, step=self.number, frame=frame)
         self._warn_of_stages()
+        if self.follower is not None:
+            self.follower.follow(self, frame=frame)
         row = self.result.rows[-1]
         for as_planned, message in lost_tools(self.model, self.result.rows[-2], row):
             tell = self.result.note if as_planned else self.result.warn

@@ -13,7 +13,7 @@ import numpy as np
 
 from umform.analysis.newton.newton import Newton
 from umform.analysis.steps.increment import no_convergence, take_increment
-from umform.analysis.steps.loop import Run
+from umform.analysis.steps.loop import Run, Take
 from umform.analysis.steps.move import Move
 from umform.analysis.steps.pace import Happened
 from umform.analysis.steps.saved import Saved
@@ -132,6 +132,12 @@ class Moving:
             self._adapt(step, converged, lambda: Happened.between(model, x_before, active_before, converged))
         frame = run.frames > 0 and (self.done or self._pictured(step, run.frames, before))
         run.keep(converged, step.moved(), name=f"step {run.number}", fraction=self.fraction, frame=frame)
+
+    def follow(self, run: Run, step: Move, lead: Run, take: Take) -> None:
+        """Repeat the last accepted increment of the loop of a leading run: the same fraction of the own step."""
+        assert isinstance(lead.loop, Moving)
+        self.fraction, self.done = lead.loop.fraction, lead.loop.done
+        take(step.values(self.fraction, self.starts), step.moved(), self.start_time + self.fraction * step.time)
 
     def _newton(self, run: Run) -> Newton:
         """The method of the increments."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from umform.analysis.steps.increment import no_convergence, take_increment
-from umform.analysis.steps.loop import Run
+from umform.analysis.steps.loop import Run, Take
 from umform.analysis.steps.saved import Saved, tightened
 from umform.model import Evaluation
 from umform.model.terms.control import Control
@@ -21,6 +21,10 @@ from umform.spec.types import Duration, Positive
 _PART = 0.1
 #: An increment shorter than this part of the distance to the bound is round-off.
 _SHORT = 1.0 - 1e-9
+#: Error of the force at which a following run ends, relative to the force at the beginning, and the solutions for it.
+_CLOSE, _CLOSER = 1e-13, 5
+#: Following runs end with this part of the force at least: beyond, nothing may hold the sheet.
+_LEFT = 1e-4
 
 
 @dataclass(frozen=True)
@@ -170,6 +174,34 @@ class Releasing:
             how = "contact has lifted off" if lifted else "the force is zero" if zero else "the way back is complete"
             run.result.note(f"step {run.number}: {how} at {control.name} = {control.value:.6g}")
 
+    def follow(self, run: Run, step: Release, lead: Run, take: Take) -> None:
+        """Repeat the last accepted increment of the loop of a leading run; where it ends is an equation. eq. (5.161)"""
+        assert isinstance(lead.loop, Releasing)
+        model, control, led = run.model, _retracted(run, step), lead.loop
+        value, led_to = control.value, lead.model.controls.named(control.name).value
+        assert led.before is not None
+        slope = (led.force - led.before[1]) / (led_to - led.before[0])
+        target = led_to  # moved, so that the force remains that of the leading run
+        if slope != 0.0:
+            target += value - led.before[0] + (led.before[1] - self.force) / slope
+        ends = led.done and led_to != 0.0
+        wanted = max(led.force, math.copysign(_LEFT * self.scale, self.force), key=abs)
+        before, saved = (value, self.force), Saved.of(model, run.evaluation)
+        if ends and self.before is not None:  # beyond, nothing may hold the sheet
+            target = _secant((self.before[0], self.before[1]), before, wanted, target)
+        for left in reversed(range(_CLOSER if ends else 1)):
+            take([target], [control], self.start_time + step.time * (1.0 - target / self.start_value))
+            force = control.force(run.evaluation, model.system.ranks)
+            closer = _secant(before, (target, force), wanted, target)
+            if left == 0 or abs(force - wanted) <= _CLOSE * self.scale or closer == target:
+                break
+            before, target = (target, force), closer
+            saved.restore(run)
+            model.evaluate(model.state)  # the blocks for the recovery of enhanced parameters
+        self.before, self.force, self.done = (value, self.force), force, led.done
+        if isinstance(step.control, ToolForce):
+            step.control.value = model.tools.press_of(step.control).takes(target, -force)[0]
+
     def _go_back(self, run: Run, saved: Saved, target: float, finest: float) -> None:
         """Restore the state before an increment beyond zero; its end is the new bound."""
         self.bound, self.finest, self.attempts = target, finest, self.attempts + 1
@@ -181,6 +213,12 @@ def _retracted(run: Run, step: Release) -> Control:
     """The control to retract: for a force-driven tool its travel, which the step prescribes."""
     control = step.control
     return run.model.tools.press_of(control).way if isinstance(control, ToolForce) else control
+
+
+def _secant(one: tuple[float, float], other: tuple[float, float], wanted: float, default: float) -> float:
+    """Value with a wanted force on the line through two pairs of value and force; a default for equal forces."""
+    slope = other[1] - one[1]
+    return other[0] + (wanted - other[1]) * (other[0] - one[0]) / slope if slope != 0.0 else default
 
 
 def _hidden(run: Run, before: Evaluation, converged: Converged, way: float) -> float:

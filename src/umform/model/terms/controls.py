@@ -57,6 +57,19 @@ class Controls(list[Control]):
         """Controls of a class, in the order of their creation."""
         return [control for control in self if isinstance(control, kind)]
 
+    def named(self, name: str) -> Control:
+        """The control of a name.
+
+        Raises
+        ------
+        KeyError
+            If there is none.
+        """
+        for control in self:
+            if control.name == name:
+                return control
+        raise KeyError(name)
+
     def values_at(self, state: State) -> dict[Control, float]:
         """Values of the controls at a state.
 

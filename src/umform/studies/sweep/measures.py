@@ -163,6 +163,12 @@ def stats(result: Result) -> dict[str, dict[str, float | None]]:
     }
 
 
+def column_number(result: Result, wanted: str) -> float | None:
+    """A number of the history, as ``punch_force:max``; None where it is not finite."""
+    one = Measure.of(wanted)
+    return _finite(_STATS[one.stat](result[one.column]))
+
+
 def springback(result: Result, unloading: int) -> float | None:
     """Largest displacement of a node by unloading, after the best fit of the part into its loaded shape. eq. (5.67)
 

@@ -17,7 +17,7 @@ from umform.analysis.steps.arc_length.critical import CriticalPoints
 from umform.analysis.steps.arc_length.equation import Line
 from umform.analysis.steps.arc_length.path import Path
 from umform.analysis.steps.increment import last_residuals
-from umform.analysis.steps.loop import Run
+from umform.analysis.steps.loop import Run, Take
 from umform.analysis.steps.thinned import thinned
 from umform.errors import InvalidValue, NoConvergence
 from umform.model import Model
@@ -186,6 +186,13 @@ class Following:
             _say_how_it_ended(run, step, run.number, path, ended)
         adapted = self.length * min(max(math.sqrt(step.iterations / len(converged.iterations)), 0.5), 2.0)
         self.length = min(adapted, step.grow * path.first)
+
+    def follow(self, run: Run, step: Arc, lead: Run, take: Take) -> None:
+        """Repeat the last accepted increment of the loop of a leading run, at the same part of the load."""
+        assert isinstance(lead.loop, Following)
+        fraction, self.done = lead.loop.path.state.fraction, lead.loop.done
+        values = self.path.line.at(fraction)
+        take(list(values.values()), list(values), lead.model.system.time)
 
     def _cut(self, run: Run, step: Arc, failure: Failed, tried: float) -> None:
         """Halve an arc length that failed, or end the run."""

@@ -1,0 +1,204 @@
+"""A shadow: a run of a slightly different problem that repeats the increments of another run. docs/theory, 5.16"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.analysis.newton.bordered import Bordered
+from umform.analysis.run.going import loop_for
+from umform.analysis.steps import Step
+from umform.analysis.steps.loop import Run
+from umform.errors import NotFinite, SingularMatrix
+from umform.model import Evaluation, State
+from umform.model.terms.control import Control
+from umform.results.records import Failed
+
+Floats = NDArray[np.float64]
+
+#: Residual of a shadow relative to its first one in the increment: the relative error of a derivative.
+TOLERANCE = 1e-7
+#: Residual relative to the forces that is round-off; below another one, a residual that hardly falls is.
+_EXACT, _ROUND_OFF, _STAYS = 1e-13, 1e-9, 0.3
+#: Corrections with the factors of the reference; all corrections.
+_CORRECTIONS, _MOST = 5, 20
+#: Residual, relative to the forces, up to which a reference that fails is solved with a line search.
+_NEAR = 1e-6
+#: Largest number of passes of multipliers.
+_PASSES = 10
+
+
+@dataclass(frozen=True)
+class Factors:
+    """Factors of the tangent of the reference at the end of an increment, and its residual there."""
+
+    solver: Bordered
+    residual: float
+
+
+@dataclass
+class Kept:
+    """What a shadow has kept so far.
+
+    Attributes
+    ----------
+    residual : float
+        Largest residual of an increment, relative to the forces.
+    switched : list of int
+        For each row of the history: points of the metal and of contacts in another state than in the reference.
+    own : int
+        Increments with factors of its own.
+    lost : str
+        Why its numbers are unknown from a row on; empty if they are known.
+    from_row : int
+        That row.
+    """
+
+    residual: float = 0.0
+    switched: list[int] = field(default_factory=lambda: [0])
+    own: int = 0
+    lost: str = ""
+    from_row: int = -1
+
+
+class Shadow:
+    """A run that repeats the accepted increments of a leading run.
+
+    Parameters
+    ----------
+    run : Run
+        The run at its first state.
+    steps : sequence of Step
+        Its steps, of the same kinds as those of the leading run.
+
+    Attributes
+    ----------
+    kept : Kept
+        Residuals, points that switched.
+    """
+
+    def __init__(self, run: Run, steps: Sequence[Step]) -> None:
+        self.run, self.steps, self.kept = run, steps, Kept()
+        run.number, run.loop = 0, None
+        self._penalties = {contact: contact.penalty for contact in run.model.contacts}
+        self.evaluation, self.residual = run.evaluation, 0.0
+        run.model.evaluate(run.model.state)  # blocks for the recovery of enhanced parameters
+
+    def at_step(self, number: int) -> Step:
+        """Begin the steps up to the present one."""
+        while self.run.number < number:
+            self.run.number += 1
+            step = self.steps[self.run.number - 1]
+            self.run.loop = loop_for(step).begin(self.run, step)
+        return self.steps[number - 1]
+
+    def stiffen_like(self, growth: Sequence[float]) -> None:
+        """Penalties that have grown like those of the leading run."""
+        for (contact, first), factor in zip(self._penalties.items(), growth, strict=True):
+            contact.use_penalty(factor * first)
+
+    def increment(
+        self,
+        values: Sequence[float],
+        controls: Sequence[Control],
+        time: float,
+        guess: Floats,
+        factors: Factors | None,
+        passes: int | None,
+    ) -> int:
+        """One increment to new values of the controls; returns the number of passes of the multipliers.
+
+        Parameters
+        ----------
+        values, controls, time
+            The end of the increment.
+        guess : ndarray, shape (3 n + k,)
+            Predicted increment.
+        factors : Factors, optional
+            Those of the reference; without them the run has its own in each iteration.
+        passes : int, optional
+            Passes of the multipliers; default: as many as the allowed penetration needs.
+
+        Raises
+        ------
+        Failed
+            If it does not converge; the previous state is restored.
+        """
+        run, system = self.run, self.run.model.system
+        targets = {control.name: float(value) for control, value in zip(controls, values, strict=True)}
+        goal = system.state.toward(targets, time)
+        u = goal.x.copy()
+        du = run.newton.prescribed_increment(goal, u) + system.extend(system.coefficients(guess))
+        try:
+            evaluation = self._solved(goal, u, du, factors)
+            done = 0
+            for done in range(_PASSES if passes is None else passes):
+                if passes is None and not self._loose(evaluation, first=done == 0):
+                    break
+                for contact in run.model.contacts:
+                    if contact.augmented:
+                        contact.augment(evaluation.found[contact], np.zeros(run.model.u.size))
+                evaluation = self._correct(goal, evaluation.x, np.zeros_like(u), factors)
+            else:
+                done = _PASSES if passes is None else passes
+        except (SingularMatrix, NotFinite) as error:
+            system.revert()
+            raise Failed(str(error), []) from error
+        except BaseException:
+            system.revert()
+            raise
+        system.commit(evaluation)
+        self.evaluation, run.evaluation = evaluation, evaluation.without_tangent()
+        return done
+
+    def _solved(self, goal: State, u: Floats, du: Floats, factors: Factors | None) -> Evaluation:
+        """Equilibrium from ``u + du``; a reference that does not get there begins with a line search."""
+        try:
+            return self._correct(goal, u, du, factors)
+        except Failed:
+            if factors is not None:
+                raise
+        system, newton = self.run.model.system, self.run.newton
+        system.revert()
+        system.prepare(goal)
+        near = newton.but(residual=_NEAR).solve(goal, du, newton.mode(friction=True))
+        return self._correct(goal, near.x, np.zeros_like(u), None)
+
+    def _loose(self, evaluation: Evaluation, *, first: bool) -> bool:
+        pairs = [one for one in self.run.model.contacts if one.augmented and evaluation.found[one].active.any()]
+        return bool(pairs) and (first or any(one.loose(evaluation.found[one]) for one in pairs))
+
+    def _correct(self, goal: State, u: Floats, du: Floats, given: Factors | None) -> Evaluation:
+        """Equilibrium from ``u + du``, to round-off; or nearly so, with the factors of the reference."""
+        run, system = self.run, self.run.model.system
+        norms: list[float] = []
+        while True:
+            system.recover(du)
+            evaluation = system.evaluate(system.state_at(u + du, goal))
+            run.newton.check_domain(evaluation, [])
+            r = system.restrict(evaluation.residual)
+            norm, scale = math.sqrt(system.ranks.dot(r, r)), evaluation.force_scale or 1.0
+            norms.append(norm / scale)
+            if _exact(norms) or (given is not None and norms[-1] <= max(2.0 * given.residual, TOLERANCE * norms[0])):
+                self.residual = norms[-1]
+                self.kept.residual = max(self.kept.residual, norms[-1])
+                return evaluation
+            if len(norms) > _MOST or not math.isfinite(norm):
+                raise Failed(f"no convergence in {len(norms)} corrections, residual {norms[-1]:.1e}", [])
+            if given is not None and len(norms) <= _CORRECTIONS:
+                solver = given.solver
+            else:
+                self.kept.own += given is not None and len(norms) == _CORRECTIONS + 1
+                solver = run.newton.ready_solver()
+                solver.factor(evaluation)
+            u, du = evaluation.x, system.extend(solver.solve(-r))
+
+
+def _exact(norms: Sequence[float]) -> bool:
+    """Whether the last residual is that of round-off."""
+    norm = norms[-1]
+    return norm <= _EXACT or (len(norms) > 2 and norm <= _ROUND_OFF and norm > _STAYS * norms[-2])

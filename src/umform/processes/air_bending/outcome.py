@@ -1,0 +1,25 @@
+"""The bend of a run of its problem."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from umform.analysis.run import Result
+from umform.processes.air_bending.bend import AirBend, Loaded
+from umform.processes.air_bending.brake import against_flank, force_per_width, loading
+from umform.processes.air_bending.goal import needed_stroke
+from umform.processes.air_bending.section import Section
+from umform.processes.air_bending.spec import AirBending
+
+
+def outcome_of(case: AirBending, result: Result) -> AirBend:
+    """The bend of a case from a run of its problem, which has a frame at the end of each step."""
+    stroke = needed_stroke(case)
+    last = len(loading(case, stroke))
+    under_load = [frame for frame in result.frames if result.rows[frame.number]["step"] <= last]
+    end, mesh = under_load[-1], result.model.mesh
+    forces = force_per_width(case, result["stroke_force"])[: end.number + 1]
+    (section,) = Section.each(mesh, [end.points["displacement"]])
+    against = against_flank(case, end.contacts)
+    loaded = Loaded(stroke, float(forces[-1]), float(np.max(forces)), section, against)
+    return AirBend.of(case, result, loaded, loaded.measured(Section.of(mesh, result.model.u)))

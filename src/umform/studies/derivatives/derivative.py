@@ -1,0 +1,50 @@
+"""Derivative of one response with respect to one parameter."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from umform.results.quantity import Quantity
+from umform.spec import Scalar
+
+
+@dataclass(frozen=True)
+class Derivative:
+    """Derivative of one response with respect to one parameter.
+
+    Attributes
+    ----------
+    response : Quantity
+        The response with its value.
+    parameter : Scalar
+        The parameter.
+    value : float or None
+        The derivative; None: unknown.
+    switched : int
+        Most points of the metal or of contacts in another state than without the change: the derivative is one-sided
+        there.
+    residual : float
+        Largest residual of the changed run, relative to the forces.
+    why : str
+        Why it is unknown; empty if it is known.
+    """
+
+    response: Quantity
+    parameter: Scalar
+    value: float | None
+    switched: int = 0
+    residual: float = 0.0
+    why: str = ""
+
+    @property
+    def unit(self) -> str:
+        """Its unit."""
+        one, other = self.response.unit, self.parameter.unit
+        return f"{one or '1'}/{other}" if other else one
+
+    @property
+    def relative(self) -> float | None:
+        """Relative change of the response for a relative change of the parameter; None if one of them is zero."""
+        if self.value is None or not self.response.value or not self.parameter.value:
+            return None
+        return self.value * self.parameter.value / self.response.value

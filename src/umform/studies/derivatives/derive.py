@@ -1,0 +1,197 @@
+"""Derivatives of the results of a run with respect to its parameters. docs/theory, 5.16"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.run import Result
+from umform.analysis.shadows import solve_with_shadows
+from umform.errors import InvalidValue, UmformError
+from umform.problem.errors import slip
+from umform.problem.problem import Problem
+from umform.progress import Show
+from umform.results.quantity import Quantity
+from umform.spec import Scalar
+from umform.studies.derivatives.found import Derivatives
+from umform.studies.derivatives.responses import Response, responses
+from umform.studies.derivatives.subjects import Built, OfCase, OfFunction, OfProblem, Subject, refuse_other_structure
+
+#: Change of a parameter relative to its value; that of one without a unit, whose effect is often small.
+STEP, STEP_WITHOUT_UNIT = 3e-5, 1e-4
+#: Tables of a problem whose numbers are no parameters of the part: their effect is an error of the solution.
+_OF_THE_SOLUTION = ("solution.", "output.")
+
+
+def derivatives(
+    subject: Any,
+    by: Sequence[str] | Mapping[str, float],
+    of: Sequence[str | Callable[[Result], float | Quantity]] | None = None,
+    *,
+    hold: Mapping[str, str] | None = None,
+    options: NewtonOptions | None = None,
+    solver: str | None = None,
+    frames: int = 1,
+    progress: Show = None,
+) -> Derivatives:
+    """Run a problem, and find the derivatives of its results with respect to some parameters.
+
+    Beside the run, shadows repeat its increments with one parameter changed a little, with the factors of its tangents;
+    a reference solves the same increments to round-off. No law, tool or step needs code for it. The path of the run is
+    frozen: increments, and the points of a pace, are those of the run. The end of a release is an equation.
+
+    Parameters
+    ----------
+    subject : Problem, case of a process, or callable
+        A problem; a case such as `AirBending` with a stroke; or a function that is called with the parameters and
+        returns a model and its steps.
+    by : sequence of str, or mapping of str to float
+        Paths, see `Problem.paths`; parameters with their values for a function.
+    of : sequence of str or callable, optional
+        Quantities, columns of the history such as ``punch_force:max`` (or last, min, peak, sum), and functions of a
+        result. Default: all quantities, or the last and the largest force of each control.
+    hold : mapping of str to str, optional
+        Responses that stay constant, each by a parameter that follows: ``{"angle": "stroke"}`` gives the derivatives at
+        the stroke that keeps the angle.
+    options, solver
+        Those of the run, for a function.
+    frames : int
+        Approximate number of states kept in each step.
+    progress : bool or callable, optional
+        Show a progress bar.
+
+    Returns
+    -------
+    Derivatives
+        Of quantities, of columns of the history, and of the displacement.
+
+    Raises
+    ------
+    InvalidValue
+        A parameter does not exist, or cannot be varied; ``where`` is its path.
+    NoConvergence
+        The run does not converge.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> def build(E):
+    ...     model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=E, nu=0.3))
+    ...     model.fix("x0")
+    ...     return model, uf.Move(model.prescribe("x1_lower", "z", name="tip"), to=-0.1, steps=2)
+    >>> found = uf.derivatives(build, by={"E": 210e3}, of=["tip_force"])
+    >>> round(found["tip_force", "E"].relative, 6)
+    1.0
+    """
+    held = dict(hold or {})
+    thing = _subject(subject, by, options, solver)
+    known = {one.path: one for one in thing.parameters()}
+    names = list(dict.fromkeys([*by, *held.values()]))
+    parameters = [_known(name, known) for name in names]
+    lead = thing.build()
+    shadows, sizes = {}, {}
+    for one in parameters:
+        shadows[one.path], sizes[one.path] = _shadow(thing, one, lead)
+    again = thing.build()
+    found = solve_with_shadows(
+        (lead.model, lead.steps),
+        (again.model, again.steps),
+        {path: (built.model, built.steps) for path, (_, built) in shadows.items()},
+        solver=lead.solver,
+        options=lead.options,
+        frames=frames,
+        progress=progress,
+    )
+    wanted = responses(of, thing.quantities(lead, found.run), found.run)
+
+    def measured(other: Subject, built: Built, result: Result) -> list[float | None]:
+        numbers = {one.name: one.value for one in other.quantities(built, result)}
+        return [one.value(numbers, result) for one in wanted]
+
+    base = measured(thing, lead, found.reference)
+    rows = {
+        path: measured(other, built, found.shadows[path])
+        for path, (other, built) in shadows.items()
+        if not found.kept[path].lost
+    }
+    whole = Derivatives.of(parameters, sizes, wanted, base, rows, found)
+    return whole.holding(held) if held else whole
+
+
+def _subject(subject: Any, by: Any, options: NewtonOptions | None, solver: str | None) -> Subject:
+    if isinstance(subject, Problem):
+        return OfProblem(subject)
+    if callable(subject) and not hasattr(subject, "__dataclass_fields__"):
+        if not isinstance(by, Mapping):
+            raise InvalidValue(
+                "a function needs the values of its parameters",
+                where="by",
+                value=by,
+                cause="names alone",
+                remedy='by={"radius": 2.0}',
+            )
+        return OfFunction(subject, dict(by), options, solver or "auto")
+    return OfCase(subject)
+
+
+def _known(path: str, known: Mapping[str, Scalar]) -> Scalar:
+    """The number of a path, or of the last parts of one, if that is unique.
+
+    Raises
+    ------
+    InvalidValue
+        There is none, there are several, or it is no parameter of the part.
+    """
+    parts = path.split(".")
+    found = [path] if path in known else [one for one in known if one.split(".")[-len(parts) :] == parts]
+    if len(found) != 1:
+        raise InvalidValue(
+            "a path is ambiguous" if found else "there is no number of this path",
+            where="by",
+            value=path,
+            cause=slip(path, known) if not found else ", ".join(found),
+            remedy="one of the paths that umform paths lists" if not found else f"write more of it, as {found[0]}",
+        )
+    one = known[found[0]]
+    why = ""
+    if found[0].startswith(_OF_THE_SOLUTION):
+        why = "its effect is an error of the solution, not a change of the part"
+    elif isinstance(one.value, int):
+        why = "it is a whole number"
+    if why:
+        raise InvalidValue(
+            "this number has no derivative", where=found[0], value=one.value, cause=why, remedy="umform sweep varies it"
+        )
+    return one
+
+
+def _shadow(thing: Subject, one: Scalar, lead: Built) -> tuple[tuple[Subject, Built], float]:
+    """The thing with a slightly larger value, or a smaller one if that is refused; and the change.
+
+    Raises
+    ------
+    InvalidValue
+        Both are refused.
+    """
+    size = (STEP if one.unit else STEP_WITHOUT_UNIT) * (abs(one.value) or 1.0)
+    refusal: UmformError | None = None
+    for change in (size, -size):
+        try:
+            other = thing.with_({one.path: one.value + change})
+            built = other.build()
+            refuse_other_structure(one.path, lead, built)
+        except UmformError as error:
+            refusal = refusal or error
+        else:
+            return (other, built), change
+    raise InvalidValue(
+        "this number cannot be varied",
+        where=one.path,
+        value=one.value,
+        cause=str(refusal).splitlines()[0] if refusal else "",
+        remedy=getattr(refusal, "remedy", "") or "another parameter",
+    )
+
+
+__all__ = ["Response", "derivatives"]

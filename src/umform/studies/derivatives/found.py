@@ -1,0 +1,237 @@
+"""Derivatives that have been found: of quantities, of columns, of the displacement; as table and files."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.analysis.run import Result
+from umform.analysis.shadows import Shadowed
+from umform.errors import InvalidValue
+from umform.io.tables import write_csv
+from umform.results.quantity import UNKNOWN, Quantity
+from umform.spec import Scalar
+from umform.studies.derivatives.derivative import Derivative
+from umform.studies.derivatives.responses import Response
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Floats = NDArray[np.float64]
+#: File of all derivatives.
+TABLE = "derivatives.csv"
+
+
+@dataclass(frozen=True)
+class Derivatives:
+    """All derivatives of a run.
+
+    Attributes
+    ----------
+    parameters : tuple of Scalar
+        The parameters.
+    responses : tuple of Quantity
+        The responses with their values.
+    values : ndarray, shape (responses, parameters)
+        The derivatives; NaN: unknown.
+    runs : Shadowed
+        The run, its reference and its shadows.
+    sizes : mapping of str to float
+        Change of each parameter in its shadow, by its path.
+    held : mapping of str to str
+        Responses that stay constant, and the parameters that follow.
+    """
+
+    parameters: tuple[Scalar, ...]
+    responses: tuple[Quantity, ...]
+    values: Floats
+    runs: Shadowed
+    sizes: Mapping[str, float]
+    held: Mapping[str, str]
+
+    @classmethod
+    def of(
+        cls,
+        parameters: Sequence[Scalar],
+        sizes: Mapping[str, float],
+        wanted: Sequence[Response],
+        base: Sequence[float | None],
+        rows: Mapping[str, Sequence[float | None]],
+        runs: Shadowed,
+    ) -> Derivatives:
+        """Differences of the shadows from the reference, over the changes of the parameters."""
+        values = np.full((len(wanted), len(parameters)), np.nan)
+        for column, one in enumerate(parameters):
+            for row, (before, after) in enumerate(zip(base, rows.get(one.path, ()), strict=False)):
+                if before is not None and after is not None:
+                    values[row, column] = (after - before) / sizes[one.path]
+        return cls(tuple(parameters), tuple(one.quantity for one in wanted), values, runs, dict(sizes), {})
+
+    @property
+    def run(self) -> Result:
+        """The run."""
+        return self.runs.run
+
+    def __getitem__(self, key: tuple[str, str]) -> Derivative:
+        """The derivative of a response with respect to a parameter, each by its name."""
+        response, path = key
+        row = self._index([one.name for one in self.responses], response, "response")
+        column = self._index([one.path for one in self.parameters], path, "parameter")
+        kept, value = self.runs.kept[path], float(self.values[row, column])
+        return Derivative(
+            self.responses[row],
+            self.parameters[column],
+            None if math.isnan(value) else value,
+            max(kept.switched, default=0),
+            kept.residual,
+            kept.lost,
+        )
+
+    @staticmethod
+    def _index(names: Sequence[str], name: str, what: str) -> int:
+        if name not in names:
+            raise InvalidValue(f"there is no such {what}", value=name, remedy="one of " + ", ".join(names))
+        return names.index(name)
+
+    def __iter__(self) -> Any:
+        """All of them, by response, then by parameter."""
+        return (self[one.name, other.path] for one in self.responses for other in self.parameters)
+
+    def column(self, name: str, path: str) -> Floats:
+        """Derivative of a column of the history, a value for each row; NaN from where it is unknown."""
+        self._index([one.path for one in self.parameters], path, "parameter")
+        base, other = self.runs.reference[name], self.runs.shadows[path][name]
+        found = np.full(len(base), np.nan)
+        found[: len(other)] = (other - base[: len(other)]) / self.sizes[path]
+        return found
+
+    def displacement(self, path: str) -> Floats:
+        """Derivative of the displacement of the nodes at the end, shape (n, 3)."""
+        self._index([one.path for one in self.parameters], path, "parameter")
+        found: Floats = (self.runs.shadows[path].model.u - self.runs.reference.model.u) / self.sizes[path]
+        return found.reshape(-1, 3)
+
+    def holding(self, held: Mapping[str, str]) -> Derivatives:
+        """Derivatives at constant values of some responses, each by a parameter that follows. eq. (5.162)
+
+        Parameters
+        ----------
+        held : mapping of str to str
+            Parameters that follow by the responses that stay constant; their values become responses.
+
+        Raises
+        ------
+        InvalidValue
+            A response does not depend on its parameter.
+        """
+        names, paths = [one.name for one in self.responses], [one.path for one in self.parameters]
+        rows = [self._index(names, name, "response") for name in held]
+        columns = [self._index(paths, path, "parameter") for path in held.values()]
+        free = [number for number in range(len(paths)) if number not in columns]
+        square = self.values[np.ix_(rows, columns)]
+        if not np.isfinite(square).all() or np.linalg.cond(square) > 1e12:
+            raise InvalidValue(
+                "a response cannot be held by its parameter",
+                where="hold",
+                value=", ".join(f"{name} by {path}" for name, path in held.items()),
+                cause="it does not depend on it, or the derivative is unknown",
+                remedy="another parameter",
+            )
+        follow = -np.linalg.solve(square, self.values[np.ix_(rows, free)])
+        values = self.values[:, free] + self.values[:, columns] @ follow
+        values[rows] = 0.0
+        added = [
+            Quantity(one.path, one.unit, value=float(one.value), digits=6)
+            for one in (self.parameters[number] for number in columns)
+        ]
+        return replace(
+            self,
+            parameters=tuple(self.parameters[number] for number in free),
+            responses=(*self.responses, *added),
+            values=np.vstack([values, follow]),
+            held=dict(held),
+        )
+
+    @property
+    def table(self) -> list[list[str]]:
+        """A header and a row for each derivative."""
+        rows = [["response", "value", "parameter", "derivative", "unit", "relative", "one-sided"]]
+        for one in self:
+            number = UNKNOWN if one.value is None else f"{one.value:.5g}"
+            relative = UNKNOWN if one.relative is None else f"{one.relative:.3g}"
+            rows.append(
+                [
+                    one.response.label,
+                    one.response.full_text,
+                    one.parameter.path,
+                    number,
+                    one.unit,
+                    relative,
+                    str(one.switched or ""),
+                ]
+            )
+        return rows
+
+    @property
+    def warnings(self) -> list[str]:
+        """Unknown derivatives, and parameters without an effect."""
+        found = []
+        for one in self.parameters:
+            kept = self.runs.kept[one.path]
+            if kept.lost:
+                found.append(f"derivatives by {one.path} are unknown from row {kept.from_row + 1} on: {kept.lost}")
+            elif self._idle(one.path):
+                found.append(f"{one.path} has no effect on this run")
+        return found
+
+    def _idle(self, path: str) -> bool:
+        """Whether a shadow is the reference to the last bit."""
+        base, other = self.runs.reference, self.runs.shadows[path]
+        return all(np.array_equal(base[name], other[name], equal_nan=True) for name in base.columns())
+
+    def write(self, folder: str | Path) -> list[Path]:
+        """Write the table of all derivatives, and those of the columns of the history.
+
+        Returns
+        -------
+        list of Path
+            The files.
+        """
+        folder = Path(folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        ones = list(self)
+        write_csv(
+            folder / TABLE,
+            {
+                "response": [one.response.name for one in ones],
+                "response_value": [one.response.value for one in ones],
+                "parameter": [one.parameter.path for one in ones],
+                "parameter_value": [one.parameter.value for one in ones],
+                "value": [one.value for one in ones],
+                "relative": [one.relative for one in ones],
+                "unit": [one.unit for one in ones],
+                "one_sided_points": [one.switched for one in ones],
+                "residual": [one.residual for one in ones],
+            },
+        )
+        history = folder / "derivatives-history.csv"
+        base = self.runs.reference
+        columns = {name: base[name] for name in base.columns()}
+        for one in self.parameters:
+            for name in base.columns():
+                if name not in ("step", "iterations"):
+                    columns[f"d {name} / d {one.path}"] = self.column(name, one.path)
+        write_csv(history, columns)
+        return [folder / TABLE, history]
+
+    def plot(self, response: str, path: str | Path | None = None) -> Figure:
+        """Bars of the relative derivatives of a response, the largest on top."""
+        from umform.studies.derivatives.picture import tornado
+
+        return tornado([one for one in self if one.response.name == response], path)

@@ -1,0 +1,37 @@
+"""Picture of relative derivatives: a bar for each parameter, the largest on top."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from umform.plotting import house_style, save
+from umform.studies.derivatives.derivative import Derivative
+
+
+def tornado(derivatives: Sequence[Derivative], path: str | Path | None = None) -> Figure:
+    """Bars of the changes of one response for 1 % of each parameter.
+
+    Parameters
+    ----------
+    derivatives : sequence of Derivative
+        Of one response; unknown ones are left out.
+    path : str or Path, optional
+        Picture to write.
+    """
+    known = [one for one in derivatives if one.value is not None]
+    known.sort(key=lambda one: abs((one.value or 0.0) * one.parameter.value))
+    response = derivatives[0].response
+    changes = [0.01 * (one.value or 0.0) * one.parameter.value for one in known]
+    with house_style():
+        figure = Figure(figsize=(6.5, 0.9 + 0.32 * max(1, len(known))), layout="constrained")
+        axes = figure.add_subplot()
+        colours = ["tab:red" if change < 0.0 else "tab:blue" for change in changes]
+        axes.barh([one.parameter.path for one in known], changes, color=colours)
+        axes.axvline(0.0, color="black", linewidth=0.8)
+        axes.set_xlabel(f"change of {response.heading} for 1 % more of each parameter")
+    if path is not None:
+        save(figure, path)
+    return figure

@@ -1,0 +1,167 @@
+"""What derivatives are taken of: a problem, a case of a process, or a function of the user that builds a model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Protocol, Self
+
+import numpy as np
+
+from umform.analysis.newton.options import NewtonOptions
+from umform.analysis.run import Result
+from umform.analysis.steps import Step
+from umform.errors import InvalidValue
+from umform.model import Model
+from umform.problem.measured import Taken
+from umform.problem.prepared import Prepared
+from umform.problem.problem import Problem
+from umform.processes.problems import outcome_of, problem_of
+from umform.results.quantity import Quantity
+from umform.spec import Scalar, changed, scalars
+
+
+@dataclass(frozen=True)
+class Built:
+    """A model that can be run, and what it was made from.
+
+    Attributes
+    ----------
+    model : Model
+        The model.
+    steps : sequence of Step
+        Its steps.
+    solver : str
+        Sparse solver.
+    options : NewtonOptions, optional
+        Options of Newton's method.
+    prepared : Prepared, optional
+        The problem that it belongs to.
+    """
+
+    model: Model
+    steps: Sequence[Step]
+    solver: str = "auto"
+    options: NewtonOptions | None = None
+    prepared: Prepared | None = None
+
+    @classmethod
+    def of(cls, prepared: Prepared) -> Self:
+        """That of a problem."""
+        return cls(prepared.model, prepared.steps, prepared.solver, prepared.options, prepared)
+
+
+class Subject(Protocol):
+    """A thing with parameters that can be built, and whose results are numbers."""
+
+    def parameters(self) -> list[Scalar]:
+        """All numbers that can be varied."""
+
+    def with_(self, changes: Mapping[str, float]) -> Subject:
+        """The same with other values."""
+
+    def build(self) -> Built:
+        """The model and its steps."""
+
+    def quantities(self, built: Built, result: Result) -> list[Quantity]:
+        """Its numbers after a run."""
+
+
+@dataclass(frozen=True)
+class OfProblem:
+    """A problem, whose measures are its numbers."""
+
+    problem: Problem
+
+    def parameters(self) -> list[Scalar]:
+        """Numbers of the problem."""
+        return self.problem.paths()
+
+    def with_(self, changes: Mapping[str, float]) -> OfProblem:
+        """The problem with other values."""
+        return OfProblem(self.problem.with_(changes))
+
+    def build(self) -> Built:
+        """Its model."""
+        return Built.of(self.problem.build())
+
+    def quantities(self, built: Built, result: Result) -> list[Quantity]:
+        """Its measures."""
+        assert built.prepared is not None
+        return Taken.of(self.problem, built.prepared, result, complete=True).quantities
+
+
+@dataclass(frozen=True)
+class OfCase:
+    """A case of a process, such as `AirBending` with a stroke."""
+
+    case: Any
+
+    def parameters(self) -> list[Scalar]:
+        """Numbers of the case."""
+        return list(scalars(self.case))
+
+    def with_(self, changes: Mapping[str, float]) -> OfCase:
+        """The case with other values."""
+        return OfCase(changed(self.case, changes))
+
+    def build(self) -> Built:
+        """The model of its problem."""
+        return Built.of(problem_of(self.case).build())
+
+    def quantities(self, built: Built, result: Result) -> list[Quantity]:
+        """What the process reports."""
+        del built
+        return outcome_of(self.case, result).quantities
+
+
+@dataclass(frozen=True)
+class OfFunction:
+    """A function of the user that builds a model and its steps from named numbers."""
+
+    function: Callable[..., tuple[Model, Sequence[Step] | Step]]
+    values: Mapping[str, float] = field(default_factory=dict)
+    options: NewtonOptions | None = None
+    solver: str = "auto"
+
+    def parameters(self) -> list[Scalar]:
+        """The numbers."""
+        return [Scalar(name, value) for name, value in self.values.items()]
+
+    def with_(self, changes: Mapping[str, float]) -> OfFunction:
+        """Other values."""
+        return OfFunction(self.function, {**self.values, **changes}, self.options, self.solver)
+
+    def build(self) -> Built:
+        """What the function returns."""
+        model, steps = self.function(**self.values)
+        return Built(model, [steps] if isinstance(steps, Step) else list(steps), self.solver, self.options)
+
+    def quantities(self, built: Built, result: Result) -> list[Quantity]:
+        """None: a function names the columns that it wants."""
+        del built, result
+        return []
+
+
+def refuse_other_structure(path: str, one: Built, other: Built) -> None:
+    """Refuse a parameter that changes the topology of the mesh, or the kinds of steps.
+
+    Raises
+    ------
+    InvalidValue
+        The number of nodes, the elements, or the steps differ.
+    """
+    mesh, changed = one.model.mesh, other.model.mesh
+    cause = ""
+    if not np.array_equal(mesh.connectivity, changed.connectivity) or len(mesh.points) != len(changed.points):
+        cause = f"{len(changed.connectivity)} elements in place of {len(mesh.connectivity)}"
+    elif [type(step) for step in one.steps] != [type(step) for step in other.steps]:
+        cause = f"{len(other.steps)} steps in place of {len(one.steps)}"
+    if cause:
+        raise InvalidValue(
+            "elements and steps change with a slightly different value",
+            where=path,
+            value=cause,
+            cause="their number follows from it",
+            remedy="give the numbers of elements and steps, or a value a little off",
+        )
