@@ -172,6 +172,14 @@ void bind_blocks(nb::module_& m) {
             nb::arg("du"), nb::arg("mixed") = false,
             nb::sig("def recover(self, du: NDArray[float64], mixed: bool = False) -> None"),
             "Update the enhanced parameters after u += du; mixed: the geometric stiffness is of the foreseen stress.")
+        .def(
+            "recover_by",
+            [](ShellBlock& b, const Input& change) {
+                if (change.size() != b.alpha().size()) throw std::invalid_argument("alpha has another size");
+                b.recover_by(change.data());
+            },
+            nb::arg("change"), nb::sig("def recover_by(self, change: NDArray[float64]) -> None"),
+            "Add a known change to the enhanced parameters.")
         .def_prop_ro(
             "keeps_blocks", &ShellBlock::keeps_blocks,
             "Whether enhanced parameters can be recovered from the converged state without an evaluation there.")

@@ -454,6 +454,9 @@ class ShellBlock:
         Update the enhanced parameters after u += du; mixed: the geometric stiffness is of the foreseen stress.
         """
 
+    def recover_by(self, change: NDArray[float64]) -> None:
+        """Add a known change to the enhanced parameters."""
+
     @property
     def keeps_blocks(self) -> bool:
         """

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,6 +73,16 @@ class System(Evaluated):
         evaluation = self.evaluate(self.x)
         self.commit(evaluation)
         return evaluation
+
+    @property
+    def enhanced(self) -> list[Floats]:
+        """Converged enhanced parameters of each body."""
+        return [body.block.alpha for body in self.bodies]
+
+    def recover_by(self, change: Sequence[Floats]) -> None:
+        """Add a known change to the enhanced parameters of each body, in place of :meth:`recover`."""
+        for body, part in zip(self.bodies, change, strict=True):
+            body.block.recover_by(part)
 
     def revert(self) -> None:
         """Discard all changes since the last commit."""

@@ -59,6 +59,12 @@ class ShellBlock {
         for (std::size_t i = 0; i < correction_.size(); ++i) correction_[i] = du[i];
         if (modes() > 0) recover_enhanced(du);
     }
+    /// alpha += change, in place of `recover`: the change is known from a similar run.
+    void recover_by(const double* change) {
+        alpha_before_ = alpha_;
+        correction_.clear();
+        for (std::size_t i = 0; i < alpha_.size(); ++i) alpha_[i] += change[i];
+    }
     /// After an `evaluate` of forces alone: the next `recover` takes its residual, with the tangent of before.
     virtual void follow() = 0;
     /// Shortens what the last `recover` has changed to a part of it. eq. (5.12)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.run.execute import prepared_steps, solve_followed
 from umform.analysis.run.going import ready
 from umform.analysis.run.result import Result
-from umform.analysis.shadows.shadow import Factors, Kept, Shadow
+from umform.analysis.shadows.shadow import Factors, Guess, Kept, Shadow
 from umform.analysis.steps import Step
 from umform.analysis.steps.loop import Run
 from umform.model import Model
@@ -54,35 +54,77 @@ class Shadows:
     def __init__(self, lead: Run, reference: Shadow, others: Sequence[Shadow]) -> None:
         self.reference, self.others = reference, others
         self._first = [contact.penalty for contact in lead.model.contacts]
-        self._lead = _unknowns(lead.model)
+        self._lead = _Unknowns.of(lead.model)
+        self._last: Guess | None = None
 
     def follow(self, lead: Run, *, frame: bool) -> None:
         """Repeat the increment that the leading run has accepted."""
         reference, before = self.reference, self._lead
-        self._lead = _unknowns(lead.model)
+        self._lead = _Unknowns.of(lead.model)
         penalties = zip(lead.model.contacts, self._first, strict=True)
         growth = [contact.penalty / first if first else 1.0 for contact, first in penalties]
-        as_lead = partial(_change, before, self._lead)
-        before = _unknowns(reference.run.model)
-        passes = _repeat(reference, lead, growth, as_lead, None, None, frame=frame)
+        model, change = reference.run.model, partial(self._lead.since, before)
+        before = _Unknowns.of(model)
+        passes = _repeat(reference, lead, growth, change, None, None, frame=frame)
         solver = reference.run.newton.ready_solver()
         solver.factor(reference.evaluation)
-        factors = Factors(solver, reference.residual)
-        as_reference = partial(_change, before, _unknowns(reference.run.model))
+        factors = Factors(solver, reference.evaluation.x, reference.residual)
+        made = _Unknowns.of(model).since(before, model)
+        ratio, self._last = _ratio(self._last, made), made
         for shadow in (one for one in self.others if not one.kept.lost):
+            guess = made if ratio is None or shadow.ahead is None else _sum(made, ratio, shadow.ahead)
+            start = _Unknowns.of(shadow.run.model)
             try:
-                _repeat(shadow, lead, growth, as_reference, factors, passes, frame=frame)
+                _repeat(shadow, lead, growth, lambda model, guess=guess: guess, factors, passes, frame=frame)
             except Failed as failure:
                 shadow.kept.lost, shadow.kept.from_row = failure.reason, len(reference.run.result) - 1
             else:
                 shadow.kept.switched.append(_switched(shadow, reference))
+                own = _Unknowns.of(shadow.run.model).since(start, shadow.run.model)
+                shadow.ahead = _sum(own, -1.0, made)
+
+
+@dataclass(frozen=True)
+class _Unknowns:
+    """Displacement, scalar unknowns by name, and enhanced parameters of a model."""
+
+    u: Floats
+    scalars: dict[str, float]
+    enhanced: list[Floats]
+
+    @classmethod
+    def of(cls, model: Model) -> Self:
+        """Those of the converged state."""
+        scalars = {unknown.name: unknown.value for unknown in model.system.unknowns}
+        return cls(model.u.copy(), scalars, model.system.enhanced)
+
+    def since(self, before: Self, model: Model) -> Guess:
+        """Their change, in the order of the unknowns of a model; zero for unknowns that were none before."""
+        names = [unknown.name for unknown in model.system.unknowns]
+        scalars = [self.scalars.get(n, 0.0) - before.scalars.get(n, self.scalars.get(n, 0.0)) for n in names]
+        enhanced = [one - other for one, other in zip(self.enhanced, before.enhanced, strict=True)]
+        return Guess(np.concatenate([self.u - before.u, scalars]), enhanced)
+
+
+def _sum(one: Guess, factor: float, other: Guess) -> Guess:
+    enhanced = [a + factor * b for a, b in zip(one.enhanced, other.enhanced, strict=True)]
+    return Guess(one.x + factor * other.x, enhanced)
+
+
+def _ratio(last: Guess | None, change: Guess) -> float | None:
+    """An increment relative to the last one; None if their unknowns differ, or their directions."""
+    if last is None or last.x.shape != change.x.shape:
+        return None
+    size = float(last.x @ last.x)
+    ratio = float(last.x @ change.x) / size if size > 0.0 else 0.0
+    return ratio if ratio > 0.0 and ratio * ratio * size > 0.25 * float(change.x @ change.x) else None
 
 
 def _repeat(
     shadow: Shadow,
     lead: Run,
     growth: Sequence[float],
-    guess: Callable[[Model], Floats],
+    guess: Callable[[Model], Guess],
     factors: Factors | None,
     passes: Sequence[int] | None,
     *,
@@ -101,18 +143,6 @@ def _repeat(
     run.loop.follow(run, step, lead, take)
     run.result.add(run.evaluation, [], step=lead.number, frame=frame)
     return counts
-
-
-def _unknowns(model: Model) -> tuple[Floats, dict[str, float]]:
-    """Displacement, and scalar unknowns by name."""
-    return model.u.copy(), {unknown.name: unknown.value for unknown in model.system.unknowns}
-
-
-def _change(before: tuple[Floats, dict[str, float]], after: tuple[Floats, dict[str, float]], model: Model) -> Floats:
-    """Change of displacement and scalar unknowns in the order of a model; zero for unknowns that were none before."""
-    names = [unknown.name for unknown in model.system.unknowns]
-    scalars = [after[1].get(name, 0.0) - before[1].get(name, after[1].get(name, 0.0)) for name in names]
-    return np.concatenate([after[0] - before[0], scalars])
 
 
 def _switched(shadow: Shadow, reference: Shadow) -> int:

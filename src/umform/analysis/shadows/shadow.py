@@ -20,8 +20,10 @@ from umform.results.records import Failed
 
 Floats = NDArray[np.float64]
 
-#: Residual of a shadow relative to its first one in the increment: the relative error of a derivative.
-TOLERANCE = 1e-7
+#: Error of the displacement of a shadow relative to its distance from the reference: that of a derivative.
+TOLERANCE = 1e-6
+#: Largest residual of a shadow relative to the forces.
+_SMALL = 1e-9
 #: Residual relative to the forces that is round-off; below another one, a residual that hardly falls is.
 _EXACT, _ROUND_OFF, _STAYS = 1e-13, 1e-9, 0.3
 #: Corrections with the factors of the reference; all corrections.
@@ -34,10 +36,36 @@ _PASSES = 10
 
 @dataclass(frozen=True)
 class Factors:
-    """Factors of the tangent of the reference at the end of an increment, and its residual there."""
+    """Factors of the tangent of the reference at the end of an increment, with its unknowns and its residual there."""
 
     solver: Bordered
+    x: Floats
     residual: float
+
+    def suffice(self, norms: Sequence[float], x: Floats, du: Floats) -> bool:
+        """Whether the next correction of a shadow would be a small part of its distance from the reference.
+
+        Parameters
+        ----------
+        norms : sequence of float
+            Residuals so far; each correction reduces the next one like the residual.
+        x, du : ndarray, shape (3 n + k,)
+            Unknowns, and the last correction.
+        """
+        if norms[-1] <= 2.0 * self.residual:
+            return True
+        if len(norms) < 2 or norms[-1] > min(norms[-2], _SMALL):
+            return False
+        following = float(np.abs(du).max()) * norms[-1] / norms[-2]
+        return following <= TOLERANCE * float(np.abs(x - self.x).max())
+
+
+@dataclass(frozen=True)
+class Guess:
+    """Predicted increment: unknowns, and enhanced parameters of each body."""
+
+    x: Floats
+    enhanced: list[Floats]
 
 
 @dataclass
@@ -86,6 +114,8 @@ class Shadow:
         run.number, run.loop = 0, None
         self._penalties = {contact: contact.penalty for contact in run.model.contacts}
         self.evaluation, self.residual = run.evaluation, 0.0
+        #: Its last increment less that of the reference.
+        self.ahead: Guess | None = None
         run.model.evaluate(run.model.state)  # blocks for the recovery of enhanced parameters
 
     def at_step(self, number: int) -> Step:
@@ -106,7 +136,7 @@ class Shadow:
         values: Sequence[float],
         controls: Sequence[Control],
         time: float,
-        guess: Floats,
+        guess: Guess,
         factors: Factors | None,
         passes: int | None,
     ) -> int:
@@ -116,7 +146,7 @@ class Shadow:
         ----------
         values, controls, time
             The end of the increment.
-        guess : ndarray, shape (3 n + k,)
+        guess : Guess
             Predicted increment.
         factors : Factors, optional
             Those of the reference; without them the run has its own in each iteration.
@@ -132,9 +162,9 @@ class Shadow:
         targets = {control.name: float(value) for control, value in zip(controls, values, strict=True)}
         goal = system.state.toward(targets, time)
         u = goal.x.copy()
-        du = run.newton.prescribed_increment(goal, u) + system.extend(system.coefficients(guess))
+        du = run.newton.prescribed_increment(goal, u) + system.extend(system.coefficients(guess.x))
         try:
-            evaluation = self._solved(goal, u, du, factors)
+            evaluation = self._solved(goal, u, du, factors, guess)
             done = 0
             for done in range(_PASSES if passes is None else passes):
                 if passes is None and not self._loose(evaluation, first=done == 0):
@@ -155,10 +185,10 @@ class Shadow:
         self.evaluation, run.evaluation = evaluation, evaluation.without_tangent()
         return done
 
-    def _solved(self, goal: State, u: Floats, du: Floats, factors: Factors | None) -> Evaluation:
+    def _solved(self, goal: State, u: Floats, du: Floats, factors: Factors | None, guess: Guess) -> Evaluation:
         """Equilibrium from ``u + du``; a reference that does not get there begins with a line search."""
         try:
-            return self._correct(goal, u, du, factors)
+            return self._correct(goal, u, du, factors, guess)
         except Failed:
             if factors is not None:
                 raise
@@ -172,22 +202,29 @@ class Shadow:
         pairs = [one for one in self.run.model.contacts if one.augmented and evaluation.found[one].active.any()]
         return bool(pairs) and (first or any(one.loose(evaluation.found[one]) for one in pairs))
 
-    def _correct(self, goal: State, u: Floats, du: Floats, given: Factors | None) -> Evaluation:
+    def _correct(
+        self, goal: State, u: Floats, du: Floats, given: Factors | None, guess: Guess | None = None
+    ) -> Evaluation:
         """Equilibrium from ``u + du``, to round-off; or nearly so, with the factors of the reference."""
         run, system = self.run, self.run.model.system
         norms: list[float] = []
         while True:
-            system.recover(du)
-            evaluation = system.evaluate(system.state_at(u + du, goal))
+            if guess is not None and not norms:
+                system.recover_by(guess.enhanced)
+            else:
+                system.recover(du)
+            forces = given is not None and 0 < len(norms) < _CORRECTIONS and not system.unknowns
+            evaluation = system.evaluate(system.state_at(u + du, goal), tangent=not forces)
+            if forces:
+                system.follow()
             run.newton.check_domain(evaluation, [])
             r = system.restrict(evaluation.residual)
-            norm, scale = math.sqrt(system.ranks.dot(r, r)), evaluation.force_scale or 1.0
-            norms.append(norm / scale)
-            if _exact(norms) or (given is not None and norms[-1] <= max(2.0 * given.residual, TOLERANCE * norms[0])):
+            norms.append(math.sqrt(system.ranks.dot(r, r)) / (evaluation.force_scale or 1.0))
+            if _exact(norms) or (given is not None and given.suffice(norms, evaluation.x, du)):
                 self.residual = norms[-1]
                 self.kept.residual = max(self.kept.residual, norms[-1])
                 return evaluation
-            if len(norms) > _MOST or not math.isfinite(norm):
+            if len(norms) > _MOST or not math.isfinite(norms[-1]):
                 raise Failed(f"no convergence in {len(norms)} corrections, residual {norms[-1]:.1e}", [])
             if given is not None and len(norms) <= _CORRECTIONS:
                 solver = given.solver
