@@ -75,7 +75,7 @@ class Shadows:
             guess = made if ratio is None or shadow.ahead is None else _sum(made, ratio, shadow.ahead)
             start = _Unknowns.of(shadow.run.model)
             try:
-                _repeat(shadow, lead, growth, lambda model, guess=guess: guess, factors, passes, frame=frame)
+                _repeat(shadow, lead, growth, guess, factors, passes, frame=frame)
             except Failed as failure:
                 shadow.kept.lost, shadow.kept.from_row = failure.reason, len(reference.run.result) - 1
             else:
@@ -124,7 +124,7 @@ def _repeat(
     shadow: Shadow,
     lead: Run,
     growth: Sequence[float],
-    guess: Callable[[Model], Guess],
+    guess: Guess | Callable[[Model], Guess],
     factors: Factors | None,
     passes: Sequence[int] | None,
     *,
@@ -137,7 +137,11 @@ def _repeat(
 
     def take(values: Sequence[float], controls: Sequence[Control], time: float) -> None:
         given = None if passes is None else passes[min(len(counts), len(passes) - 1)]
-        counts.append(shadow.increment(values, controls, time, guess(run.model), factors, given))
+        counts.append(
+            shadow.increment(
+                values, controls, time, guess if isinstance(guess, Guess) else guess(run.model), factors, given
+            )
+        )
 
     assert run.loop is not None
     run.loop.follow(run, step, lead, take)
