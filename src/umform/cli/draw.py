@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from umform.cli.derive import Derive, derive_case
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
 from umform.cli.options import (
@@ -102,6 +103,7 @@ def cup(
     curve: Curve = None,
     flow_curve: FlowCurve = None,
     limit_curve: LimitCurve = None,
+    derive: Derive = None,
     deck: PrintDeck = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
@@ -121,7 +123,7 @@ def cup(
     if deck:
         print_deck(case)
         return
-    _run(case, draw, out, "cup", note, limit_curve, overwrite=overwrite, timing=timing)
+    _run(case, draw, out, "cup", note, limit_curve, derive, overwrite=overwrite, timing=timing)
 
 
 @group.command()
@@ -147,6 +149,7 @@ def u(
             "--extrapolate/--no-extrapolate",
         ),
     ] = None,
+    derive: Derive = None,
     deck: PrintDeck = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
@@ -168,7 +171,7 @@ def u(
         return
     three = not coarse if extrapolate is None else extrapolate
     how = extrapolated if three else draw
-    _run(case, how, out, "u-bend", note, limit_curve, overwrite=overwrite, timing=timing)
+    _run(case, how, out, "u-bend", note, limit_curve, derive, overwrite=overwrite, timing=timing)
 
 
 def _on_mesh(spec: type[Cup | UBend], given: Given, coarse: bool, fine: bool) -> Given:
@@ -216,6 +219,7 @@ def _run(
     name: str,
     note: str,
     limit: Path | None,
+    derive: list[str] | None,
     *,
     overwrite: bool,
     timing: bool,
@@ -242,6 +246,8 @@ def _run(
             with drawn.result.timing.files:
                 files = write_files(place, drawn, note, blank)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+    if derive and drawn.released is not None:
+        derive_case(case, derive, place)
     if timing:
         show_timing(drawn.result.timing)
     if drawn.released is None:
