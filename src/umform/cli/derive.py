@@ -65,13 +65,15 @@ def derive(
     from umform.studies.derivatives.found import TABLE
 
     print_warnings_once()
+    said: list[str] = []
     with deck_errors():
         problem = read(deck, changes or (), trust)
-        default = Path("results") / f"{deck.stem}-derive"
-        say = lambda text: typer.echo(f"umform: {text}", err=True)  # noqa: E731
-        place = folder_for(out, default, (TABLE,), overwrite=overwrite, say=say)
-        found = derivatives(problem, by, of, hold=dict(_pair(text) for text in hold or ()))
-        show(found, place)
+        held = dict(_pair(text) for text in hold or ())
+        place = folder_for(out, Path("results") / f"{deck.stem}-derive", (TABLE,), overwrite=overwrite, say=said.append)
+        found = derivatives(problem, by, of, hold=held)
+    for text in said:  # only of a run that starts
+        typer.echo(f"umform: {text}", err=True)
+    show(found, place)
 
 
 def derive_case(case: Any, by: Sequence[str], place: Path, hold: Mapping[str, str] | None = None) -> None:

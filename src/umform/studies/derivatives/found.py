@@ -65,7 +65,7 @@ class Derivatives:
         rows: Mapping[str, Sequence[float | None]],
         runs: Shadowed,
     ) -> Derivatives:
-        """Differences of the shadows from the reference, over the changes of the parameters."""
+        """Differences of the shadows from the reference, over the changes of the parameters. eq. (5.161)"""
         values = np.full((len(wanted), len(parameters)), np.nan)
         for column, one in enumerate(parameters):
             for row, (before, after) in enumerate(zip(base, rows.get(one.path, ()), strict=False)):
@@ -118,7 +118,7 @@ class Derivatives:
         return found.reshape(-1, 3)
 
     def holding(self, held: Mapping[str, str]) -> Derivatives:
-        """Derivatives at constant values of some responses, each by a parameter that follows. eq. (5.162)
+        """Derivatives at constant values of some responses, each by a parameter that follows. eq. (5.164)
 
         Parameters
         ----------
@@ -162,13 +162,22 @@ class Derivatives:
     @property
     def table(self) -> list[list[str]]:
         """A header, and a row for each response: its value, and its change for 1 % more of each parameter."""
-        rows = [["quantity", "value", *(f"1 % {one.path}" for one in self.parameters), "unit"]]
+        rows = [["quantity", "value", *(f"1 % {name}" for name in self._short_names), "unit"]]
         for response in self.responses:
             ones = [self[response.name, one.path] for one in self.parameters]
             if all(one.value in (None, 0.0) for one in ones):
                 continue
             rows.append([response.label, response.number(response.value), *map(_for_one_percent, ones), response.unit])
         return rows
+
+    @property
+    def _short_names(self) -> list[str]:
+        """Last part of each path, or the whole path where another one ends alike."""
+        last = [one.path.rpartition(".")[2] for one in self.parameters]
+        return [
+            name if last.count(name) == 1 and not name.isdecimal() else one.path
+            for name, one in zip(last, self.parameters, strict=True)
+        ]
 
     @property
     def notes(self) -> list[str]:
