@@ -9,7 +9,6 @@ from collections.abc import Callable
 from dataclasses import asdict
 from typing import Any
 
-from pydantic import ValidationError
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response
@@ -17,13 +16,14 @@ from starlette.routing import Route
 
 from umform.bench.decks import checked_deck, known_templates, schema_text, template_text, title_of
 from umform.bench.folders import RESULTS, SCENE, SHAPE
+from umform.bench.form import form_fields
 from umform.bench.index import Job
 from umform.bench.jobs import MOST_WAITING, Queue, result_file
 from umform.bench.library import library
 from umform.bench.look import look
-from umform.bench.refusals import said
+from umform.bench.refusals import problems_of, said
 from umform.bench.strips import FILES as STRIP_FILES
-from umform.bench.wanted import Wanted, problems_of
+from umform.bench.wanted import Wanted
 from umform.errors import InvalidValue, UmformError
 from umform.problem.results import FILES as DECK_FILES
 from umform.processes.air_bending.files import RESULTS as BEND_FILES
@@ -93,10 +93,8 @@ def _taking(ask: Callable[[Any, Request], _Json]) -> Callable[[Request], Any]:
             return JSONResponse({"what": "the question is no JSON"}, 400)
         try:
             return JSONResponse(await run_in_threadpool(ask, body, request))
-        except ValidationError as error:
-            return JSONResponse({"what": "the form has mistakes", "problems": problems_of(error)}, 422)
         except UmformError as error:
-            return JSONResponse({**said(error), "problems": [said(error)]}, 422)
+            return JSONResponse({**said(error), "problems": problems_of(error)}, 422)
 
     return endpoint
 
@@ -153,7 +151,7 @@ class _Api:
         forms = body.get("forms") if isinstance(body, dict) else None
         if not isinstance(forms, list) or not 1 <= len(forms) <= min(_MOST_AT_ONCE, MOST_WAITING):
             raise InvalidValue(f"1 to {_MOST_AT_ONCE} bends are ordered at once", where="forms")
-        wanted = [Wanted.model_validate(form) for form in forms]
+        wanted = [Wanted.read(form) for form in forms]
         good, refused = [], []
         for number, one in enumerate(wanted):
             try:
@@ -164,7 +162,7 @@ class _Api:
                 refused.append({**said(error), "form": number, "title": one.title})
         series = str(body.get("series", ""))[:80]
         add = self.queue.add
-        names = [add("bend", one.title, one.model_dump(), series=series, tools=one.drawn) for one in good]
+        names = [add("bend", one.title, dict(one.values), series=series, tools=one.drawn) for one in good]
         return {"jobs": names, "refused": refused}
 
     def add_deck(self, body: Any, request: Request) -> _Json:
@@ -231,16 +229,16 @@ class _Api:
             for job in map(self.queue.index.job, names)
             if job is not None and job.summary.keys() & {"quantities", "measures"}
         ]
-        shown = ("material", "thickness", "opening", "die_angle", "punch_angle", "punch_radius", "length")
+        shown = [name for name in form_fields() if any(job.parameters.get(name) is not None for job in jobs)]
         text = io.StringIO()
         table = csv.writer(text)
         rows = [
             [Quantity.of(one) for kind in ("quantities", "checks") for one in job.summary.get(kind, ())] for job in jobs
         ]
         found = columns(rows, units=True)
-        table.writerow(["job", "title", *shown, "wanted_angle", *found])
+        table.writerow(["job", "title", *("wanted_angle" if name == "angle" else name for name in shown), *found])
         for number, job in enumerate(jobs):
-            cells = [_cell(job.parameters.get(name)) for name in (*shown, "angle")]
+            cells = [_cell(job.parameters.get(name)) for name in shown]
             table.writerow([job.number, _cell(job.title), *cells, *(column[number] for column in found.values())])
         headers = {"content-disposition": 'attachment; filename="bends.csv"'}
         return Response(text.getvalue(), media_type="text/csv", headers=headers)

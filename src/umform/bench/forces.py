@@ -9,6 +9,7 @@ from typing import Any
 from umform.bench.wanted import Wanted
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.spec import AirBending
+from umform.processes.hemming import Hemming
 from umform.processes.hemming.formulas import flattening_forces
 
 #: Force of bottoming over that in the air: what is usual.
@@ -51,12 +52,13 @@ def before(wanted: Wanted, case: AirBending) -> list[Force]:
     """The operations of a job in their order, by the rules of the shop."""
     low, high = shop_forces(case)
     bend = Force("bend", low, high)
-    if wanted.work == "hem":
-        return [bend, Force("flatten", *flattening_forces(case, wanted.gap, insert=wanted.insert))]
-    if wanted.work != "bottom":
+    if wanted.choices.work == "hem":
+        hem = wanted.of(Hemming)
+        return [bend, Force("flatten", *flattening_forces(case, hem["gap"], insert=hem["insert"]))]
+    if wanted.choices.work != "bottom":
         return [bend]
-    if wanted.press_force is not None:
-        return [Force("bottom", wanted.press_force, wanted.press_force, "given")]
+    if wanted.goal.force_per_metre is not None:
+        return [Force("bottom", wanted.goal.force_per_metre, wanted.goal.force_per_metre, "given")]
     return [Force("bottom", _BOTTOMING[0] * low, _BOTTOMING[1] * high, beyond=True)]
 
 

@@ -5,15 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from pydantic import ValidationError
 
 from umform.bench.forces import before, press
 from umform.bench.library import ROOM, tools_for
-from umform.bench.refusals import said
+from umform.bench.refusals import problems_of
 from umform.bench.shelf import Shelf
-from umform.bench.wanted import Wanted, problems_of
+from umform.bench.wanted import Mistakes, Wanted
 from umform.errors import UmformError
-from umform.processes.air_bending.drawn_tools import drawn_sizes
 from umform.processes.air_bending.formulas import INNER_RADIUS, shop_forces, strength
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence.collisions import die_body, punch_body
@@ -41,29 +39,27 @@ def look(values: object, shelf: Shelf | None = None) -> dict[str, Any]:
         ``expected`` and ``change`` (tools that would do).
     """
     try:
-        wanted = Wanted.model_validate(values)
-    except ValidationError as error:
+        wanted = Wanted.read(values)
+    except Mistakes as error:
         return {"problems": problems_of(error), "warnings": []}
     try:
         case = wanted.at_tools(shelf)
     except UmformError as error:
-        return {"problems": [said(error)], "warnings": [], "change": tools_for(wanted)}
+        return {"problems": problems_of(error), "warnings": [], "change": tools_for(wanted)}
     found: dict[str, Any] = {
         "problems": [],
         "warnings": _warnings(wanted, case),
         "drawing": drawing(case, bodies=wanted.of_strip),
     }
     found["expected"] = _expected(wanted, case)
-    angles = {"bottom": case.die_angle, "hem": wanted.first_angle}  # a bottomed sheet has the angle of the die
-    if wanted.work in angles:
-        found["shown"] = {"angle": angles[wanted.work], "stroke": None}
-    found["measured"] = {
-        name: round(value, 4) for name, value in drawn_sizes(case.punch_section, case.die_section).items()
-    }
+    angles = {"bottom": case.die_angle, "hem": wanted.values.get("first_angle")}  # a bottomed sheet has that of the die
+    if wanted.choices.work in angles:
+        found["shown"] = {"angle": angles[wanted.choices.work], "stroke": None}
+    found["measured"] = {name: round(value, 4) for name, value in case.drawn_sizes.items()}
     try:
         wanted.case(shelf)
     except UmformError as error:
-        found |= {"problems": [said(error)], "change": tools_for(wanted)}
+        found |= {"problems": problems_of(error), "change": tools_for(wanted)}
     else:
         found["change"] = tools_for(wanted) if any(row["kind"] == "close" for row in found["warnings"]) else None
     return found
@@ -86,13 +82,12 @@ def drawing(case: AirBending, *, bodies: bool = False) -> dict[str, Any]:
         "punch": np.add(punch.points(chord, far), (0.0, case.thickness)).tolist(),
         "closed": {"die": die.closed, "punch": punch.closed},
         "depth": case.depth,
-        "opening": case.opening,
-        "punch_radius": case.punch_radius,
+        "sizes": {"die": case.sizes("die"), "punch": case.sizes("punch")},
         "half_length": case.half_length,
         "largest_stroke": case.largest_stroke,
         "thickness": case.thickness,
         "shoulder": case.shoulder,
-        "radii": case.punch_radius + case.thickness + case.die_radius,
+        "radii": case.radii,
     }
 
 
@@ -103,7 +98,7 @@ def _expected(wanted: Wanted, case: AirBending) -> dict[str, Any]:
         "tensile_strength": strength(case),
         "force": list(shop_forces(case)),
         "forces": [{"operation": one.operation, "force": [one.low, one.high], "beyond": one.beyond} for one in forces],
-        "press": press(forces).over(wanted.length),
+        "press": press(forces).over(wanted.choices.length),
         "radius": INNER_RADIUS * case.opening,
         "ratio": case.opening / case.thickness,
     }
@@ -111,7 +106,7 @@ def _expected(wanted: Wanted, case: AirBending) -> dict[str, Any]:
 
 def _collisions(wanted: Wanted, case: AirBending) -> list[dict[str, Any]]:
     """Collisions to be expected of several bends: they are said in red, but the run is the judge."""
-    if wanted.work != "sequence":
+    if wanted.choices.work != "sequence":
         return []
     try:
         sequence = wanted.sequence(case)
@@ -132,8 +127,9 @@ def _warnings(wanted: Wanted, case: AirBending) -> list[dict[str, Any]]:
     if not _NARROW <= ratio <= _WIDE:
         found.append({"where": "opening", "kind": "ratio", "bounds": {"ratio": round(ratio, 1)}})
     sharpest = max(case.die_angle, case.punch_angle)
-    if wanted.work == "bend" and wanted.angle is not None and sharpest < wanted.angle < sharpest + ROOM:
+    angle, length = wanted.goal.angle, wanted.choices.length
+    if angle is not None and sharpest < angle < sharpest + ROOM:
         found.append({"where": "angle", "kind": "close", "bounds": {"angle": sharpest}})
-    if wanted.whole and wanted.length > 20.0 * case.thickness:
-        found.append({"where": "whole", "kind": "long", "bounds": {"ratio": round(wanted.length / case.thickness)}})
+    if wanted.choices.whole and length > 20.0 * case.thickness:
+        found.append({"where": "whole", "kind": "long", "bounds": {"ratio": round(length / case.thickness)}})
     return found

@@ -8,6 +8,11 @@ from umform.errors import UmformError
 from umform.problem.errors import DeckError
 
 
+def problems_of(error: UmformError) -> list[dict[str, Any]]:
+    """All errors of a form, each in parts."""
+    return [_parts(one) for one in getattr(error, "errors", [error])[:20]]
+
+
 def said(error: UmformError) -> dict[str, Any]:
     """An error in parts."""
     if isinstance(error, DeckError) and len(error.errors) > 1:

@@ -76,7 +76,7 @@ def run_strip(folder: Path, title: str, wanted: Wanted, sheet: AirBending, note:
     forces = {"bend": max(bend.measures.largest_force for bend in part.bends)}
     if isinstance(done, Hem):
         forces["flatten"] = done.measures.largest_force
-    needed = press(after(wanted, sheet, forces)).over(wanted.length)
+    needed = press(after(wanted, sheet, forces)).over(wanted.choices.length)
     return (_of_hem(done) if isinstance(done, Hem) else _of_part(done)) | {"press": needed}
 
 

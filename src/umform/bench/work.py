@@ -93,37 +93,37 @@ def _outcome(folder: Path) -> dict[str, Any]:
 
 def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     """The work of `umform bend`: the same calls, so the same numbers."""
-    wanted = Wanted.model_validate(order["parameters"])
-    case, note = wanted.case(Shelf(folder)), wanted.law()[1]
+    wanted = Wanted.read(order["parameters"])
+    case, note, length = wanted.case(Shelf(folder)), wanted.law()[1], wanted.choices.length
     if wanted.of_strip:
-        return run_strip(folder, order["title"], wanted, case, note) | {"length": wanted.length, "note": note}
+        return run_strip(folder, order["title"], wanted, case, note) | {"length": length, "note": note}
     brake = Brake(case, frames=FRAMES)
     accept(of_model(brake.model, millimetres=True))
-    bottom = case.bottom_stroke if wanted.work == "bottom" else None
-    watch = Watch(folder, order["title"], BendTold(brake, wanted.angle, bottom or wanted.stroke))
+    angle, force = wanted.goal.angle, wanted.goal.force_per_metre
+    watch = Watch(folder, order["title"], BendTold(brake, angle, case.bottom_stroke if case.bottoming else case.stroke))
 
     with staging(folder / RESULTS, FILES), watching(watch):
         try:
-            if wanted.work == "bottom" and wanted.press_force is not None:
-                done = press_to_force(case, wanted.press_force, brake=brake, progress=False).bend
+            if force is not None:
+                done = press_to_force(case, force, brake=brake, progress=False).bend
             elif case.stroke is not None:
                 done = air_bending(case, brake=brake, progress=False)
             else:
-                assert wanted.angle is not None
-                done = find_stroke(case, wanted.angle, brake=brake, progress=False).bend
+                assert angle is not None
+                done = find_stroke(case, angle, tolerance=wanted.goal.tolerance, brake=brake, progress=False).bend
         except (UmformError, KeyboardInterrupt):
             if len(brake.run.result) > 1:
                 write_csv(folder / RESULTS / "history.csv", brake.run.result.table())
             raise
-        if wanted.budget:
+        if wanted.choices.budget:
             watch.phase("budget", 0.75)
             done = replace(done, budget=error_budget(done.case, done.measures, progress=False))
         watch.phase("files", 0.95)
         watch.shape(done.result)
         write_files(folder / RESULTS, done, note)
     watch.phase("end", 1.0)
-    needed = press(after(wanted, case, {wanted.work: done.measures.largest_force}))
-    return {**record(done), "length": wanted.length, "note": note, "press": needed.over(wanted.length)}
+    needed = press(after(wanted, case, {wanted.choices.work: done.measures.largest_force}))
+    return {**record(done), "length": length, "note": note, "press": needed.over(length)}
 
 
 def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:

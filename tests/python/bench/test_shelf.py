@@ -76,7 +76,7 @@ def test_bend_is_that_of_the_command_to_the_last_bit_and_outlives_the_shelf(benc
     job = bench.ended(name)
     assert job["state"] == "done", job["reason"]
     assert job["parameters"]["opening"] == pytest.approx(20.0)
-    quick = Wanted.model_validate({"mesh": "quick", "angle": None, "stroke": 1.0}).case()
+    quick = Wanted.read({"mesh": "quick", "angle": None, "stroke": 1.0}).case()
     case = AirBending(**{**quick.record(), "die_section": read_die(path)})
     assert job["summary"]["measures"]["force"] == air_bending(case, progress=False).measures.force
     assert 'kind = "arc"' in bench.client.get(f"/files/{name}/bend.toml").text

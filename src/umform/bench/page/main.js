@@ -6,6 +6,7 @@ import { compare } from "./compare.js";
 import { Deck } from "./deck.js";
 import { element, make } from "./dom.js";
 import { Drawing } from "./drawing.js";
+import { known, setFields } from "./fields.js";
 import { Form } from "./form.js";
 import { Jobs } from "./jobs.js";
 import { Result } from "./result.js";
@@ -18,6 +19,7 @@ const VIEWS = ["bend", "compare", "deck"];
 async function start() {
   if (location.search) history.replaceState(null, "", location.pathname + location.hash); // the token stays in the cookie
   const [, library] = await Promise.all([loadTexts(), get("/api/library")]);
+  setFields(library.fields);
   const drawing = new Drawing(element("drawing"));
   const comparing = () => location.hash.startsWith("#compare");
   const jobs = new Jobs((name) => go(`bend/${name}`), (chosen) => chosen.length && comparing() && go(`compare/${chosen.join(",")}`),
@@ -27,7 +29,7 @@ async function start() {
     expected,
     ask: (/** @type {string} */ name, /** @type {any} */ what) => jobs.ask(name, what),
     again: (/** @type {any} */ job) => {
-      Object.assign(form.values, structuredClone(job.parameters));
+      Object.assign(form.values, structuredClone(known(job.parameters)));
       form.build();
       go("bend");
       form.look();

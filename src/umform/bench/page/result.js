@@ -3,6 +3,7 @@
 
 import { get, post } from "./api.js";
 import { element, make } from "./dom.js";
+import { known } from "./fields.js";
 import { message } from "./messages.js";
 import { howRead, numberField, taking, unclear } from "./number_field.js";
 import { plot } from "./plot.js";
@@ -75,7 +76,7 @@ export class Result {
     if (bar !== this.barOf) this.bar.replaceChildren(this.head(job));
     this.barOf = bar;
     if (!this.job) {
-      this.looked = job.kind === "bend" ? await post("/api/look", job.parameters) : {};
+      this.looked = job.kind === "bend" ? await post("/api/look", known(job.parameters)) : {};
       if (job.id !== this.name) return; // another job was opened meanwhile
       if (this.looked.drawing) this.drawing.set(this.looked.drawing, { ...job.parameters, ...this.looked.shown });
     }

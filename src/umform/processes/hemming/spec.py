@@ -3,18 +3,30 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from annotated_types import Ge, Le
 
 from umform.errors import InvalidValue
-from umform.processes.air_bending.spec import AirBending
+from umform.processes.air_bending.spec import AirBending, sizes_of
 from umform.processes.bend_sequence.spec import Bend, BendSequence
-from umform.spec import About, check_fields
-from umform.spec.types import Length
+from umform.spec import About, check_fields, parameters
+from umform.spec.types import FOLLOWS, Length
 
-#: Tools for 1 mm: a V of 30 degrees.
+#: Sheet of 1 mm and its tools: a V of 30 degrees.
 ACUTE = AirBending(thickness=1.0, opening=8.0, die_angle=30.0, die_radius=1.0, punch_angle=30.0, punch_radius=0.5)
+
+
+def in_proportion(case: AirBending, thickness: float) -> dict[str, float]:
+    """Sizes of the tools of a case for another thickness: lengths in proportion, the same angles."""
+    known = parameters(AirBending)
+    found = {name: getattr(case, name) for tool in ("die", "punch") for name in sizes_of(tool).values()}
+    scale = thickness / case.thickness
+    return {
+        name: size * scale if known[name].about.unit == "mm" else size
+        for name, size in found.items()
+        if size is not None
+    }
 
 
 @dataclass(frozen=True)
@@ -29,11 +41,16 @@ class Hemming:
 
     """
 
-    gap: Length = 1.0
+    groups: ClassVar = {"gap": "Hem", "increments": "Solution"}
+    """Group of the parameters from each of these on."""
+    proportions: ClassVar = {"gap": 1.0, "flange": 12.0, "base": 30.0}
+    """Lengths over the thickness where none is given."""
+
+    gap: Length = FOLLOWS
     """Final distance of flange and base; the plate stops at two thicknesses and the gap above the table."""
-    flange: Length = 12.0
+    flange: Length = FOLLOWS
     """Length of the flange, flat, from the bend line to its end."""
-    base: Length = 30.0
+    base: Length = FOLLOWS
     """Length of the base, flat, from the bend line to its end."""
     insert: bool = True
     """Whether a rigid plate of the thickness gap lies on the base; without it the hem is open, and a flange that would
@@ -59,6 +76,9 @@ class Hemming:
 
     def __post_init__(self) -> None:
         check_fields(self)
+        for name, thicknesses in self.proportions.items():
+            if getattr(self, name) is None:
+                object.__setattr__(self, name, thicknesses * self.sheet.thickness)
         if self.base < self.flange:
             raise InvalidValue(
                 "the base of a hem is longer than its flange",
@@ -67,7 +87,11 @@ class Hemming:
                 cause="the two exchanged",
                 remedy=f"more than {self.flange:g}",
             )
-        _ = self.first  # refuses a flange that is too short for the die
+        try:
+            _ = self.first  # refuses a flange that is too short for the die
+        except InvalidValue as error:
+            error.where = error.where.removeprefix("bend 1, ")
+            raise
 
     @property
     def height(self) -> float:
