@@ -176,6 +176,6 @@ def test_the_thickness_chooses_the_values_of_the_standard():
     for thickness, strength in [(2.9, 510.0), (3.0, 470.0)]:
         law, note = Wanted.read({"material": "S355", "thickness": thickness, "opening": 24.0}).law()
         assert tensile_strength(law) == pytest.approx(strength, abs=3.0)  # elastic strains are neglected
-        assert f"Rm {strength:g} MPa (least values" in note
+        assert f"Rm {strength:g} MPa (minimum values" in note
     (metal,) = (metal for metal in library()["metals"] if metal["name"] == "S355")
     assert [(row["from"], row["tensile_strength"]) for row in metal["thicker"]] == [(3.0, 470.0)]
