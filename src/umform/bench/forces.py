@@ -1,4 +1,4 @@
-"""Forces of all operations of a job, and the one that chooses the press: by rules before the run, computed after it."""
+"""Forces of the operations of a job by workshop rules and as computed; the press must have the largest."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ class Force:
     operation : str
         "bend", "bottom" or "flatten".
     low, high : float
-        Range of a rule; equal if the force is given or computed.
+        Range of the rule; equal for a given or computed force.
     basis : str
         "rule", "given" or "computed".
     beyond : bool
-        Whether the force may exceed the range: a sheet that is squeezed to a way resists as much as it must.
+        Whether the force may exceed the range, as in bottoming by a way.
     """
 
     operation: str
@@ -48,8 +48,8 @@ class Force:
         }
 
 
-def before(wanted: Wanted, case: AirBending) -> list[Force]:
-    """The operations of a job in their order, by the rules of the shop."""
+def rule_forces(wanted: Wanted, case: AirBending) -> list[Force]:
+    """Forces of the operations in their order, by workshop rules."""
     low, high = shop_forces(case)
     bend = Force("bend", low, high)
     if wanted.choices.work == "hem":
@@ -62,16 +62,16 @@ def before(wanted: Wanted, case: AirBending) -> list[Force]:
     return [Force("bottom", _BOTTOMING[0] * low, _BOTTOMING[1] * high, beyond=True)]
 
 
-def after(wanted: Wanted, case: AirBending, computed: Mapping[str, float]) -> list[Force]:
-    """The same with computed forces by operation; the press of a bend in the air is chosen by the rule, if larger."""
+def computed_forces(wanted: Wanted, case: AirBending, computed: Mapping[str, float]) -> list[Force]:
+    """The same with computed forces; for air bending the larger one of rule and computation."""
     found = []
-    for rule in before(wanted, case):
+    for rule in rule_forces(wanted, case):
         force = computed[rule.operation]
         larger = rule.operation == "bend" and force < rule.high
         found.append(rule if larger else Force(rule.operation, force, force, "computed"))
     return found
 
 
-def press(forces: list[Force]) -> Force:
+def largest(forces: list[Force]) -> Force:
     """The operation that needs the largest force."""
     return max(forces, key=lambda one: one.high)

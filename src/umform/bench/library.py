@@ -1,4 +1,4 @@
-"""What the form offers: sheet metals, dies and punches; and the tools with which an angle can be reached."""
+"""What the form offers: fields, sheet metals, dies and punches; and tools that reach an angle."""
 
 from __future__ import annotations
 
@@ -12,10 +12,12 @@ from umform.bench.form import MESHES, form_fields
 from umform.bench.wanted import Wanted
 from umform.errors import UmformError
 from umform.processes.air_bending.spec import AirBending, sizes_of
-from umform.processes.hemming.spec import ACUTE, in_proportion
+from umform.processes.hemming.spec import ACUTE, scaled
 
 #: What the default mesh has where others differ.
 _USUAL_MESH = {name: getattr(AirBending, name) for mesh in MESHES.values() for name in mesh}
+#: Sizes of the tools of a bend.
+_USUAL_SIZES = {name: getattr(AirBending, name) for name in ACUTE}
 #: Degrees between the wanted angle and that of the tools which leave room for springback.
 ROOM = 4.0
 
@@ -50,7 +52,7 @@ def library() -> dict[str, Any]:
         "tools": tools(),
         "meshes": {name: _USUAL_MESH | mesh for name, mesh in MESHES.items()},
         "fields": [{**one.record(), "usual": _usual_sizes(one.name)} for one in form_fields().values()],
-        "proportions": {"hem": in_proportion(ACUTE, 1.0), "": in_proportion(AirBending(), 1.0)},
+        "proportions": {"hem": ACUTE, "": scaled(_USUAL_SIZES, 1.0 / AirBending.thickness)},
     }
 
 
@@ -77,12 +79,12 @@ def _thicker(name: str, limit: float) -> dict[str, float]:
 
 
 def tools_for(wanted: Wanted) -> dict[str, float | None] | None:
-    """Die and punch of the library, nearest to those at hand, with which the wanted angle can be reached.
+    """Die and punch of the library that reach the wanted angle.
 
     Returns
     -------
     dict of str to float, or None
-        The parameters to change, drawn tools are put away; None if there are none, or if no angle is wanted.
+        The parameters to change, without drawn tools; None if no tools reach it, or no angle is wanted.
     """
     wished = wanted.goal.angle
     if wished is None:

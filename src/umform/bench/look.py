@@ -1,4 +1,4 @@
-"""A look at a form before anything is run: outlines of the tools, what is wrong, what is unusual, what to expect."""
+"""Check of a form before a run: outlines of the tools, errors, warnings, expected values."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from umform.bench.forces import before, press
+from umform.bench.forces import largest, rule_forces
 from umform.bench.library import ROOM, tools_for
 from umform.bench.refusals import problems_of
 from umform.bench.shelf import Shelf
@@ -23,20 +23,20 @@ _NARROW, _WIDE = 5.0, 16.0
 
 
 def look(values: object, shelf: Shelf | None = None) -> dict[str, Any]:
-    """Look at the values of a form.
+    """Check the values of a form.
 
     Parameters
     ----------
     values : object
-        What has come from the page; anything.
+        The request of the page; any JSON.
     shelf : Shelf, optional
         Drawn tools.
 
     Returns
     -------
     dict
-        ``problems`` (nothing can be run while there are any), ``warnings``, and where they can be told ``drawing``,
-        ``expected`` and ``change`` (tools that would do).
+        ``problems`` (errors, which prevent a run) and ``warnings``; for valid tools ``drawing``, ``expected`` and
+        ``change`` (suitable tools).
     """
     try:
         wanted = Wanted.read(values)
@@ -92,26 +92,26 @@ def drawing(case: AirBending, *, bodies: bool = False) -> dict[str, Any]:
 
 
 def _expected(wanted: Wanted, case: AirBending) -> dict[str, Any]:
-    """What the rules of the shop say before the run."""
-    forces = before(wanted, case)
+    """Expected values by workshop rules."""
+    forces = rule_forces(wanted, case)
     return {
         "tensile_strength": strength(case),
         "force": list(shop_forces(case)),
         "forces": [{"operation": one.operation, "force": [one.low, one.high], "beyond": one.beyond} for one in forces],
-        "press": press(forces).over(wanted.choices.length),
+        "press": largest(forces).over(wanted.choices.length),
         "radius": INNER_RADIUS * case.opening,
         "ratio": case.opening / case.thickness,
     }
 
 
 def _collisions(wanted: Wanted, case: AirBending) -> list[dict[str, Any]]:
-    """Collisions to be expected of several bends: they are said in red, but the run is the judge."""
+    """Expected collisions of several bends; only the run decides."""
     if wanted.choices.work != "sequence":
         return []
     try:
         sequence = wanted.sequence(case)
     except UmformError:
-        return []  # a problem that is said elsewhere
+        return []  # an error, which `look` reports
     found = []
     for number, hits in foreseen_collisions(sequence).items():
         for hit in hits:
@@ -121,7 +121,7 @@ def _collisions(wanted: Wanted, case: AirBending) -> list[dict[str, Any]]:
 
 
 def _warnings(wanted: Wanted, case: AirBending) -> list[dict[str, Any]]:
-    """What is unusual, by kind and numbers; the page puts it into words."""
+    """Warnings by kind and numbers; the page has their texts."""
     ratio = case.opening / case.thickness
     found = _collisions(wanted, case)
     if not _NARROW <= ratio <= _WIDE:

@@ -15,16 +15,15 @@ from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.warnings import print_warnings_once
 from umform.processes.air_bending.spec import AirBending
-from umform.processes.hemming.spec import ACUTE, Hemming, in_proportion
+from umform.processes.hemming.spec import ACUTE, Hemming, acute
 from umform.spec import parameters
 
 #: Parameters of the sheet that a hem does not have: drawn tools, and what belongs to a single bend.
 _NONE_OF_A_HEM = ("punch_section", "die_section", "width", "width_elements", "stroke", "bottoming")
 _OF_HEM = [name for name in parameters(Hemming) if name != "sheet"]
-_TOOLS = in_proportion(ACUTE, 1.0)
 #: Lengths that follow from the thickness, over the thickness.
 _LENGTHS = Hemming.proportions | {
-    name: size for name, size in _TOOLS.items() if parameters(AirBending)[name].about.unit == "mm"
+    name: size for name, size in ACUTE.items() if parameters(AirBending)[name].about.unit == "mm"
 }
 
 
@@ -35,7 +34,7 @@ _LENGTHS = Hemming.proportions | {
     omit=("sheet", "material", *_NONE_OF_A_HEM),
     called={"insert": "--insert/--open"},
     otherwise={name: f"{times:g} thickness{'' if times == 1.0 else 'es'}" for name, times in _LENGTHS.items()},
-    **_TOOLS | dict.fromkeys(_LENGTHS) | {"thickness": ACUTE.thickness},
+    **ACUTE | dict.fromkeys(_LENGTHS) | {"thickness": 1.0},
 )
 def hem(
     given: Given,
@@ -67,8 +66,7 @@ def hem(
     thickness = given["thickness"]
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, thickness)
     of_hem = {name: given.pop(name) for name in _OF_HEM}
-    tools = in_proportion(ACUTE, thickness)
-    sheet = AirBending(**tools | {name: value for name, value in given.items() if value is not None}, material=law)
+    sheet = acute(**{name: value for name, value in given.items() if value is not None}, material=law)
     case = Hemming(**of_hem, sheet=sheet)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/hem"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))

@@ -203,7 +203,7 @@ def test_files_that_are_no_results_are_not_given(bench, done, file):
 
 
 def test_link_in_the_results_is_not_followed(bench, done):
-    place = bench.queue.place(done["id"]) / "results" / "history.csv"
+    place = bench.queue.folder_of(done["id"]) / "results" / "history.csv"
     place.symlink_to("/etc/hostname")
     assert bench.client.get(f"/files/{done['id']}/history.csv").status_code == 404
     place.unlink()

@@ -1,5 +1,5 @@
 // @ts-check
-// The bends of a part in the order of the work: position, angle, direction; rows are added, moved and taken away.
+// The bends of a part in the order of the work: position, angle, direction; rows can be added, moved and deleted.
 
 import { element, make } from "./dom.js";
 import { howRead, numberField } from "./number_field.js";
@@ -48,7 +48,7 @@ export class Bends {
     return make("li", {}, make("span", {}, `${number}.`), input("position"), input("angle"), way, earlier, remove);
   }
 
-  /** How numbers were read, where it is worth a word. */
+  /** How numbers with the decimal sign of the other language were read. */
   howRead() {
     return this.rows.flatMap((_, i) => ["position", "angle"].map((name) => howRead(element(`b-${i}-${name}`).value))
       .filter(Boolean).map((text) => `${t("bend.number", { number: i + 1 })}: ${text}`));

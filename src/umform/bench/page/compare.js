@@ -1,5 +1,5 @@
 // @ts-check
-// Jobs side by side: numbers in columns, curves in one picture.
+// Comparison of jobs: numbers in columns, curves in one picture.
 
 import { get } from "./api.js";
 import { element, make } from "./dom.js";

@@ -1,5 +1,5 @@
 // @ts-check
-// Tools and sheet in true proportion: before a run bent by geometry alone, in a run as it was computed.
+// Tools and sheet to scale: before a run by geometry, then as computed.
 
 import { draw } from "./dom.js";
 import { drawPart, partByGeometry } from "./part.js";
@@ -106,7 +106,7 @@ const line = (x1, y1, x2, y2) => draw("line", { x1, y1, x2, y2, class: "dimensio
 /** @param {number} x @param {number} y @param {string} text @param {string} [name] */
 const label = (x, y, text, name = "") => draw("text", { x, y, class: name, "text-anchor": "middle" }, text);
 
-/** The punch goes on beyond the picture. @param {Point[]} punch @param {number} far @returns {Point[]} */
+/** The punch, extended beyond the picture. @param {Point[]} punch @param {number} far @returns {Point[]} */
 function lengthened(punch, far) {
   const [a, b] = punch;
   const slope = (a[0] - b[0]) / (a[1] - b[1]);
@@ -120,7 +120,7 @@ function flat({ half_length: half, thickness }) {
 }
 
 /**
- * A sheet wrapped around the tip of the punch: what there is to draw before anything is computed.
+ * A sheet wrapped around the tip of the punch, for the drawing before the run.
  * @param {Outlines} outlines @param {{angle: number | null, stroke: number | null}} values
  */
 function byGeometry(outlines, { angle, stroke }) {

@@ -21,13 +21,13 @@ export function setFields(given) {
 /** Those values that the form has; a job of another version may have others. @param {Record<string, any>} values */
 export const known = (values) => Object.fromEntries(fields.filter(({ name }) => name in values).map(({ name }) => [name, values[name]]));
 
-/** What stands before a field. @param {string} name */
+/** The label of a field. @param {string} name */
 export function label(name) {
   const text = message(fields.find((one) => one.name === name)?.label ?? name).replace(/^(the|der|die|das) |,$/gi, "");
   return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
-/** What a field is, and what it takes. @param {Field} field */
+/** The sentence of a field, and its valid values. @param {Field} field */
 export function help({ help: sentence, valid }) {
   return [sentence && message(sentence), valid && t("field.valid", { valid: message(valid) })].filter(Boolean).join(" ");
 }

@@ -1,17 +1,17 @@
 // @ts-check
-// The form: what is to be bent, with which tools; each change is looked at by the server at once.
+// The form: the server checks it after each change.
 
 import { post, Refused } from "./api.js";
 import { Bends } from "./bends.js";
 import { element, make } from "./dom.js";
 import { fields, help, label, sizeField, sizesIn } from "./fields.js";
-import { keep, kept } from "./kept.js";
+import { store, stored } from "./storage.js";
 import { put } from "./notes.js";
 import { howRead, numberField, show, unclear } from "./number_field.js";
 import { has, number, problemText, t } from "./texts.js";
 import { sizesText, Tools } from "./tools.js";
 
-/** Milliseconds after which a question without an answer is asked again. */
+/** Milliseconds after which a request without an answer is repeated. */
 const AGAIN = 2000;
 
 export class Form {
@@ -19,13 +19,13 @@ export class Form {
   constructor(library, looked) {
     this.library = library;
     this.looked = looked;
-    this.values = structuredClone({ ...Object.fromEntries(fields.map((one) => [one.name, one.default])), ...kept(fields.map(({ name }) => name)) });
+    this.values = structuredClone({ ...Object.fromEntries(fields.map((one) => [one.name, one.default])), ...stored(fields.map(({ name }) => name)) });
     this.bends = new Bends(() => this.look());
     this.tools = new Tools((kind, name) => this.takeTool(kind, name));
     this.round = 0;
     /** @type {AbortController | null} */
     this.asking = null;
-    /** Tools that would do, and the button that takes them. @type {Record<string, number | null>} */
+    /** Suitable tools, and the button that takes them. @type {Record<string, number | null>} */
     this.offered = {};
     this.remedy = make("button", { type: "button", onclick: () => this.takeRemedy() });
     this.build();
@@ -94,7 +94,7 @@ export class Form {
     return [make("optgroup", { label: t("metals.standard") }, ...group(false)), make("optgroup", { label: t("metals.cards") }, ...group(true))];
   }
 
-  /** What holds where a field is empty. @param {import("./fields.js").Field} field */
+  /** The value of an empty field. @param {import("./fields.js").Field} field */
   placeholder({ name, times }) {
     const { thickness, mesh } = this.values;
     const metal = this.metal();
@@ -105,7 +105,7 @@ export class Form {
     return name in values ? number(values[name]) : "";
   }
 
-  /** Show in grey what holds where a field is empty. */
+  /** Show the values of empty fields in grey. */
   fillPlaceholders() {
     for (const field of this.shown()) {
       if (field.kind === "number") element(`f-${field.name}`).placeholder = this.placeholder(field);
@@ -129,14 +129,14 @@ export class Form {
     this.look();
   }
 
-  /** A drawn tool was read, or was deleted: then it is none. @param {"punch" | "die"} kind @param {string | null} name */
+  /** A drawn tool was read; null: it was deleted. @param {"punch" | "die"} kind @param {string | null} name */
   takeTool(kind, name) {
     if (name || !this.tools.rows.some((one) => one.kind === kind && one.name === this.values[kind])) this.values[kind] = name;
     this.build();
     this.look();
   }
 
-  /** Tools and goal that suit another kind of work. @param {string} before */
+  /** Change tools and goal for another kind of work. @param {string} before */
   suitWork(before) {
     const { work, thickness, force_per_metre: force, travel } = this.values;
     const { proportions, fields: known } = this.library;
@@ -178,13 +178,13 @@ export class Form {
     }
   }
 
-  /** Ask the server what it thinks of the form; only the last answer counts. */
+  /** Let the server check the form; only the last answer counts. */
   async look() {
     this.round += 1;
     const round = this.round;
     this.asking?.abort();
     this.asking = new AbortController();
-    keep(this.values);
+    store(this.values);
     this.fillPlaceholders();
     try {
       const found = await post("/api/look", this.values, this.asking.signal);
@@ -198,7 +198,7 @@ export class Form {
     }
   }
 
-  /** Put what was found beside the fields. @param {any} found */
+  /** Show the findings beside the fields. @param {any} found */
   say(found) {
     this.change(found.measured ?? {});
     for (const { name, tool } of fields.filter((one) => one.tool)) element(`f-${name}`).disabled = Boolean(this.values[tool]);
@@ -248,12 +248,12 @@ export class Form {
     return notes;
   }
 
-  /** Say below the form why nothing can be done. @param {string} text */
+  /** Show an error below the form. @param {string} text */
   refuse(text) {
     put(element("form-note"), "bad", [text]);
   }
 
-  /** Take the tools that would do, those of the last answer. */
+  /** Take the suitable tools of the last answer. */
   takeRemedy() {
     this.change(this.offered);
     this.look();

@@ -1,5 +1,5 @@
 // @ts-check
-// The page: its views, and what happens between its parts.
+// The page: its views, and how they work together.
 
 import { get, post } from "./api.js";
 import { compare } from "./compare.js";
@@ -12,7 +12,7 @@ import { Jobs } from "./jobs.js";
 import { Result } from "./result.js";
 import { askTable, seriesTable } from "./table.js";
 import { loadTexts, number, problemText, t } from "./texts.js";
-import { retell, tour } from "./tour.js";
+import { showAgain, tour } from "./tour.js";
 
 const VIEWS = ["bend", "compare", "deck"];
 
@@ -61,7 +61,7 @@ async function start() {
   });
   element("language").addEventListener("change", async () => {
     await loadTexts(element("language").value);
-    retell();
+    showAgain();
     form.build();
     form.look();
     jobs.mark(jobs.shown);
@@ -115,7 +115,7 @@ function series(rows) {
 }
 
 /**
- * What the rules of the shop say before the run, and the force that chooses the press: after the run that one is computed.
+ * Values by workshop rules, and the force of the press, which is computed after the run.
  * @param {any} found @param {any} values @param {any} [needed]
  */
 function expected(found, values, needed) {

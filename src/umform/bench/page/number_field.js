@@ -1,5 +1,5 @@
 // @ts-check
-// Fields for numbers: all of the page read what is typed in the same way, and say how.
+// Fields for numbers, which read texts in the same way.
 
 import { read, typed } from "./decimals.js";
 import { make } from "./dom.js";

@@ -1,11 +1,11 @@
 // @ts-check
-// A part of several bends to scale: before the run bent by geometry alone, after it as it was computed.
+// A part of several bends to scale: before the run by geometry, then as computed.
 
 import { draw } from "./dom.js";
 import { number } from "./texts.js";
 
 /** @typedef {[number, number]} Point */
-/** Inside radius over the opening, as the shop reckons. */
+/** Inside radius over the opening, workshop rule. */
 const RADIUS = 0.16;
 
 /**

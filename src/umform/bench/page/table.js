@@ -1,5 +1,5 @@
 // @ts-check
-// A table by angle and by opening: one job for each pair, all of them ordinary bends.
+// A table by angle and opening: one bend for each pair.
 
 import { post } from "./api.js";
 import { element, make } from "./dom.js";
@@ -7,7 +7,7 @@ import { label } from "./fields.js";
 import { taking, unclear } from "./number_field.js";
 import { number, problemText, t } from "./texts.js";
 
-/** Numbers of a list; what is no clear number is an error. @param {string} text @returns {number[]} */
+/** Numbers of a list; an unclear number is an error. @param {string} text @returns {number[]} */
 function listed(text) {
   const numbers = text.split(/[;\s]+|,\s+/).filter(Boolean).slice(0, 12).map(taking);
   const wrong = numbers.find((value) => typeof value === "string");

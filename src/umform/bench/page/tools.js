@@ -1,5 +1,5 @@
 // @ts-check
-// Punches and dies of one's own: drawings are uploaded, read by the server, and kept under a name.
+// Drawn punches and dies: drawings are uploaded, read by the server, and stored under a name.
 
 import { get, post } from "./api.js";
 import { element, make } from "./dom.js";
@@ -7,7 +7,7 @@ import { label } from "./fields.js";
 import { number, problemText, t } from "./texts.js";
 
 /** @typedef {{kind: "punch" | "die", name: string, angle?: number, radius?: number, opening?: number, layer?: string, unit?: string, layers?: string[]}} Tool */
-/** Bytes of a drawing that the server takes. */
+/** Largest drawing in bytes. */
 const MOST = 6e6;
 
 export class Tools {

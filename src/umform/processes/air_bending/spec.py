@@ -131,14 +131,17 @@ class AirBending:
     """Way of the punch in one increment, over the opening."""
 
     def __post_init__(self) -> None:
-        from umform.processes.air_bending.drawn_tools import check_drawn, check_one_sided
+        if self.punch_section is not None or self.die_section is not None:
+            from umform.processes.air_bending.drawn_tools import check_drawn  # it loads NumPy
 
-        check_drawn(self.punch_section, self.die_section)
-        for name, value in self.drawn_sizes.items():
-            object.__setattr__(self, name, value)
+            check_drawn(self.punch_section, self.die_section)
+            for name, value in self.drawn_sizes.items():
+                object.__setattr__(self, name, value)
         check_fields(self)
         _check_consistency(self)
         if self.punch_section is not None:
+            from umform.processes.air_bending.drawn_tools import check_one_sided
+
             check_one_sided(self.punch_section, self.half_length)
 
     def record(self) -> dict[str, Any]:

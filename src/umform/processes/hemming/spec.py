@@ -2,31 +2,45 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Annotated, ClassVar
+from typing import Annotated, Any, ClassVar
 
 from annotated_types import Ge, Le
 
 from umform.errors import InvalidValue
-from umform.processes.air_bending.spec import AirBending, sizes_of
+from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence.spec import Bend, BendSequence
 from umform.spec import About, check_fields, parameters
 from umform.spec.types import FOLLOWS, Length
 
-#: Sheet of 1 mm and its tools: a V of 30 degrees.
-ACUTE = AirBending(thickness=1.0, opening=8.0, die_angle=30.0, die_radius=1.0, punch_angle=30.0, punch_radius=0.5)
+#: Sizes of the tools of the first bend for a sheet of 1 mm: a V of 30 degrees.
+ACUTE: dict[str, float] = {
+    "opening": 8.0,
+    "die_angle": 30.0,
+    "die_radius": 1.0,
+    "punch_angle": 30.0,
+    "punch_radius": 0.5,
+}
 
 
-def in_proportion(case: AirBending, thickness: float) -> dict[str, float]:
-    """Sizes of the tools of a case for another thickness: lengths in proportion, the same angles."""
+def scaled(sizes: Mapping[str, float], factor: float) -> dict[str, float]:
+    """Sizes of tools with lengths times a factor; angles stay."""
     known = parameters(AirBending)
-    found = {name: getattr(case, name) for tool in ("die", "punch") for name in sizes_of(tool).values()}
-    scale = thickness / case.thickness
-    return {
-        name: size * scale if known[name].about.unit == "mm" else size
-        for name, size in found.items()
-        if size is not None
-    }
+    return {name: size * factor if known[name].about.unit == "mm" else size for name, size in sizes.items()}
+
+
+def acute(thickness: float = 1.0, **given: Any) -> AirBending:
+    """Sheet and tools of the first bend; sizes that are not given follow from the thickness.
+
+    Parameters
+    ----------
+    thickness : float
+        Thickness of the sheet.
+    **given : object
+        Other parameters of `AirBending`.
+    """
+    return AirBending(thickness=thickness, **scaled(ACUTE, thickness) | given)
 
 
 @dataclass(frozen=True)
@@ -69,7 +83,7 @@ class Hemming:
     ] = 40.0
     """Angle between the legs after the first bend and its springback; a larger one cannot be flattened between
     plates."""
-    sheet: AirBending = field(default_factory=lambda: ACUTE)
+    sheet: AirBending = field(default_factory=acute)
     """Thickness, material, mesh, and tools of the first bend; in plane strain."""
     increments: Annotated[int, Ge(6), Le(10000), About(cause="a length")] = 60
     """Increments of the travel of the plate."""
