@@ -202,6 +202,22 @@ class Parameter:
         return f"{usual}; or leave it out" if self.optional else usual
 
 
+@dataclass(frozen=True)
+class FieldOf:
+    """Annotation of a field that is one of another Spec.
+
+    Attributes
+    ----------
+    spec : type
+        The other Spec.
+    name : str
+        Name of the field there.
+    """
+
+    spec: type
+    name: str
+
+
 @cache
 def parameters(spec: type) -> Mapping[str, Parameter]:
     """The parameters of a Spec by name, in the order of its fields."""
@@ -209,7 +225,7 @@ def parameters(spec: type) -> Mapping[str, Parameter]:
 
 
 def _parameter(spec: type, one: Field[Any]) -> Parameter:
-    hint = _hint(spec, one)
+    hint = hint_of(spec, one)
     arms = list(_arms(hint))
     kinds = tuple(_kind(arm, extras) for arm, extras in arms if arm is not type(None))
     extras = [extra for _, more in arms for extra in more]
@@ -226,13 +242,16 @@ def _over(under: About, over: About) -> About:
     return About(*(first or second for first, second in pairs))
 
 
-def _hint(spec: type, one: Field[Any]) -> Any:
+def hint_of(spec: type, one: Field[Any]) -> Any:
     """The annotation of a field; names that are imported for types only are objects of any kind."""
-    if not isinstance(one.type, str):
-        return one.type
+    kind: Any = one.type
+    if isinstance(kind, FieldOf):
+        return parameters(kind.spec)[kind.name].hint
+    if not isinstance(kind, str):
+        return kind
     for base in spec.__mro__:
         if one.name in vars(base).get("__annotations__", ()):
-            return eval(one.type, {}, _Names(vars(sys.modules[base.__module__])))
+            return eval(kind, {}, _Names(vars(sys.modules[base.__module__])))
     raise AssertionError(one.name)
 
 
@@ -274,6 +293,9 @@ def sentences(spec: type) -> dict[str, str]:
     for base in reversed(spec.__mro__):
         if "__annotations__" not in vars(base):
             continue
+        for name, hint in base.__annotations__.items():
+            if isinstance(hint, FieldOf):
+                found[name] = sentences(hint.spec).get(hint.name, "").replace("``", "")
         try:
             text = textwrap.dedent(inspect.getsource(base))
         except (OSError, TypeError):  # a class that no file has
