@@ -34,7 +34,9 @@ def main() -> None:
         os.environ.setdefault("OMP_WAIT_POLICY", "passive")  # read when the kernels are loaded
         _prepare_streams()
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # the signal of batch systems: handled as Ctrl-C
+        importlib.import_module("umform.cli.importing").compile_methods_later()
         importlib.import_module("umform.cli.drawing").without_help_texts()
+        importlib.import_module("umform.cli.help_pages").without_markdown()
         importlib.import_module("umform.cli.commands").application(sys.argv[1:])(prog_name="umform")
     except KeyboardInterrupt:  # before the first command
         print("umform: interrupted", file=sys.stderr)

@@ -50,8 +50,14 @@ _DIAMETERS = {
     "blank_radius": "half of --blank",
 }
 
-group = typer.Typer(no_args_is_help=True, help="Draw a part, open the tools and measure it: `umform draw cup`.")
+group = typer.Typer(no_args_is_help=True)
 app.add_typer(group, name="draw")
+
+
+@group.callback()
+def draw() -> None:
+    """Draw a part, open the tools and measure it: `umform draw cup`."""
+
 
 Out = Annotated[str | None, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")]
 LimitCurve = Annotated[Path | None, option("Forming limit: a CSV file of minor and major logarithmic strain.", SHEET)]

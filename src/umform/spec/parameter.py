@@ -8,7 +8,6 @@ import math
 import operator
 import re
 import sys
-import textwrap
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, field, fields
 from functools import cache, reduce
@@ -287,6 +286,25 @@ def _kind(hint: Any, extras: tuple[Any, ...]) -> Kind:
 
 
 @cache
+def _classes(module: str) -> dict[str, list[ast.stmt]]:
+    """Statements of all classes of a module by their names; none of a module that no file has."""
+    try:
+        tree = ast.parse(inspect.getsource(sys.modules[module]))
+    except (OSError, TypeError, KeyError):
+        return {}
+    return dict(_within(tree, ""))
+
+
+def _within(node: ast.AST, name: str) -> Iterator[tuple[str, list[ast.stmt]]]:
+    for one in ast.iter_child_nodes(node):
+        if isinstance(one, ast.ClassDef):
+            yield f"{name}{one.name}", one.body
+            yield from _within(one, f"{name}{one.name}.")
+        elif isinstance(one, ast.FunctionDef):
+            yield from _within(one, f"{name}{one.name}.<locals>.")
+
+
+@cache
 def sentences(spec: type) -> dict[str, str]:
     """The strings below the fields of a class and its bases."""
     found: dict[str, str] = {}
@@ -296,13 +314,7 @@ def sentences(spec: type) -> dict[str, str]:
         for name, hint in base.__annotations__.items():
             if isinstance(hint, FieldOf):
                 found[name] = sentences(hint.spec).get(hint.name, "").replace("``", "")
-        try:
-            text = textwrap.dedent(inspect.getsource(base))
-        except (OSError, TypeError):  # a class that no file has
-            continue
-        body = ast.parse(text).body[0]
-        assert isinstance(body, ast.ClassDef)
-        for first, second in pairwise(body.body):
+        for first, second in pairwise(_classes(base.__module__).get(base.__qualname__, ())):
             if isinstance(first, ast.AnnAssign) and isinstance(first.target, ast.Name):
                 below = second.value if isinstance(second, ast.Expr) else None
                 if isinstance(below, ast.Constant) and isinstance(below.value, str):
