@@ -7,9 +7,10 @@ where: `umform.problem.messages`. A value that fits becomes what it becomes ther
 from __future__ import annotations
 
 import math
+import operator
 import re
 import types
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import MISSING, fields, is_dataclass
 from functools import cache
 from pathlib import Path
@@ -34,6 +35,16 @@ _WRITTEN_AS: dict[Any, Any] = {}
 UNIONS = (Union, types.UnionType)
 #: Bounds of the vocabulary of annotated_types, and their names.
 _BOUNDS = {Gt: "gt", Ge: "ge", Lt: "lt", Le: "le", MinLen: "min_length", MaxLen: "max_length"}
+#: Whether a value is within a bound.
+_FITS: dict[str, Callable[[Any, Any], bool]] = {
+    "gt": operator.gt,
+    "ge": operator.ge,
+    "lt": operator.lt,
+    "le": operator.le,
+    "min_length": lambda value, least: len(value) >= least,
+    "max_length": lambda value, most: len(value) <= most,
+    "pattern": lambda value, pattern: re.search(pattern, value) is not None and "\n" not in value,
+}
 
 
 class Unfit(Exception):
@@ -120,8 +131,8 @@ def _noted(hint: Any, value: Any, context: Context) -> Any:
             finite = not note.named.get("allow_inf_nan", not finite)
     else:
         value = _number(value, finite=finite) if inner is float else read(inner, value, context)
-    for name, limit in _limits(notes):
-        _check(name, limit, value)
+    if not all(_FITS[name](value, limit) for name, limit in _limits(notes) if name in _FITS):
+        raise Unfit
     return value
 
 
@@ -131,26 +142,6 @@ def _limits(notes: Iterable[Any]) -> Iterator[tuple[str, Any]]:
             yield from note.named.items()
         elif type(note) in _BOUNDS:
             yield _BOUNDS[type(note)], getattr(note, _BOUNDS[type(note)])
-
-
-def _check(name: str, limit: Any, value: Any) -> None:
-    fits = True
-    if name == "gt":
-        fits = value > limit
-    elif name == "ge":
-        fits = value >= limit
-    elif name == "lt":
-        fits = value < limit
-    elif name == "le":
-        fits = value <= limit
-    elif name == "min_length":
-        fits = len(value) >= limit
-    elif name == "max_length":
-        fits = len(value) <= limit
-    elif name == "pattern":
-        fits = re.search(limit, value) is not None and "\n" not in value
-    if not fits:
-        raise Unfit
 
 
 def _number(value: Any, *, finite: bool) -> float:
