@@ -47,8 +47,14 @@ _NOT_TYPED = ("material", "newton", "pace")
 #: Diameters of the benchmark by the names of their options.
 _DIAMETERS = {name: 2.0 * ESAFORM[radius] for radius, name in Cup.diameters.items() if radius in ESAFORM}
 
-group = typer.Typer(no_args_is_help=True, help="Draw a part, open the tools and measure it: `umform draw cup`.")
+group = typer.Typer(no_args_is_help=True)
 app.add_typer(group, name="draw")
+
+
+@group.callback()
+def draw() -> None:
+    """Draw a part, open the tools and measure it: `umform draw cup`."""
+
 
 Out = Annotated[str | None, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")]
 LimitCurve = Annotated[Path | None, option("Forming limit: a CSV file of minor and major logarithmic strain.", SHEET)]
