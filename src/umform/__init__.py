@@ -49,6 +49,9 @@ if TYPE_CHECKING:
     from umform.results import fields as fields
     from umform.studies.derivatives import Derivatives as Derivatives
     from umform.studies.derivatives import derivatives as derivatives
+    from umform.studies.goals import Compensated as Compensated
+    from umform.studies.goals import Wanted as Wanted
+    from umform.studies.goals import compensate as compensate
     from umform.studies.sweep import Sweep as Sweep
     from umform.studies.sweep import sweep as sweep
     from umform.surfaces import Box as Box
@@ -109,6 +112,7 @@ _HOME = {
         "write_tool",
     ),
     "umform.studies.derivatives": ("Derivatives", "derivatives"),
+    "umform.studies.goals": ("Compensated", "Wanted", "compensate"),
     "umform.studies.sweep": ("Sweep", "sweep"),
 }
 _MODULES = {

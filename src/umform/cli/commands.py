@@ -17,6 +17,7 @@ FILES = {
     "bench": "bench",
     "bend": "bend",
     "check": "check",
+    "compensate": "compensate",
     "demo": "demo",
     "derive": "derive",
     "draw": "draw",

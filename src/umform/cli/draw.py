@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from umform.cli.compensate import By, Want, compensated
 from umform.cli.derive import Derive, derive_case
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
@@ -106,6 +107,8 @@ def cup(
     curve: Curve = None,
     flow_curve: FlowCurve = None,
     limit_curve: LimitCurve = None,
+    want: Want = None,
+    by: By = None,
     derive: Derive = None,
     deck: PrintDeck = False,
     overwrite: Overwrite = False,
@@ -153,6 +156,8 @@ def u(
             "--extrapolate/--no-extrapolate",
         ),
     ] = None,
+    want: Want = None,
+    by: By = None,
     derive: Derive = None,
     deck: PrintDeck = False,
     overwrite: Overwrite = False,
@@ -169,7 +174,7 @@ def u(
 
     given = _on_mesh(UBend, given, coarse, fine)
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
-    case = UBend(**given, material=law)
+    case = compensated(UBend(**given, material=law), want, by)
     if deck:
         print_deck(case)
         return
