@@ -29,7 +29,9 @@ Floats = NDArray[np.float64]
 #: Largest change of a parameter in the first step, relative to its value; later ones are longer after a step that did
 #: nearly what was expected of it, and shorter after one that did not.
 _STEP, _LONGER, _SHORTER, _EXPECTED = 0.3, 3.0, 0.5, 0.25
-#: An error that falls to more than this part asks for new derivatives.
+#: Steps that are shorter end the search.
+_SHORTEST = 1e-4
+#: A distance from the wanted results that falls to more than this part asks for new derivatives.
 _SLOW = 0.5
 #: Halvings of a step whose run fails.
 _HALVINGS = 4
@@ -228,24 +230,30 @@ class _Search:
         self.tick = tick
         x = np.array([float(one.value) for one in self.parameters])
         y, slopes = self._derived(x)
-        while self._error(y) > 1.0 and len(self.trials) < most:
+        exact = True  # whether the slopes are derivatives at x
+        while self._error(y) > 1.0 and len(self.trials) < most and self.longest > _SHORTEST:
             step = self._step(x, y, slopes)
             if np.abs(step / self.scale).max() < 1e-12:
                 break  # at a bound
             x_new, y_new = self._next(x, step, most)
-            if y_new is None:
-                break
-            slow = self._error(y_new) > max(1.0, _SLOW * self._error(y))
             moved, found = (x_new - x) / self.scale, y_new - y
-            missed = np.abs((found - slopes @ moved) / self.tolerance).max()
-            good = missed <= _EXPECTED * np.abs(found / self.tolerance).max()
-            self.longest *= _LONGER if good else _SHORTER
+            missed = self._distance(found - slopes @ moved)
+            good = missed <= _EXPECTED * self._distance(found)
+            gain = self._distance(y_new - self.goal) / self._distance(y - self.goal)
+            self.longest = _LONGER * self.longest if good else _SHORTER * float(np.abs(moved).max())
+            if gain >= 1.0 and exact:
+                continue  # the derivatives are right, and the step was too long
             slopes = slopes + np.outer(found - slopes @ moved, moved) / float(moved @ moved)
-            if self._error(y_new) < self._error(y):
+            if gain < 1.0:
                 x, y = x_new, y_new
-            if slow and len(self.trials) < most:
+            exact = not good and gain > _SLOW and len(self.trials) < most
+            if exact:
                 y, slopes = self._derived(x)
         return self._found(x, y)
+
+    def _distance(self, change: Floats) -> float:
+        """Norm of a change of the results relative to their tolerances."""
+        return float(np.linalg.norm(change / self.tolerance))
 
     def _error(self, y: Floats) -> float:
         """Largest deviation relative to the tolerances."""
@@ -273,7 +281,7 @@ class _Search:
         found: Floats = lsq_linear(matrix, (self.goal - y) / self.tolerance, bounds=box).x * self.scale
         return found
 
-    def _next(self, x: Floats, step: Floats, most: int) -> tuple[Floats, Floats | None]:
+    def _next(self, x: Floats, step: Floats, most: int) -> tuple[Floats, Floats]:
         """The run after a step; a shorter one where it fails."""
         for halving in range(_HALVINGS):
             try:
