@@ -12,7 +12,7 @@ import typer
 
 from umform.cli.check import Force
 from umform.cli.compensate import By, Want, compensated
-from umform.cli.derive import Derive, derive_case
+from umform.cli.derive import Derive, derived
 from umform.cli.drawn_tools import drawn_tools
 from umform.cli.given import Given, given_by
 from umform.cli.goals import check_goal, check_length, check_no_goal, check_press, strokes_of
@@ -148,11 +148,13 @@ def bend(
         with _what_was_reached(place) as rows:
             rows += bending_table(case, strokes, brake=brake) if strokes else []
             done = replace(_bent(brake, case, angle, force_per_metre, tolerance), table=tuple(rows))
+        more: list[Path] = []
         try:
             if budget:
                 from umform.processes.air_bending.budget import error_budget
 
                 done = replace(done, budget=error_budget(done.case, done.measures, processes=processes))
+            done, more = derived(done, done.case, derive, place, None if angle is None else {"angle": "stroke"})
             with printing(f"the files of the bend are in {place}"):
                 total = "" if length is None else total_force(done.measures.largest_force, length)
                 show_outcome(done, total, note)
@@ -161,10 +163,8 @@ def bend(
             raise
         finally:  # even if the table cannot be printed
             with done.result.timing.files:
-                files = write_files(place, done, note)
+                files = [*write_files(place, done, note), *more]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
-    if derive:
-        derive_case(done.case, derive, place, None if angle is None else {"angle": "stroke"})
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from umform.cli.compensate import By, Want, compensated
-from umform.cli.derive import Derive, derive_case
+from umform.cli.derive import Derive, derived
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
 from umform.cli.options import (
@@ -248,15 +248,15 @@ def _run(
         picture, blank = draw_blank(place, case)
         say(f"umform: the mesh of the blank is drawn in {picture}")
         drawn = how(case, limit=curve)
+        more: list[Path] = []
         try:
+            drawn, more = derived(drawn, case, derive if drawn.released else None, place)
             with printing(f"the files of the part are in {place}"):
                 show_outcome(drawn, note)
         finally:  # even if the table cannot be printed
             with drawn.result.timing.files:
-                files = write_files(place, drawn, note, blank)
+                files = [*write_files(place, drawn, note, blank), *more]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
-    if derive and drawn.released is not None:
-        derive_case(case, derive, place)
     if timing:
         show_timing(drawn.result.timing)
     if drawn.released is None:

@@ -15,6 +15,7 @@ from umform.analysis.run import Result
 from umform.analysis.shadows import Shadowed
 from umform.errors import InvalidValue
 from umform.io.tables import write_csv
+from umform.results.outcome import Annex
 from umform.results.quantity import UNKNOWN, Quantity
 from umform.spec import Scalar
 from umform.studies.derivatives.derivative import Derivative
@@ -242,14 +243,27 @@ class Derivatives:
                 if name not in ("step", "iterations"):
                     columns[f"d {name} / d {one.path}"] = self.column(name, one.path)
         write_csv(history, columns)
-        main = max(self.responses, key=lambda one: self._weight(one.name))
-        self.plot(main.name, folder / PICTURE)
+        self.plot(self._main, folder / PICTURE)
         return [folder / TABLE, history, folder / PICTURE]
 
     def _weight(self, response: str) -> float:
         """How much a response depends on the parameters, relative to its value."""
         found = [self[response, one.path].relative or 0.0 for one in self.parameters]
         return max(map(abs, found), default=0.0)
+
+    @property
+    def annex(self) -> Annex:
+        """Table and picture for the outcome of a process."""
+        main = self._main
+        label = next(one.label for one in self.responses if one.name == main)
+        caption = f"Change of the {label} for 1 % more of each parameter."
+        table, notes, warnings = self.table, self.notes, self.warnings
+        return Annex("Changes of the results", table, notes, warnings, lambda: self.plot(main), caption)
+
+    @property
+    def _main(self) -> str:
+        """The response that depends most on the parameters, relative to its value."""
+        return max(self.responses, key=lambda one: self._weight(one.name)).name
 
     def plot(self, response: str, path: str | Path | None = None) -> Figure:
         """Bars of the relative derivatives of a response, the largest on top."""
