@@ -85,10 +85,10 @@ def derivatives(
     1.0
     """
     held = dict(hold or {})
-    thing = _subject(subject, by, options, solver)
-    known = {one.path: one for one in thing.parameters()}
+    thing = subject_of(subject, by, options, solver)
+    numbers = {one.path: one for one in thing.parameters()}
     names = list(dict.fromkeys([*by, *held.values()]))
-    parameters = [_known(name, known) for name in names]
+    parameters = [known(name, numbers) for name in names]
     lead = thing.build()
     shadows, sizes = {}, {}
     for one in parameters:
@@ -119,7 +119,14 @@ def derivatives(
     return whole.holding(held) if held else whole
 
 
-def _subject(subject: Any, by: Any, options: NewtonOptions | None, solver: str | None) -> Subject:
+def subject_of(subject: Any, by: Any, options: NewtonOptions | None, solver: str | None) -> Subject:
+    """What derivatives are taken of, from what a user gives.
+
+    Raises
+    ------
+    InvalidValue
+        A function without the values of its parameters.
+    """
     if isinstance(subject, Problem):
         return OfProblem(subject)
     if callable(subject) and not hasattr(subject, "__dataclass_fields__"):
@@ -135,7 +142,7 @@ def _subject(subject: Any, by: Any, options: NewtonOptions | None, solver: str |
     return OfCase(subject)
 
 
-def _known(path: str, known: Mapping[str, Scalar]) -> Scalar:
+def known(path: str, numbers: Mapping[str, Scalar], where: str = "by") -> Scalar:
     """The number of a path, or of the last parts of one, if that is unique.
 
     Raises
@@ -144,16 +151,16 @@ def _known(path: str, known: Mapping[str, Scalar]) -> Scalar:
         There is none, there are several, or it is no parameter of the part.
     """
     parts = path.split(".")
-    found = [path] if path in known else [one for one in known if one.split(".")[-len(parts) :] == parts]
+    found = [path] if path in numbers else [one for one in numbers if one.split(".")[-len(parts) :] == parts]
     if len(found) != 1:
         raise InvalidValue(
             "a path is ambiguous" if found else "there is no number of this path",
-            where="by",
+            where=where,
             value=path,
-            cause=slip(path, known) if not found else ", ".join(found),
+            cause=slip(path, numbers) if not found else ", ".join(found),
             remedy="one of the paths that umform paths lists" if not found else f"write more of it, as {found[0]}",
         )
-    one = known[found[0]]
+    one = numbers[found[0]]
     why = ""
     if found[0].startswith(_OF_THE_SOLUTION):
         why = "its effect is an error of the solution, not a change of the part"
