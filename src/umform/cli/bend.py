@@ -121,7 +121,7 @@ def bend(
     tools = drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer)
     case = AirBending(**{**given, "stroke": stroke}, **tools, material=law)
     if wishes:  # refuse what is wrong before the run
-        wishes.plan(replace(case, stroke=stroke or 0.5 * case.largest_stroke))
+        wishes.check(replace(case, stroke=stroke or 0.5 * case.largest_stroke))
     if sequence is not None:
         check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, deck)
         run_sequence(sequence, case, note, out, length, tolerance=tolerance, overwrite=overwrite)
@@ -164,7 +164,7 @@ def bend(
                 files = write_files(place, done, note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if wishes:
-        show_scatter(wishes.plan(done.case).run(), place, done.warnings)
+        show_scatter(wishes.run(done.case), place, done.warnings)
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
 

@@ -28,6 +28,7 @@ from umform.cli.options import (
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.scattering import Wishes, scattering, show_scatter
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
@@ -83,6 +84,7 @@ def _halves() -> Iterator[None]:
 @group.command()
 @given_by(Cup, omit=(*_NOT_TYPED, "blank_radius", "punch_radius", "die_radius"), **ESAFORM | _varied(Cup))
 @_halves()
+@scattering
 def cup(
     given: Given,
     out: Out = None,
@@ -107,6 +109,8 @@ def cup(
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
+    *,
+    wishes: Wishes,
 ) -> None:
     """Draw a round cup from a disc: forces, ears, thickness, strains and limits, springback.
 
@@ -121,11 +125,12 @@ def cup(
     if deck:
         print_deck(case)
         return
-    _run(case, draw, out, "cup", note, limit_curve, overwrite=overwrite, timing=timing)
+    _run(case, draw, out, "cup", note, limit_curve, wishes, overwrite=overwrite, timing=timing)
 
 
 @group.command()
 @given_by(UBend, omit=_NOT_TYPED, called={"punch_width": "--punch"}, **NUMISHEET | _varied(UBend))
+@scattering
 def u(
     given: Given,
     out: Out = None,
@@ -152,6 +157,8 @@ def u(
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
+    *,
+    wishes: Wishes,
 ) -> None:
     """Draw a U-bend from a strip in plane strain: forces, springback angles, strains and limits.
 
@@ -168,7 +175,7 @@ def u(
         return
     three = not coarse if extrapolate is None else extrapolate
     how = extrapolated if three else draw
-    _run(case, how, out, "u-bend", note, limit_curve, overwrite=overwrite, timing=timing)
+    _run(case, how, out, "u-bend", note, limit_curve, wishes, overwrite=overwrite, timing=timing)
 
 
 def _on_mesh(spec: type[Cup | UBend], given: Given, coarse: bool, fine: bool) -> Given:
@@ -216,6 +223,7 @@ def _run(
     name: str,
     note: str,
     limit: Path | None,
+    wishes: Wishes,
     *,
     overwrite: bool,
     timing: bool,
@@ -227,6 +235,8 @@ def _run(
     from umform.processes.draw.words import before_the_run
 
     print_warnings_once()
+    if wishes:  # refuse what is wrong before the run
+        wishes.check(case)
     curve = _limit(limit)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results") / name, FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
@@ -242,6 +252,8 @@ def _run(
             with drawn.result.timing.files:
                 files = write_files(place, drawn, note, blank)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+    if wishes and drawn.released is not None:
+        show_scatter(wishes.run(case), place, drawn.warnings)
     if timing:
         show_timing(drawn.result.timing)
     if drawn.released is None:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -12,7 +13,7 @@ import typer
 
 from umform.cli.given import in_place_of
 from umform.cli.outcome_screen import print_table
-from umform.cli.root import console
+from umform.cli.root import console, say_of
 from umform.cli.warnings import echo_warnings
 from umform.errors import InvalidValue
 
@@ -23,21 +24,18 @@ if TYPE_CHECKING:
 _PANEL = "Scatter of the results"
 
 
-def _repeatable(metavar: str, help_text: str, *names: str) -> Any:
-    info = typer.Option(*names, metavar=metavar, help=f"{help_text}; repeatable.", rich_help_panel=_PANEL)
-    return Annotated[list[str] | None, info]
-
-
-#: Options by the names that they have in `uf.scatter`.
+#: Option, its values and its help, by the names of `uf.scatter`.
 _OPTIONS = {
-    "sources": _repeatable("PATH=SIZE", "Standard deviation of a parameter, such as thickness=2% or 0.02", "--scatter"),
-    "tolerances": _repeatable(
-        "PATH=SIZE", "Tolerance of a parameter, such as die_radius=±0.05: three standard deviations", "--tolerance"
+    "sources": ("--scatter", "PATH=SIZE", "Standard deviation of a parameter, such as thickness=2% or 0.02"),
+    "tolerances": (
+        "--tolerance",
+        "PATH=SIZE",
+        "Tolerance of a parameter, such as die_radius=±0.05: three standard deviations",
     ),
-    "correlations": _repeatable("A,B=NUMBER", "Correlation of two parameters, from -1 to 1", "--correlate"),
-    "limits": _repeatable("NAME=LOW:HIGH", "Limits of a result, such as angle=89:91; for Cp and Cpk", "--limit"),
-    "hold": _repeatable("NAME=PATH", "Result that a parameter keeps constant, such as angle=stroke", "--hold"),
-    "of": _repeatable("NAME", "Result; default: those with limits, or all", "--measure"),
+    "correlations": ("--correlate", "A,B=NUMBER", "Correlation of two parameters, from -1 to 1"),
+    "limits": ("--limit", "NAME=LOW:HIGH", "Limits of a result, such as angle=89:91; for Cp and Cpk"),
+    "hold": ("--hold", "NAME=PATH", "Result that a parameter keeps constant, such as angle=stroke"),
+    "of": ("--measure", "NAME", "Result; default: those with limits, or all"),
 }
 
 
@@ -56,27 +54,44 @@ class Wishes:
     def __bool__(self) -> bool:
         return any(self.typed.values())
 
-    def plan(self, subject: Any) -> Plan:
-        """The plan for a problem or a case; all that can be wrong without a run is refused."""
+    def check(self, subject: Any) -> None:
+        """Refuse all that can be wrong without a run."""
+        with self._refusals():
+            self._plan(subject)
+
+    def run(self, subject: Any) -> Scattered:
+        """The scatter of a problem or a case."""
+        with self._refusals():
+            return self._plan(subject).run()
+
+    @staticmethod
+    @contextmanager
+    def _refusals() -> Iterator[None]:
+        """Print what is wrong with options in their words, and exit with code 1; paths stay as they are."""
+        try:
+            yield
+        except InvalidValue as error:
+            error.where, *_ = _OPTIONS.get(error.where, (error.where,))
+            say_of(error)
+            raise typer.Exit(1) from error
+
+    def _plan(self, subject: Any) -> Plan:
         from umform.studies.scatter.source import Scatter
         from umform.studies.scatter.study import Plan
 
-        tolerances = {
-            name: Scatter.of(text, tolerance=True) for name, text in self._pairs("tolerances", "--tolerance").items()
-        }
+        tolerances = {name: Scatter.of(text, tolerance=True) for name, text in self._pairs("tolerances").items()}
         return Plan.of(
             subject,
-            self._pairs("sources", "--scatter") | tolerances,
+            self._pairs("sources") | tolerances,
             self.typed["of"],
             correlations={
-                _two(pair): _number(text, f"{pair}={text}")
-                for pair, text in self._pairs("correlations", "--correlate").items()
+                _two(pair): _number(text, f"{pair}={text}") for pair, text in self._pairs("correlations").items()
             },
-            limits=self._pairs("limits", "--limit"),
-            hold=self._pairs("hold", "--hold"),
+            limits=self._pairs("limits"),
+            hold=self._pairs("hold"),
         )
 
-    def _pairs(self, name: str, option: str) -> dict[str, Any]:
+    def _pairs(self, name: str) -> dict[str, Any]:
         """Texts behind the sign = by those before it."""
         pairs: dict[str, Any] = {}
         for text in self.typed[name] or ():
@@ -84,10 +99,10 @@ class Wishes:
             if not (sign and key.strip() and value.strip()) or key.strip() in pairs:
                 raise InvalidValue(
                     "a name has two values" if key.strip() in pairs else "this is no name with a value",
-                    where=option,
+                    where=name,
                     value=text,
                     cause="" if sign else "the sign = is missing",
-                    remedy=f"write {option} {_OPTIONS[name].__metadata__[0].metavar}, once for each name",
+                    remedy=f"write {_OPTIONS[name][1]}, once for each name",
                 )
             pairs[key.strip()] = value.strip()
         return pairs
@@ -113,9 +128,17 @@ def _number(text: str, typed: str) -> float:
 
 def scattering(command: Callable[..., Any]) -> Callable[..., Any]:
     """Give a command the options of scatter; its parameter ``wishes`` gets them."""
-    kind = inspect.Parameter.KEYWORD_ONLY
-    options = [inspect.Parameter(name, kind, default=None, annotation=hint) for name, hint in _OPTIONS.items()]
-    return in_place_of("wishes", options, Wishes)(command)
+    options = [
+        inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=_repeatable(*told))
+        for name, told in _OPTIONS.items()
+    ]
+    made: Callable[..., Any] = in_place_of("wishes", options, Wishes)(command)
+    return made
+
+
+def _repeatable(name: str, metavar: str, text: str) -> Any:
+    info = typer.Option(name, metavar=metavar, help=f"{text}; repeatable.", rich_help_panel=_PANEL)
+    return Annotated[list[str] | None, info]
 
 
 def show_scatter(found: Scattered, folder: Path, said: Sequence[str] = ()) -> None:

@@ -40,10 +40,10 @@ def sigma(
     print_warnings_once()
     with deck_errors():
         loaded = read(deck, changes or (), trust)
-    plan = wishes.plan(loaded)
+    wishes.check(loaded)
     default = Path("results") / f"{deck.stem}-sigma"
     place = folder_for(
         out, default, FILES, overwrite=overwrite, say=lambda text: typer.echo(f"umform: {text}", err=True)
     )
     with staging(place, FILES):
-        show_scatter(plan.run(), place)
+        show_scatter(wishes.run(loaded), place)

@@ -20,6 +20,8 @@ from umform.studies.derivatives.subjects import Built, OfCase, OfFunction, OfPro
 
 #: Change of a parameter relative to its value; that of one without a unit, whose effect is often small.
 STEP, STEP_WITHOUT_UNIT = 3e-5, 1e-4
+#: Number of paths that fit into a message.
+_FEW = 40
 #: Tables of a problem whose numbers are no parameters of the part: their effect is an error of the solution.
 _OF_THE_SOLUTION = ("solution.", "output.")
 
@@ -158,7 +160,7 @@ def known(path: str, numbers: Mapping[str, Scalar], where: str = "by") -> Scalar
             where=where,
             value=path,
             cause=slip(path, numbers) if not found else ", ".join(found),
-            remedy="one of the paths that umform paths lists" if not found else f"write more of it, as {found[0]}",
+            remedy=f"one of {_listed(numbers)}" if not found else f"write more of it, as {found[0]}",
         )
     one = numbers[found[0]]
     why = ""
@@ -171,6 +173,11 @@ def known(path: str, numbers: Mapping[str, Scalar], where: str = "by") -> Scalar
             "this number has no derivative", where=found[0], value=one.value, cause=why, remedy="umform sweep varies it"
         )
     return one
+
+
+def _listed(paths: Mapping[str, Scalar]) -> str:
+    """The paths, or where they are listed if they are many."""
+    return ", ".join(paths) if len(paths) <= _FEW else "the paths that umform paths lists"
 
 
 def _shadow(thing: Subject, one: Scalar, lead: Built) -> tuple[tuple[Subject, Built], float]:

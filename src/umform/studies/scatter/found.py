@@ -148,8 +148,8 @@ class Scattered:
             if bent:
                 own.append(
                     f"{run.title} changes {', '.join(bent)} by more than {100.0 * ALLOWED:g} % less or more than the "
-                    f"derivative predicts: standard deviation and shares are rough there; "
-                    f"umform sweep over {run.path} shows the curve"
+                    f"derivative predicts: standard deviation and shares are rough there"
+                    f"{f' ({run.note})' if run.note else ''}; umform sweep over {run.path} shows the curve"
                 )
         return own
 

@@ -47,7 +47,7 @@ def scatter(
     """Standard deviations of the results of a run, the share of each source, and the capability for limits.
 
     The derivatives of one run give them to first order. A second run, with the largest source of the first result (or
-    of each result with limits) two standard deviations higher, shows whether the first order holds.
+    of each result with limits) two standard deviations higher or lower, shows whether the first order holds.
 
     Parameters
     ----------
@@ -192,7 +192,7 @@ class Plan:
             try:
                 runs.append(second_run(self.thing, free, kept, path, step, self.wanted, progress))
             except UmformError as error:
-                failures.append(f"a second run at {path} + {STEPS:g} sigma failed: {str(error).splitlines()[0]}")
+                failures.append(f"a second run at {path} ± {STEPS:g} sigma failed: {str(error).splitlines()[0]}")
         spreads = tuple(self._spreads(kept, runs))
         return Scattered(spreads, self.sources, self.covariance, kept, tuple(runs), tuple(failures))
 
