@@ -79,7 +79,13 @@ class Wishes:
         from umform.studies.scatter.source import Scatter
         from umform.studies.scatter.study import Plan
 
-        tolerances = {name: Scatter.of(text, tolerance=True) for name, text in self._pairs("tolerances").items()}
+        tolerances = {}
+        for name, text in self._pairs("tolerances").items():
+            try:
+                tolerances[name] = Scatter.of(text, tolerance=True)
+            except InvalidValue as error:
+                error.where = name
+                raise
         return Plan.of(
             subject,
             self._pairs("sources") | tolerances,

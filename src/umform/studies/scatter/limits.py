@@ -52,7 +52,7 @@ class Limits:
             return cls(*given)
         low, colon, high = given.partition(":")
         try:
-            return cls(*(float(one) if one.strip() else None for one in (low, high if colon else "nan")))
+            ends = [float(one) if one.strip() else None for one in (low, high if colon else "nan")]
         except ValueError:
             raise InvalidValue(
                 "limits are two numbers",
@@ -61,6 +61,7 @@ class Limits:
                 cause="a decimal comma" if "," in given else "",
                 remedy="write low:high, such as 89:91; low: or :high for one limit",
             ) from None
+        return cls(*ends)
 
     @property
     def text(self) -> str:

@@ -247,8 +247,9 @@ def _wanted(of: Wanted | None, limits: Mapping[str, Limits], held: Mapping[str, 
     """Results whose derivatives are wanted; None for all. A parameter that follows is one in any case."""
     if of is None and not limits:
         return None
-    names = [*(limits if of is None else of), *limits, *held]
-    return [one for one in dict.fromkeys(names) if one not in held.values()]
+    given = list(limits if of is None else of)
+    known_names = [*(getattr(one, "__name__", one) for one in given), *held.values()]
+    return [*given, *(name for name in dict.fromkeys([*limits, *held]) if name not in known_names)]
 
 
 def _largest(spreads: Sequence[Spread], limits: Mapping[str, Limits]) -> list[str]:
