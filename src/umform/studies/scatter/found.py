@@ -47,6 +47,14 @@ class Scattered:
         Runs that show whether the first order holds.
     failures : tuple of str
         Why others could not be made.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> from umform.processes.air_bending import AirBending
+    >>> found = uf.scatter(AirBending(stroke=6.0), {"thickness": "1%"}, hold={"angle": "stroke"})  # doctest: +SKIP
+    >>> found["stroke"].deviation.full_text, found["springback"].largest  # doctest: +SKIP
+    >>> found.write("results")  # doctest: +SKIP
     """
 
     spreads: tuple[Spread, ...]
@@ -78,7 +86,7 @@ class Scattered:
             "Parameters that scatter": self._table_of_sources,
             "Scatter of the results": self._table_of_results,
             "Shares of the variance in %": self._table_of_shares,
-        } | {f"Changes by {one.title}": self._table_of_run(one) for one in self.second_runs}
+        } | {f"{one.place}: changes": self._table_of_run(one) for one in self.second_runs}
 
     @property
     def _table_of_sources(self) -> list[list[str]]:
@@ -199,8 +207,8 @@ class Scattered:
 
 
 def _with_error(quantity: Quantity, deviation: float | None) -> str:
-    """A number with its error, if that is more than a hundredth of the standard deviation."""
-    shown = quantity.band is not None and quantity.band.error > 0.01 * (deviation or 0.0)
+    """A number with its error, if that is more than a twentieth of the standard deviation."""
+    shown = quantity.band is not None and quantity.band.error > 0.05 * (deviation or 0.0)
     return f"{quantity.text} {quantity.error_text}" if shown else replace(quantity, band=None).text
 
 

@@ -46,7 +46,12 @@ class SecondRun:
     @property
     def title(self) -> str:
         """What has been run."""
-        return f"a second run at {self.path} {'+' if self.step > 0.0 else '-'} {STEPS:g} sigma"
+        return f"a second run at {self.place}"
+
+    @property
+    def place(self) -> str:
+        """Where it has been run."""
+        return f"{self.path} {'+' if self.step > 0.0 else '-'} {STEPS:g} sigma"
 
     @property
     def note(self) -> str:
