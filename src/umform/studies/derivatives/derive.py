@@ -20,8 +20,6 @@ from umform.studies.derivatives.subjects import Built, OfCase, OfFunction, OfPro
 
 #: Change of a parameter relative to its value; that of one without a unit, whose effect is often small.
 STEP, STEP_WITHOUT_UNIT = 3e-5, 1e-4
-#: Number of paths that fit into a message.
-_FEW = 40
 #: Tables of a problem whose numbers are no parameters of the part: their effect is an error of the solution.
 _OF_THE_SOLUTION = ("solution.", "output.")
 
@@ -88,9 +86,9 @@ def derivatives(
     """
     held = dict(hold or {})
     thing = subject_of(subject, by, options, solver)
-    numbers = {one.path: one for one in thing.parameters()}
+    known = {one.path: one for one in thing.parameters()}
     names = list(dict.fromkeys([*by, *held.values()]))
-    parameters = [known(name, numbers) for name in names]
+    parameters = [known_parameter(name, known) for name in names]
     lead = thing.build()
     shadows, sizes = {}, {}
     for one in parameters:
@@ -121,7 +119,7 @@ def derivatives(
     return whole.holding(held) if held else whole
 
 
-def subject_of(subject: Any, by: Any, options: NewtonOptions | None, solver: str | None) -> Subject:
+def subject_of(subject: Any, by: Any, options: NewtonOptions | None = None, solver: str | None = None) -> Subject:
     """What derivatives are taken of, from what a user gives.
 
     Raises
@@ -144,7 +142,7 @@ def subject_of(subject: Any, by: Any, options: NewtonOptions | None, solver: str
     return OfCase(subject)
 
 
-def known(path: str, numbers: Mapping[str, Scalar], where: str = "by") -> Scalar:
+def known_parameter(path: str, known: Mapping[str, Scalar]) -> Scalar:
     """The number of a path, or of the last parts of one, if that is unique.
 
     Raises
@@ -153,16 +151,16 @@ def known(path: str, numbers: Mapping[str, Scalar], where: str = "by") -> Scalar
         There is none, there are several, or it is no parameter of the part.
     """
     parts = path.split(".")
-    found = [path] if path in numbers else [one for one in numbers if one.split(".")[-len(parts) :] == parts]
+    found = [path] if path in known else [one for one in known if one.split(".")[-len(parts) :] == parts]
     if len(found) != 1:
         raise InvalidValue(
             "a path is ambiguous" if found else "there is no number of this path",
-            where=where,
+            where="by",
             value=path,
-            cause=slip(path, numbers) if not found else ", ".join(found),
-            remedy=f"one of {_listed(numbers)}" if not found else f"write more of it, as {found[0]}",
+            cause=slip(path, known) if not found else ", ".join(found),
+            remedy="one of the paths that umform paths lists" if not found else f"write more of it, as {found[0]}",
         )
-    one = numbers[found[0]]
+    one = known[found[0]]
     why = ""
     if found[0].startswith(_OF_THE_SOLUTION):
         why = "its effect is an error of the solution, not a change of the part"
@@ -173,11 +171,6 @@ def known(path: str, numbers: Mapping[str, Scalar], where: str = "by") -> Scalar
             "this number has no derivative", where=found[0], value=one.value, cause=why, remedy="umform sweep varies it"
         )
     return one
-
-
-def _listed(paths: Mapping[str, Scalar]) -> str:
-    """The paths, or where they are listed if they are many."""
-    return ", ".join(paths) if len(paths) <= _FEW else "the paths that umform paths lists"
 
 
 def _shadow(thing: Subject, one: Scalar, lead: Built) -> tuple[tuple[Subject, Built], float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import cycle
 from pathlib import Path
 
@@ -35,7 +36,8 @@ def bars(spreads: Sequence[Spread], path: str | Path | None = None) -> Figure:
             for end, share in zip(ends, shares, strict=True):
                 end[share > 0.0] += share
         axes.set_yticks(
-            range(len(spreads)), [f"{one.response.label}\nσ = {one.deviation.full_text}" for one in spreads]
+            range(len(spreads)),
+            [f"{one.response.label}\nσ = {replace(one.deviation, band=None).full_text}" for one in spreads],
         )
         axes.invert_yaxis()
         axes.set_xlabel("share of the variance, %")

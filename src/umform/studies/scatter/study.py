@@ -17,7 +17,7 @@ from umform.progress import Show
 from umform.results.quantity import Quantity
 from umform.spec import Scalar
 from umform.studies.derivatives import Derivatives, derivatives
-from umform.studies.derivatives.derive import known, subject_of
+from umform.studies.derivatives.derive import known_parameter, subject_of
 from umform.studies.derivatives.subjects import Subject
 from umform.studies.scatter.correlations import covariance
 from umform.studies.scatter.found import Scattered
@@ -27,6 +27,8 @@ from umform.studies.scatter.source import Scatter, Source
 from umform.studies.scatter.spread import Spread
 
 Floats = NDArray[np.float64]
+#: Number of paths that fit into a message.
+_FEW = 40
 #: What a result may be named by.
 Wanted = Sequence[str | Callable[[Result], float | Quantity]]
 
@@ -167,9 +169,9 @@ class Plan:
         allowed = {name: Limits.of(one) for name, one in (limits or {}).items()}
         thing = subject_of(subject, values, settings.get("options"), settings.get("solver"))
         numbers = {one.path: one for one in thing.parameters()}
-        held = {name: known(path, numbers, "hold").path for name, path in (hold or {}).items()}
+        held = {name: _parameter(path, numbers, "hold").path for name, path in (hold or {}).items()}
         made = _sources(sources, numbers, held)
-        matrix = covariance(made, correlations or {}, lambda name: known(name, numbers, "correlations").path)
+        matrix = covariance(made, correlations or {}, lambda name: _parameter(name, numbers, "correlations").path)
         by: Any = [*(one.path for one in made), *held.values()]
         if values is not None:
             subject = partial(subject, **{name: value for name, value in values.items() if name not in by})
@@ -209,6 +211,18 @@ class Plan:
         return list(spreads.values())
 
 
+def _parameter(name: str, numbers: Mapping[str, Scalar], where: str) -> Scalar:
+    """The parameter of a name that stands in an argument of :func:`scatter`."""
+    try:
+        return known_parameter(name, numbers)
+    except InvalidValue as error:
+        if error.where == "by":
+            error.where = where
+        if "umform paths" in error.remedy and len(numbers) <= _FEW:  # of a process, whose paths it does not list
+            error.remedy = f"one of {', '.join(numbers)}"
+        raise
+
+
 def _sources(
     given: Mapping[str, Scatter | float | str], numbers: Mapping[str, Scalar], held: Mapping[str, str]
 ) -> list[Source]:
@@ -221,7 +235,7 @@ def _sources(
     """
     found: dict[str, Source] = {}
     for name, one in given.items():
-        parameter = known(name, numbers, "sources")
+        parameter = _parameter(name, numbers, "sources")
         if parameter.path in found or parameter.path in held.values():
             raise InvalidValue(
                 "a parameter cannot scatter twice"
@@ -248,8 +262,8 @@ def _wanted(of: Wanted | None, limits: Mapping[str, Limits], held: Mapping[str, 
     if of is None and not limits:
         return None
     given = list(limits if of is None else of)
-    known_names = [*(getattr(one, "__name__", one) for one in given), *held.values()]
-    return [*given, *(name for name in dict.fromkeys([*limits, *held]) if name not in known_names)]
+    taken = [*(getattr(one, "__name__", one) for one in given), *held.values()]
+    return [*given, *(name for name in dict.fromkeys([*limits, *held]) if name not in taken)]
 
 
 def _largest(spreads: Sequence[Spread], limits: Mapping[str, Limits]) -> list[str]:
