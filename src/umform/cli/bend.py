@@ -33,6 +33,7 @@ from umform.cli.options import (
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.scattering import Wishes, scattering, show_scatter
 from umform.cli.sequence import run_sequence
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
@@ -54,6 +55,7 @@ _GOAL, _TOOLS = "What to do", "Tools"
 
 @app.command()
 @given_by(Goal, AirBending, omit=("material", "punch_section", "die_section"))
+@scattering
 def bend(
     context: typer.Context,
     given: Given,
@@ -90,6 +92,8 @@ def bend(
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
+    *,
+    wishes: Wishes,
 ) -> None:
     """Air-bend a sheet in a V-die, and unload it.
 
@@ -121,6 +125,8 @@ def bend(
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     tools = drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer)
     case = AirBending(**{**given, "stroke": stroke}, **tools, material=law)
+    if wishes:  # refuse what is wrong before the run
+        wishes.check(replace(case, stroke=stroke or 0.5 * case.largest_stroke))
     if sequence is not None:
         check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, deck)
         run_sequence(sequence, case, note, out, length, tolerance=tolerance, overwrite=overwrite)
@@ -165,6 +171,8 @@ def bend(
             with done.result.timing.files:
                 files = [*write_files(place, done, note), *more]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+    if wishes:
+        show_scatter(wishes.run(done.case), place, done.warnings)
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
 

@@ -29,6 +29,7 @@ FILES = {
     "plot": "plot",
     "resume": "resume",
     "run": "run",
+    "sigma": "sigma",
     "sweep": "sweep",
     "view": "view",
 }
