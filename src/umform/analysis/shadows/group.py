@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import Any, Self
 
 import numpy as np
@@ -14,9 +13,10 @@ from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.run.execute import prepared_steps, solve_followed
 from umform.analysis.run.going import ready
 from umform.analysis.run.result import Result
-from umform.analysis.shadows.shadow import Factors, Guess, Kept, Shadow
+from umform.analysis.shadows.shadow import Factors, Guess, Kept, Shadow, forces_of, reason
 from umform.analysis.steps import Step
 from umform.analysis.steps.loop import Run
+from umform.errors import UmformError
 from umform.model import Model
 from umform.model.terms.control import Control
 from umform.results.records import Failed
@@ -53,35 +53,46 @@ class Shadows:
 
     def __init__(self, lead: Run, reference: Shadow, others: Sequence[Shadow]) -> None:
         self.reference, self.others = reference, others
-        self._first = [contact.penalty for contact in lead.model.contacts]
         self._lead = _Unknowns.of(lead.model)
         self._last: Guess | None = None
 
     def follow(self, lead: Run, *, frame: bool) -> None:
         """Repeat the increment that the leading run has accepted."""
-        reference, before = self.reference, self._lead
-        self._lead = _Unknowns.of(lead.model)
-        penalties = zip(lead.model.contacts, self._first, strict=True)
-        growth = [contact.penalty / first if first else 1.0 for contact, first in penalties]
-        model, change = reference.run.model, partial(self._lead.since, before)
-        before = _Unknowns.of(model)
-        passes = _repeat(reference, lead, growth, change, None, None, frame=frame)
-        solver = reference.run.newton.ready_solver()
-        solver.factor(reference.evaluation)
-        factors = Factors(solver, reference.evaluation.x, reference.residual)
-        made = _Unknowns.of(model).since(before, model)
+        before, self._lead = self._lead, _Unknowns.of(lead.model)
+        if self.reference.kept.lost:
+            return
+        growth = [contact.penalty / contact.initial_penalty for contact in lead.model.contacts]
+        reference, model = self.reference, self.reference.run.model
+        start, change = _Unknowns.of(model), self._lead.since(before)
+        try:
+            passes = _repeat(reference, lead, growth, change, None, None, frame=frame)
+            solver = reference.run.newton.ready_solver()
+            solver.factor(reference.evaluation)
+        except (Failed, UmformError) as failure:
+            for one in (reference, *self.others):
+                one.lose(f"the run has no solution to round-off there, {reason(failure)}", len(lead.result) - 1)
+            return
+        forces = forces_of(model, reference.evaluation)
+        factors = Factors(solver, reference.evaluation.x, reference.residual, forces)
+        made = _Unknowns.of(model).since(start)
         ratio, self._last = _ratio(self._last, made), made
         for shadow in (one for one in self.others if not one.kept.lost):
             guess = made if ratio is None or shadow.ahead is None else _sum(made, ratio, shadow.ahead)
             start = _Unknowns.of(shadow.run.model)
             try:
                 _repeat(shadow, lead, growth, guess, factors, passes, frame=frame)
-            except Failed as failure:
-                shadow.kept.lost, shadow.kept.from_row = failure.reason, len(reference.run.result) - 1
+            except (Failed, UmformError) as failure:
+                shadow.lose(reason(failure), len(lead.result) - 1)
             else:
                 shadow.kept.switched.append(_switched(shadow, reference))
-                own = _Unknowns.of(shadow.run.model).since(start, shadow.run.model)
+                own = _Unknowns.of(shadow.run.model).since(start)
                 shadow.ahead = _sum(own, -1.0, made)
+
+    def end(self) -> None:
+        """Begin the last steps, in which there was nothing to do."""
+        for one in (self.reference, *self.others):
+            if not one.kept.lost:
+                one.at_step(len(one.steps))
 
 
 @dataclass(frozen=True)
@@ -98,33 +109,33 @@ class _Unknowns:
         scalars = {unknown.name: unknown.value for unknown in model.system.unknowns}
         return cls(model.u.copy(), scalars, model.system.enhanced)
 
-    def since(self, before: Self, model: Model) -> Guess:
-        """Their change, in the order of the unknowns of a model; zero for unknowns that were none before."""
-        names = [unknown.name for unknown in model.system.unknowns]
-        scalars = [self.scalars.get(n, 0.0) - before.scalars.get(n, self.scalars.get(n, 0.0)) for n in names]
+    def since(self, before: Self) -> Guess:
+        """Their change; zero for unknowns that were none before."""
+        scalars = {name: value - before.scalars.get(name, value) for name, value in self.scalars.items()}
         enhanced = [one - other for one, other in zip(self.enhanced, before.enhanced, strict=True)]
-        return Guess(np.concatenate([self.u - before.u, scalars]), enhanced)
+        return Guess(self.u - before.u, scalars, enhanced)
 
 
 def _sum(one: Guess, factor: float, other: Guess) -> Guess:
+    scalars = {name: value + factor * other.scalars.get(name, 0.0) for name, value in one.scalars.items()}
     enhanced = [a + factor * b for a, b in zip(one.enhanced, other.enhanced, strict=True)]
-    return Guess(one.x + factor * other.x, enhanced)
+    return Guess(one.u + factor * other.u, scalars, enhanced)
 
 
 def _ratio(last: Guess | None, change: Guess) -> float | None:
-    """An increment relative to the last one; None if their unknowns differ, or their directions."""
-    if last is None or last.x.shape != change.x.shape:
+    """An increment relative to the last one; None if their directions differ."""
+    if last is None:
         return None
-    size = float(last.x @ last.x)
-    ratio = float(last.x @ change.x) / size if size > 0.0 else 0.0
-    return ratio if ratio > 0.0 and ratio * ratio * size > 0.25 * float(change.x @ change.x) else None
+    size = float(last.u @ last.u)
+    ratio = float(last.u @ change.u) / size if size > 0.0 else 0.0
+    return ratio if ratio > 0.0 and ratio * ratio * size > 0.25 * float(change.u @ change.u) else None
 
 
 def _repeat(
     shadow: Shadow,
     lead: Run,
     growth: Sequence[float],
-    guess: Guess | Callable[[Model], Guess],
+    guess: Guess,
     factors: Factors | None,
     passes: Sequence[int] | None,
     *,
@@ -137,11 +148,7 @@ def _repeat(
 
     def take(values: Sequence[float], controls: Sequence[Control], time: float) -> None:
         given = None if passes is None else passes[min(len(counts), len(passes) - 1)]
-        counts.append(
-            shadow.increment(
-                values, controls, time, guess if isinstance(guess, Guess) else guess(run.model), factors, given
-            )
-        )
+        counts.append(shadow.increment(values, controls, time, guess, factors, given))
 
     assert run.loop is not None
     run.loop.follow(run, step, lead, take)
@@ -190,7 +197,5 @@ def solve_with_shadows(
         return Shadows(run, made[0], made[1:])
 
     result = solve_followed(lead[0], lead[1], follower, solver=solver, options=options, frames=frames, **rest)
-    for one in made:
-        one.at_step(len(one.steps))
     kept = dict(zip(shadows, (one.kept for one in made[1:]), strict=True))
     return Shadowed(result, results[0], dict(zip(shadows, results[1:], strict=True)), kept)

@@ -165,3 +165,21 @@ def refuse_other_structure(path: str, one: Built, other: Built) -> None:
             cause="their number follows from it",
             remedy="give the numbers of elements and steps, or a value a little off",
         )
+
+
+def refuse_same_model(builds: Sequence[Built]) -> None:
+    """Refuse models that are built once for several runs: each run has its own state.
+
+    Raises
+    ------
+    InvalidValue
+        Two of them are one object.
+    """
+    if len({id(one.model) for one in builds}) < len(builds):
+        raise InvalidValue(
+            "a function returns the same model twice",
+            where="the function of the parameters",
+            value=builds[0].model,
+            cause="it keeps the model, or was given it",
+            remedy="build the mesh, the model and its steps anew in each call",
+        )
