@@ -36,7 +36,7 @@ LAWS: dict[str, Any] = {
     "Metal, Mises": _metal(),
     "Metal, Hill48, Chaboche, FallingModulus": _metal(
         yield_function=HILL,
-        back_stress=uf.Chaboche([(9000.0, 120.0), (800.0, 8.0)], first=1.2, rate=5.0),
+        back_stress=uf.Chaboche(((9000.0, 120.0), (800.0, 8.0)), first=1.2, rate=5.0),
         modulus=uf.FallingModulus(saturated=150e3, rate=40.0),
     ),
     "Metal, Yld2004": _metal(yield_function=YLD2004),

@@ -4,19 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from os import PathLike
 from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from umform.analysis.newton.options import NewtonOptions
-from umform.analysis.run.execute import prepared_steps, solve_followed
+from umform.analysis.run.execute import prepared_steps, resume_followed, solve_followed
+from umform.analysis.run.fingerprint import fingerprint, text
 from umform.analysis.run.going import ready
 from umform.analysis.run.result import Result
 from umform.analysis.shadows.shadow import Factors, Guess, Kept, Shadow, forces_of, reason
+from umform.analysis.shadows.structure import other_structure
 from umform.analysis.steps import Step
 from umform.analysis.steps.loop import Run
-from umform.errors import UmformError
+from umform.errors import InvalidValue, UmformError
 from umform.model import Model
 from umform.model.terms.control import Control
 from umform.results.records import Failed
@@ -40,12 +43,15 @@ class Shadowed:
         A run for each changed parameter.
     kept : dict of object to Kept
         What each of them has kept.
+    missing : str
+        Why the reference, and with it all shadows, are unknown from a row on; empty if they are known.
     """
 
     run: Result
     reference: Result
     shadows: dict[Any, Result]
     kept: dict[Any, Kept]
+    missing: str = ""
 
 
 class Shadows:
@@ -55,12 +61,35 @@ class Shadows:
         self.reference, self.others = reference, others
         self._lead = _Unknowns.of(lead.model)
         self._last: Guess | None = None
+        self.level = True
+
+    def mark(self) -> str:
+        """Text that identifies their input."""
+        runs = [(one.run, one.steps) for one in (self.reference, *self.others)]
+        return text([fingerprint(run.model, steps, run.newton, run.frames) for run, steps in runs])
+
+    def memory(self) -> dict[str, Any]:
+        """Their state, for checkpoints."""
+        last = None if self._last is None else vars(self._last)
+        others = [one.memory() for one in self.others]
+        return {"reference": self.reference.memory(), "others": others, "last": last}
+
+    def recall(self, lead: Run, memory: dict[str, Any]) -> None:
+        """Restore their state, beside a leading run that is restored already."""
+        self._lead = _Unknowns.of(lead.model)
+        self._last = None if memory["last"] is None else Guess(**memory["last"])
+        for one, tree in zip((self.reference, *self.others), (memory["reference"], *memory["others"]), strict=True):
+            one.recall(tree)
 
     def follow(self, lead: Run, *, frame: bool) -> None:
         """Repeat the increment that the leading run has accepted."""
+        self.level = False
         before, self._lead = self._lead, _Unknowns.of(lead.model)
-        if self.reference.kept.lost:
-            return
+        if not self.reference.kept.lost:
+            self._follow(lead, before, frame=frame)
+        self.level = True
+
+    def _follow(self, lead: Run, before: _Unknowns, *, frame: bool) -> None:
         growth = [contact.penalty / contact.initial_penalty for contact in lead.model.contacts]
         reference, model = self.reference, self.reference.run.model
         start, change = _Unknowns.of(model), self._lead.since(before)
@@ -181,21 +210,98 @@ def solve_with_shadows(
     shadows : mapping of object to tuple of Model and steps
         The problem with one parameter changed a little, each with the same mesh topology, tools and steps.
     solver, options, frames, **rest
-        See :func:`umform.solve`.
+        See :func:`umform.solve`; the checkpoint has the state of all runs.
+
+    Raises
+    ------
+    InvalidValue
+        If the solver is that of many ranks.
     """
-    made: list[Shadow] = []
-    results: list[Result] = []
+    group = _Group(reference, shadows, solver, options, frames)
+    return group.ended(solve_followed(*lead, group, solver=solver, options=options, frames=frames, **rest))
 
-    def follower(run: Run) -> Shadows:
-        for model, steps in (reference, *shadows.values()):
-            sequence = prepared_steps(model, steps)
-            own_result = Result(model)
-            own = ready(own_result, solver, options, frames, sequence)
-            own_result.add(own.evaluation, [], frame=frames > 0)
-            made.append(Shadow(own, sequence))
-            results.append(own_result)
-        return Shadows(run, made[0], made[1:])
 
-    result = solve_followed(lead[0], lead[1], follower, solver=solver, options=options, frames=frames, **rest)
-    kept = dict(zip(shadows, (one.kept for one in made[1:]), strict=True))
-    return Shadowed(result, results[0], dict(zip(shadows, results[1:], strict=True)), kept)
+def resume_with_shadows(
+    path: str | PathLike[str],
+    lead: Built,
+    reference: Built,
+    shadows: Mapping[Any, Built],
+    *,
+    solver: str = "auto",
+    options: NewtonOptions | None = None,
+    frames: int = 60,
+    **rest: Any,
+) -> Shadowed:
+    """Continue a run and its shadows from their checkpoint; the results have the bits of uninterrupted ones.
+
+    Parameters
+    ----------
+    path : str or PathLike
+        The checkpoint.
+    lead, reference, shadows, solver, options, frames
+        Those of :func:`solve_with_shadows`, built again.
+    **rest
+        See :func:`umform.resume`.
+    """
+    group = _Group(reference, shadows, solver, options, frames)
+    return group.ended(resume_followed(path, *lead, group, solver=solver, options=options, frames=frames, **rest))
+
+
+class _Group:
+    """Makes the shadows of a run when it is ready, and collects what they have found."""
+
+    def __init__(
+        self,
+        reference: Built,
+        shadows: Mapping[Any, Built],
+        solver: str,
+        options: NewtonOptions | None,
+        frames: int,
+    ) -> None:
+        if solver == "petsc":
+            raise InvalidValue(
+                "shadows run in one process",
+                where="solver",
+                value=solver,
+                cause="the shadows of a run on many ranks are not written",
+                remedy="solver='auto', without mpiexec",
+            )
+        self._builds, self._names = [reference, *shadows.values()], list(shadows)
+        self._options: tuple[str, NewtonOptions | None, int] = (solver, options, frames)
+        self._made: list[Shadow] = []
+        self._results: list[Result] = []
+        self._shadows: Shadows | None = None
+
+    def __call__(self, run: Run) -> Shadows:
+        """The shadows of a run."""
+        frames = self._options[-1]
+        for name, (model, steps) in zip(("reference", *self._names), self._builds, strict=True):
+            sequence, result = prepared_steps(model, steps), Result(model)
+            cause = "" if not self._made else other_structure(run.model, self._made[0].steps, model, sequence)
+            _refuse_another(name, run.model, model, cause)
+            own = ready(result, *self._options, sequence)
+            result.add(own.evaluation, [], frame=frames > 0)
+            self._made.append(Shadow(own, sequence))
+            self._results.append(result)
+        self._shadows = Shadows(run, self._made[0], self._made[1:])
+        return self._shadows
+
+    def ended(self, run: Result) -> Shadowed:
+        """All results after the run."""
+        assert self._shadows is not None
+        self._shadows.end()
+        kept = dict(zip(self._names, (one.kept for one in self._made[1:]), strict=True))
+        shadows = dict(zip(self._names, self._results[1:], strict=True))
+        return Shadowed(run, self._results[0], shadows, kept, self._made[0].kept.lost)
+
+
+def _refuse_another(name: Any, lead: Model, model: Model, cause: str) -> None:
+    """Refuse a shadow of another structure, or one whose model is that of the run."""
+    if model is lead or cause:
+        raise InvalidValue(
+            "a shadow needs the elements, controls, contacts and steps of its run, in a model of its own",
+            where=f"shadow {name}",
+            value=cause or "the model of the run",
+            cause="their number follows from the changed parameter" if cause else "one model for several runs",
+            remedy="give the numbers of elements and steps; build each model anew",
+        )

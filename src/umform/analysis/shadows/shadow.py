@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from umform.analysis.newton.bordered import Bordered
 from umform.analysis.newton.criteria import EPS
+from umform.analysis.run.checkpoint import memory_of, recall
 from umform.analysis.run.going import loop_for
 from umform.analysis.steps import Step
 from umform.analysis.steps.loop import Run
@@ -136,6 +138,22 @@ class Shadow:
         round_off = EPS * system.largest_entry(first.values) * system.extent * math.sqrt(system.pattern.n)
         #: Largest forces so far, or those whose smallest part is the round-off of positions.
         self.scale = max(round_off / _ROUND_OFF, first.force_scale)
+
+    def memory(self) -> dict[str, Any]:
+        """Its state, for checkpoints."""
+        ahead = None if self.ahead is None else vars(self.ahead)
+        return {"run": memory_of(self.run), "kept": vars(self.kept), "ahead": ahead, "scale": self.scale}
+
+    def recall(self, memory: Mapping[str, Any]) -> None:
+        """Restore its state."""
+        kept, run = memory["kept"], self.run
+        loop, self.scale = recall(run, memory["run"]), memory["scale"]
+        self.kept = Kept(**{**kept, "switched": [int(count) for count in kept["switched"]]})
+        self.ahead = None if memory["ahead"] is None else Guess(**memory["ahead"])
+        self.evaluation = run.evaluation = run.evaluation.without_tangent()
+        if loop is not None and not self.kept.lost:
+            step = self.steps[run.number - 1]
+            run.loop = loop_for(step).recall(run, step, loop)
 
     def at_step(self, number: int) -> Step:
         """Begin the steps up to the present one."""

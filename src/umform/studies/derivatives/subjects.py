@@ -6,10 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol, Self
 
-import numpy as np
-
 from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.run import Result
+from umform.analysis.shadows.structure import other_structure
 from umform.analysis.steps import Step
 from umform.errors import InvalidValue
 from umform.model import Model
@@ -144,19 +143,14 @@ class OfFunction:
 
 
 def refuse_other_structure(path: str, one: Built, other: Built) -> None:
-    """Refuse a parameter that changes the topology of the mesh, or the kinds of steps.
+    """Refuse a parameter that changes the topology of the mesh, controls, contacts, or the kinds of steps.
 
     Raises
     ------
     InvalidValue
-        The number of nodes, the elements, or the steps differ.
+        They differ.
     """
-    mesh, changed = one.model.mesh, other.model.mesh
-    cause = ""
-    if not np.array_equal(mesh.connectivity, changed.connectivity) or len(mesh.points) != len(changed.points):
-        cause = f"{len(changed.connectivity)} elements in place of {len(mesh.connectivity)}"
-    elif [type(step) for step in one.steps] != [type(step) for step in other.steps]:
-        cause = f"{len(other.steps)} steps in place of {len(one.steps)}"
+    cause = other_structure(one.model, one.steps, other.model, other.steps)
     if cause:
         raise InvalidValue(
             "elements and steps change with a slightly different value",

@@ -189,7 +189,8 @@ class Following:
 
     def follow(self, run: Run, step: Arc, lead: Run, take: Take) -> None:
         """Repeat the last accepted increment of the loop of a leading run: on the plane across its path, at its end at
-        the same load."""
+        the same load.
+        """
         assert isinstance(lead.loop, Following)
         state, path = lead.loop.path.state, self.path
         self.done, self.count = lead.loop.done, lead.loop.count
