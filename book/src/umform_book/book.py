@@ -43,6 +43,7 @@ _FOLDERS = (
     "sharp_bends",
     "air_bending",
     "scatter",
+    "derivatives",
 )
 
 

@@ -113,13 +113,15 @@ class Derivatives:
         """Derivative of a column of the history, a value for each row; NaN from where it is unknown."""
         self._index([one.path for one in self.parameters], path, "parameter")
         base, other = self.runs.reference[name], self.runs.shadows[path][name]
-        found = np.full(len(base), np.nan)
+        found = np.full(len(self.run), np.nan)
         found[: len(other)] = (other - base[: len(other)]) / self.sizes[path]
         return found
 
     def displacement(self, path: str) -> Floats:
-        """Derivative of the displacement of the nodes at the end, shape (n, 3)."""
+        """Derivative of the displacement of the nodes at the end, shape (n, 3); NaN if it is unknown."""
         self._index([one.path for one in self.parameters], path, "parameter")
+        if self.runs.kept[path].lost:
+            return np.full((self.run.model.u.size // 3, 3), np.nan)
         found: Floats = (self.runs.shadows[path].model.u - self.runs.reference.model.u) / self.sizes[path]
         return found.reshape(-1, 3)
 
@@ -236,10 +238,9 @@ class Derivatives:
             },
         )
         history = folder / HISTORY
-        base = self.runs.reference
-        columns = {name: base[name] for name in base.columns()}
+        columns = {name: self.run[name] for name in self.run.columns()}
         for one in self.parameters:
-            for name in base.columns():
+            for name in self.run.columns():
                 if name not in ("step", "iterations"):
                     columns[f"d {name} / d {one.path}"] = self.column(name, one.path)
         write_csv(history, columns)
