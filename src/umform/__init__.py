@@ -49,6 +49,11 @@ if TYPE_CHECKING:
     from umform.results import fields as fields
     from umform.studies.derivatives import Derivatives as Derivatives
     from umform.studies.derivatives import derivatives as derivatives
+    from umform.studies.identification import Identified as Identified
+    from umform.studies.identification import MeasuredCurve as MeasuredCurve
+    from umform.studies.identification import MeasuredNumber as MeasuredNumber
+    from umform.studies.identification import Sought as Sought
+    from umform.studies.identification import identify as identify
     from umform.studies.sweep import Sweep as Sweep
     from umform.studies.sweep import sweep as sweep
     from umform.surfaces import Box as Box
@@ -109,6 +114,7 @@ _HOME = {
         "write_tool",
     ),
     "umform.studies.derivatives": ("Derivatives", "derivatives"),
+    "umform.studies.identification": ("Identified", "MeasuredCurve", "MeasuredNumber", "Sought", "identify"),
     "umform.studies.sweep": ("Sweep", "sweep"),
 }
 _MODULES = {

@@ -19,6 +19,7 @@ FILES = {
     "draw": "draw",
     "elements": "elements",
     "hem": "hem",
+    "identify": "identify",
     "metal": "metals",
     "new": "new",
     "paths": "paths",
