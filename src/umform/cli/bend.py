@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from umform.cli.check import Force
+from umform.cli.derive import Derive, derive_case
 from umform.cli.drawn_tools import drawn_tools
 from umform.cli.given import Given, given_by
 from umform.cli.goals import check_goal, check_length, check_no_goal, check_press, strokes_of
@@ -79,6 +80,7 @@ def bend(
     curve: Curve = None,
     flow_curve: FlowCurve = None,
     processes: Annotated[int | None, option("Runs of the budget at a time.", SOLUTION)] = None,
+    derive: Derive = None,
     deck: PrintDeck = False,
     overwrite: Overwrite = False,
     force: Force = False,
@@ -157,6 +159,8 @@ def bend(
             with done.result.timing.files:
                 files = write_files(place, done, note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+    if derive:
+        derive_case(done.case, derive, place, None if angle is None else {"angle": "stroke"})
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
 

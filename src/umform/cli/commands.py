@@ -16,6 +16,7 @@ FILES = {
     "bend": "bend",
     "check": "check",
     "demo": "demo",
+    "derive": "derive",
     "draw": "draw",
     "elements": "elements",
     "hem": "hem",

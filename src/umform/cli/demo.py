@@ -6,7 +6,7 @@ import logging
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -25,7 +25,7 @@ demos = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", help="Run
 app.add_typer(demos, name="demo")
 
 _RUNS = "Which runs"
-_THROUGH = ("thickness_points", "thickness_rule", "thickness_order", "tie_E33")
+_THROUGH: dict[str, Any] = dict.fromkeys(("thickness_points", "thickness_rule", "thickness_order", "tie_E33"))
 
 
 @demos.command("free-bending", epilog=RECONSTRUCTION)
@@ -33,7 +33,7 @@ _THROUGH = ("thickness_points", "thickness_rule", "thickness_order", "tie_E33")
     FreeBending,
     omit=("mesh", "element", "contact"),
     called={"tie_E33": "--tie-e33/--no-tie-e33"},
-    **dict.fromkeys(_THROUGH),
+    **_THROUGH,
 )
 def free_bending(
     context: typer.Context,

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from umform.cli.derive import Derive, derive_case
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
 from umform.cli.options import (
@@ -43,12 +44,8 @@ _COARSE = "Coarse mesh, for a first result in seconds"
 _FINE = "Fine mesh: smaller errors for some three times the time"
 #: Fields that no option gives.
 _NOT_TYPED = ("material", "newton", "pace")
-#: Options of diameters by the radii of a cup.
-_DIAMETERS = {
-    "die_radius": "half of --opening",
-    "punch_radius": "half of --punch",
-    "blank_radius": "half of --blank",
-}
+#: Diameters of the benchmark by the names of their options.
+_DIAMETERS = {name: 2.0 * ESAFORM[radius] for radius, name in Cup.diameters.items() if radius in ESAFORM}
 
 group = typer.Typer(no_args_is_help=True, help="Draw a part, open the tools and measure it: `umform draw cup`.")
 app.add_typer(group, name="draw")
@@ -76,24 +73,25 @@ def _halves() -> Iterator[None]:
     try:
         yield
     except InvalidValue as error:
-        error.where = _DIAMETERS.get(error.where, error.where)
+        if error.where in Cup.diameters:
+            error.where = f"half of --{Cup.diameters[error.where]}"
         raise
 
 
 @group.command()
-@given_by(Cup, omit=(*_NOT_TYPED, "blank_radius", "punch_radius", "die_radius"), **ESAFORM | _varied(Cup))
+@given_by(Cup, omit=(*_NOT_TYPED, *Cup.diameters), **ESAFORM | _varied(Cup))
 @_halves()
 def cup(
     given: Given,
     out: Out = None,
     coarse: Annotated[bool, _mesh(Cup, "coarse", _COARSE)] = False,
     fine: Annotated[bool, _mesh(Cup, "fine", _FINE)] = False,
-    punch: Annotated[float, option("Diameter of the punch in mm.", _TOOLS)] = 2.0 * ESAFORM["punch_radius"],
+    punch: Annotated[float, option("Diameter of the punch in mm.", _TOOLS)] = _DIAMETERS["punch"],
     opening: Annotated[
         float | None,
         option(f"Diameter of the die opening in mm; default: punch + {2.0 * CLEARANCE:g} t.", _TOOLS),
     ] = None,
-    blank: Annotated[float, option("Diameter of the blank in mm.", SHEET)] = 2.0 * ESAFORM["blank_radius"],
+    blank: Annotated[float, option("Diameter of the blank in mm.", SHEET)] = _DIAMETERS["blank"],
     material: Material = None,
     young: Young = None,
     poisson: Poisson = None,
@@ -102,6 +100,7 @@ def cup(
     curve: Curve = None,
     flow_curve: FlowCurve = None,
     limit_curve: LimitCurve = None,
+    derive: Derive = None,
     deck: PrintDeck = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
@@ -116,12 +115,13 @@ def cup(
 
     given = _on_mesh(Cup, given, coarse, fine)
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
-    given |= {"punch_radius": 0.5 * punch, "blank_radius": 0.5 * blank, "holder_force": given["holder_force"] or None}
-    case = Cup(**given, die_radius=None if opening is None else 0.5 * opening, material=law)
+    typed: dict[str, Any] = {"punch": punch, "opening": opening, "blank": blank}
+    radii = {radius: typed[name] and 0.5 * typed[name] for radius, name in Cup.diameters.items()}
+    case = Cup(**given | radii | {"holder_force": given["holder_force"] or None}, material=law)
     if deck:
         print_deck(case)
         return
-    _run(case, draw, out, "cup", note, limit_curve, overwrite=overwrite, timing=timing)
+    _run(case, draw, out, "cup", note, limit_curve, derive, overwrite=overwrite, timing=timing)
 
 
 @group.command()
@@ -147,6 +147,7 @@ def u(
             "--extrapolate/--no-extrapolate",
         ),
     ] = None,
+    derive: Derive = None,
     deck: PrintDeck = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
@@ -168,7 +169,7 @@ def u(
         return
     three = not coarse if extrapolate is None else extrapolate
     how = extrapolated if three else draw
-    _run(case, how, out, "u-bend", note, limit_curve, overwrite=overwrite, timing=timing)
+    _run(case, how, out, "u-bend", note, limit_curve, derive, overwrite=overwrite, timing=timing)
 
 
 def _on_mesh(spec: type[Cup | UBend], given: Given, coarse: bool, fine: bool) -> Given:
@@ -216,6 +217,7 @@ def _run(
     name: str,
     note: str,
     limit: Path | None,
+    derive: list[str] | None,
     *,
     overwrite: bool,
     timing: bool,
@@ -242,6 +244,8 @@ def _run(
             with drawn.result.timing.files:
                 files = write_files(place, drawn, note, blank)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+    if derive and drawn.released is not None:
+        derive_case(case, derive, place)
     if timing:
         show_timing(drawn.result.timing)
     if drawn.released is None:

@@ -16,7 +16,11 @@ Given = dict[str, Any]
 
 
 def given_by(
-    *specs: type, omit: Collection[str] = (), called: Mapping[str, str] = MappingProxyType({}), **defaults: Any
+    *specs: type,
+    omit: Collection[str] = (),
+    called: Mapping[str, str] = MappingProxyType({}),
+    otherwise: Mapping[str, str] = MappingProxyType({}),
+    **defaults: Any,
 ) -> Callable[[Callable[..., Any]], Any]:
     """Give a command the options of all fields of Specs; its parameter ``given`` gets their values by name.
 
@@ -28,13 +32,15 @@ def given_by(
         Fields that the command takes in another way.
     called : mapping of str to str
         Options of fields that have another name than the field.
+    otherwise : mapping of str to str
+        Defaults in words, of options without a default of their own.
     **defaults : object
         Defaults of this command where they differ; None for an option that need not be given.
     """
 
     def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
         own = inspect.signature(command)
-        options = [one for spec in specs for one in _options(spec, omit, called, defaults)]
+        options = [one for spec in specs for one in _options(spec, omit, called, otherwise, defaults)]
         names = [one.name for one in options]
 
         def run(**values: Any) -> Any:
@@ -53,7 +59,7 @@ def given_by(
 
 
 def _options(
-    spec: type, omit: Collection[str], called: Mapping[str, str], defaults: dict[str, Any]
+    spec: type, omit: Collection[str], called: Mapping[str, str], otherwise: Mapping[str, str], defaults: dict[str, Any]
 ) -> list[inspect.Parameter]:
     found, panel = [], ""
     groups: dict[str, str] = spec.groups  # type: ignore[attr-defined]
@@ -62,6 +68,7 @@ def _options(
         if name not in omit:
             default = defaults.get(name, parameter.default)
             info = _info(parameter, panel, [called[name]] if name in called else [])
+            info.help = f"{parameter.text.rstrip('.')}; default: {otherwise[name]}." if name in otherwise else info.help
             hint = Annotated[_hint(parameter, default), info]  # type: ignore[valid-type]
             no_default = inspect.Parameter.empty if default is MISSING else default
             kind = inspect.Parameter.POSITIONAL_OR_KEYWORD

@@ -175,7 +175,7 @@ class Releasing:
             run.result.note(f"step {run.number}: {how} at {control.name} = {control.value:.6g}")
 
     def follow(self, run: Run, step: Release, lead: Run, take: Take) -> None:
-        """Repeat the last accepted increment of the loop of a leading run; where it ends is an equation. eq. (5.161)"""
+        """Repeat the last accepted increment of the loop of a leading run; where it ends is an equation. eq. (5.163)"""
         assert isinstance(lead.loop, Releasing)
         model, control, led = run.model, _retracted(run, step), lead.loop
         value, led_to = control.value, lead.model.controls.named(control.name).value

@@ -1,4 +1,4 @@
-"""Derivatives of the results of a run with respect to its parameters. docs/theory, 5.16"""
+"""Derivatives of the results of a run with respect to its parameters. docs/theory, 5.17"""
 
 from __future__ import annotations
 
