@@ -83,13 +83,14 @@ def identify(
         say=lambda text: say(f"umform: {text}"),
     )
     with deck_errors():
-        found = search(
-            read(deck, changes or (), trust),
-            sought,
-            data,
-            most=most,
-            on_run=lambda count, misfit: say(f"umform: run {count}: misfit {misfit:.3g}"),
-        )
+        problem = read(deck, changes or (), trust)
+    found = search(
+        problem,
+        sought,
+        data,
+        most=most,
+        on_run=lambda count, misfit: say(f"umform: run {count}: misfit {misfit:.3g}"),
+    )
     try:
         with printing(f"the files are in {place}"):
             print_table(found.table)

@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
+from umform.problem.before import TAKEN
+from umform.problem.written import deck_text
 from umform.results.quantity import UNKNOWN
 from umform.sheet_metals import Fit
 from umform.studies.calibration.words import vague
@@ -60,8 +62,8 @@ class Identified:
         The last run of each measurement.
     runs, refused : int
         Runs, each with its shadows; sets of values that were refused or did not converge.
-    ended : bool
-        Whether the search has ended before its largest number of trials.
+    unfinished : str
+        Why the search has stopped before its end; empty if it has not.
     given : bool
         Whether standard deviations of the measurements were given.
     """
@@ -75,7 +77,7 @@ class Identified:
     last: tuple[Derivatives, ...]
     runs: int
     refused: int
-    ended: bool
+    unfinished: str
     given: bool
 
     @property
@@ -125,8 +127,8 @@ class Identified:
                 "the run is far from the measurements: a law, a friction or a tool is another one, or the standard "
                 "deviations are too small; the standard errors are then too small"
             )
-        if not self.ended:
-            yield "the search was not at its end: more trials are needed"
+        if self.unfinished:
+            yield f"the search has stopped before its end: {self.unfinished}"
         yield from vague("measurements", self.fit)
         for path, one in self.sought.items():
             if one.deviation is not None and self.deviations[path] > _LITTLE * one.deviation:
@@ -181,13 +183,23 @@ class Identified:
         }
 
     def toml(self) -> str:
-        """The deck with the values; empty for a function."""
+        """The deck with the values, without the comments of the first one; empty for a function."""
         from umform.processes.problems import problem_of
 
         made = self.fit.law
         if isinstance(made, OfFunction):
             return ""
-        return (self.subject if isinstance(made, OfProblem) else problem_of(self.subject)).toml()
+        if not isinstance(made, OfProblem):
+            return problem_of(self.subject).toml()
+        source = made.problem.source
+        if source.made:
+            return made.problem.toml()
+        own = {key: value for key, value in source.data.items() if made.problem.before is None or key not in TAKEN}
+        remark = f"{source.name} with numbers from measurements; files that it names are looked for beside it."
+        numbers = (
+            f"{path} = {value:.7g}, standard error {self.deviations[path]:.2g}" for path, value in self.values.items()
+        )
+        return deck_text(own, [*source.remarks, remark, *numbers])
 
     def write(self, folder: str | Path) -> list[Path]:
         """Write numbers, residuals, a record, the deck and a picture; the files appear together."""

@@ -1,4 +1,4 @@
-"""Numbers of a problem from measurements: least squares with the derivatives of its runs. docs/theory, 5.16"""
+"""Numbers of a problem from measurements: least squares with the derivatives of its runs. docs/theory, 5.17"""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from umform.errors import InvalidValue
 from umform.progress import Show
 from umform.sheet_metals import Fit
 from umform.sheet_metals.least_squares import uncertainty
+from umform.spec import Scalar
 from umform.studies.derivatives.derive import known_parameter, subject_of
 from umform.studies.derivatives.subjects import OfFunction
 from umform.studies.identification.data import Measured
@@ -75,7 +76,7 @@ def identify(
     InvalidValue
         Something is named wrongly, or the measurements do not determine what is looked for.
     NoConvergence
-        The first run does not converge.
+        The first run does not converge, or no other one.
 
     Examples
     --------
@@ -99,7 +100,7 @@ def identify(
     _refuse_mixed(data)
     thing = subject_of(subject, dict.fromkeys(find, 0.0), options, solver)
     known = {one.path: one for one in thing.parameters()}
-    scalars = {known_parameter(name, known).path: given for name, given in find.items()}
+    scalars = {_path(name, known): given for name, given in find.items()}
     sought = {path: Sought.of(given, path) for path, given in scalars.items()}
     present = {} if isinstance(thing, OfFunction) else {path: float(known[path].value) for path in sought}
     start = np.array([one.begin(present.get(path), path) for path, one in sought.items()])
@@ -109,7 +110,17 @@ def identify(
     search.refuse_blind()
     before = runs.at(start)[0]
     values, at_bound, enough = search.run(most)
+    if runs.refusal is not None and (values == start).all():
+        raise runs.refusal
     return _identified(search, values, at_bound, before, enough=enough)
+
+
+def _path(name: str, known: Mapping[str, Scalar]) -> str:
+    try:
+        return known_parameter(name, known).path
+    except InvalidValue as error:
+        error.where = "find" if error.where == "by" else error.where
+        raise
 
 
 class _Search:
@@ -213,6 +224,7 @@ def _identified(search: _Search, values: Floats, at_bound: Floats, before: Float
     spread, correlation = uncertainty(jacobian * search.scale, 1.0 if given else scatter)
     spread = np.where(at_bound, np.inf, spread * search.scale)
     names = list(search.sought)
+    stopped = "" if runs.refusal is None else str(runs.refusal).splitlines()[0]
     number, _, last = runs.at(values)
     rounded = {name: float(f"{value:.7g}") for name, value in zip(names, values.tolist(), strict=True)}
     law = runs.thing.with_(rounded)
@@ -223,17 +235,16 @@ def _identified(search: _Search, values: Floats, at_bound: Floats, before: Float
         float(np.sqrt(np.mean(residual**2))),
         correlation,
     )
-    begin = dict(zip(names, search.start.tolist(), strict=True))
     return Identified(
-        fit,
-        search.sought,
-        begin,
-        tuple(runs.data),
-        before,
-        number,
-        tuple(last),
-        runs.count,
-        runs.refused,
-        enough,
-        given,
+        fit=fit,
+        sought=search.sought,
+        start=dict(zip(names, search.start.tolist(), strict=True)),
+        data=tuple(runs.data),
+        before=before,
+        after=number,
+        last=tuple(last),
+        runs=runs.count,
+        refused=runs.refused,
+        unfinished=stopped or ("" if enough else "more trials are needed"),
+        given=given,
     )

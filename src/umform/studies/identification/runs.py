@@ -36,6 +36,8 @@ class Runs:
         Runs so far.
     refused : int
         Sets of values that were refused, or whose run did not converge.
+    refusal : UmformError or None
+        Why the last set was; None if it was not.
     progress, on_run
         See :func:`umform.identify`.
     """
@@ -47,10 +49,13 @@ class Runs:
     on_run: Callable[[int, float], object] = lambda count, misfit: None
     count: int = 0
     refused: int = 0
+    refusal: UmformError | None = None
     _last: dict[bytes, tuple[Floats, Floats, list[Derivatives]]] = field(default_factory=dict)
 
     def at(self, values: Floats) -> tuple[Floats, Floats, list[Derivatives]]:
         """Numbers of the run, derivatives shape (m, n), and the runs, one for each measurement.
+
+        Values have 12 digits, with which a deck gives elastic constants as E and nu.
 
         Raises
         ------
@@ -59,7 +64,8 @@ class Runs:
         """
         key = values.tobytes()
         if key not in self._last:
-            found = self._run(dict(zip(self.paths, values.tolist(), strict=True)))
+            found = self._run({path: float(f"{value:.12g}") for path, value in zip(self.paths, values, strict=True)})
+            self.refusal = None
             self._last = dict([*list(self._last.items())[-1:], (key, found)])
             self.on_run(self.count, float(np.sqrt(np.mean(self._over(found[0]) ** 2))))
         return self._last[key]
@@ -68,8 +74,9 @@ class Runs:
         """Differences over their standard deviations; infinite where there is no run."""
         try:
             return self._over(self.at(values)[0])
-        except UmformError:
+        except UmformError as error:
             self.refused += 1
+            self.refusal = error
             return np.full(len(self.numbers[0]), math.inf)
 
     def jacobian(self, values: Floats) -> Floats:
