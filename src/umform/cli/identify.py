@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -12,12 +13,15 @@ import typer
 from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read
 from umform.cli.outcome_screen import print_table
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
 
 if TYPE_CHECKING:
     from umform.studies.identification import MeasuredCurve, MeasuredNumber, Sought
     from umform.studies.identification.data import Measured
 
+#: Largest number of trials.
+MOST = 30
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _FIND = re.compile(
     rf"(?P<path>[^=\s]+)(?:=(?:(?P<low>{_NUMBER}):(?P<high>{_NUMBER}))?(?:@(?P<start>{_NUMBER}))?"
@@ -27,17 +31,22 @@ _CURVE = re.compile(rf"(?P<x>[^,=@]+),(?P<y>[^,=@]+)(?:@(?P<step>\d+))?=(?P<file
 _QUANTITY = re.compile(rf"(?P<name>[^=]+)=(?P<value>{_NUMBER})(?:\+-(?P<deviation>{_NUMBER}))?")
 
 
+Find = typer.Option(
+    metavar="KEY=LOW:HIGH@START+-DEVIATION",
+    help="Number to find from measurements, with bounds, first value, and the standard deviation of what was known "
+    "before; all but the key may be left out; repeatable, see `umform identify`.",
+)
+Quantities = typer.Option(
+    metavar="NAME=VALUE+-DEVIATION",
+    help="Measured number: a quantity such as angle, or a column of the history such as punch_force:max, with its "
+    "standard deviation; repeatable.",
+)
+
+
 @app.command()
 def identify(
     deck: DeckFile,
-    find: Annotated[
-        list[str],
-        typer.Option(
-            metavar="KEY=LOW:HIGH@START+-DEVIATION",
-            help="Number to find, with bounds, first value, and the standard deviation of what was known before; all "
-            "but the key may be left out; repeatable.",
-        ),
-    ],
+    find: Annotated[list[str], Find],
     curve: Annotated[
         list[str] | None,
         typer.Option(
@@ -46,15 +55,9 @@ def identify(
             "deviation; repeatable.",
         ),
     ] = None,
-    quantity: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="NAME=VALUE+-DEVIATION",
-            help="Measured number: a quantity of the deck, or a column such as punch_force:max; repeatable.",
-        ),
-    ] = None,
+    quantity: Annotated[list[str] | None, Quantities] = None,
     changes: Changes = None,
-    most: Annotated[int, typer.Option(min=1, help="Largest number of trials.")] = 30,
+    most: Annotated[int, typer.Option(min=1, help="Largest number of trials.")] = MOST,
     out: Annotated[
         str | None, typer.Option(metavar="FOLDER", help="Folder for the files; default: results/DECK-identified.")
     ] = None,
@@ -68,6 +71,23 @@ def identify(
     Prints each number with its standard error, and what the measurements do not determine; writes the deck with the
     numbers.
     """
+    print_warnings_once()
+    with deck_errors():
+        problem = read(deck, changes or (), trust)
+    identify_case(problem, find, curve, quantity, out, Path("results") / f"{deck.stem}-identified", most, overwrite)
+
+
+def identify_case(
+    subject: Any,
+    find: Sequence[str],
+    curve: Sequence[str] | None,
+    quantity: Sequence[str] | None,
+    out: str | None,
+    default: Path,
+    most: int,
+    overwrite: bool,
+) -> None:
+    """Print and write what is found of a problem, or of a case of a process."""
     from umform.io.folders import folder_for
     from umform.studies.identification import identify as search
     from umform.studies.identification.found import FILES
@@ -75,27 +95,15 @@ def identify(
     say = partial(typer.echo, err=True)
     sought = dict(_sought(text) for text in find)
     data: list[Measured] = [*(_curve(text) for text in curve or []), *(_quantity(text) for text in quantity or [])]
-    place = folder_for(
-        out,
-        Path("results") / f"{deck.stem}-identified",
-        FILES,
-        overwrite=overwrite,
-        say=lambda text: say(f"umform: {text}"),
-    )
-    with deck_errors():
-        problem = read(deck, changes or (), trust)
+    place = folder_for(out, default, FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     found = search(
-        problem,
-        sought,
-        data,
-        most=most,
-        on_run=lambda count, misfit: say(f"umform: run {count}: misfit {misfit:.3g}"),
+        subject, sought, data, most=most, on_run=lambda count, misfit: say(f"umform: run {count}: misfit {misfit:.3g}")
     )
     try:
         with printing(f"the files are in {place}"):
             print_table(found.table)
             for remark in found.remarks:
-                typer.echo(remark)
+                console().print(remark, soft_wrap=True, markup=False)
     finally:  # even if the table cannot be printed
         files = found.write(place)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True, markup=False)

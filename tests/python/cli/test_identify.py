@@ -68,7 +68,7 @@ CURVE = ("--curve", "stroke,stroke_force=FILE")
         (["--find", "strength", "--curve", "stroke=FILE"], ["this option cannot be read", "--curve"]),
         (["--find", "strength", "--curve", "stroke,force=FILE"], ["the column force is missing"]),
         (["--find", "strength", "--quantity", "angle"], ["this option cannot be read", "--quantity"]),
-        (["--find", "strength", "--quantity", "angel=90+-1"], ["no such quantity or column"]),
+        (["--find", "strength", "--quantity", "angel=90+-1"], ["no such quantity or column", "where:  --quantity"]),
         (["--find", "strength"], ["nothing was measured"]),
         (["--curve", "stroke,stroke_force=FILE"], ["missing option '--find'"]),
         (["--find", "thickness", "--find", "material.nu=.2:.4", *CURVE, "--quantity", "stroke=1+-.1"], ["deviation"]),
@@ -81,4 +81,24 @@ def test_what_cannot_be_read_or_found_is_refused_with_a_remedy(deck, measured, w
     for text in texts:
         assert text in refused.output
     assert "Traceback" not in refused.output
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_measured_bend_corrects_its_metal(tmp_path):
+    coarse = ["--layers", 1, "--elements-per-thickness", 1, "--stroke", 4.0, "--out", tmp_path / "out"]
+    words = ["bend", *coarse, "--find", "strength=400:800", "--quantity", "largest_force=105+-1"]
+    done = CliRunner().invoke(cli.app, list(map(str, words)))
+    assert done.exit_code == 0, done.output
+    numbers = {one.path: one.value for one in load(tmp_path / "out" / "deck.toml").paths()}
+    strength = numbers["material.hardening.strength"]
+    words = ["bend", *coarse[:-1], tmp_path / "bend", "--curve", f"Swift,{strength},0.004,0.22"]
+    again = CliRunner().invoke(cli.app, list(map(str, words)))
+    assert re.search(r"largest force .* 105\.0 ", again.output)
+
+
+def test_a_measured_bend_has_no_other_goal(tmp_path):
+    words = ["--find", "strength", "--quantity", "force=100+-1", "--out", str(tmp_path / "out")]
+    refused = CliRunner().invoke(cli.app, ["bend", "--angle", "90", *words])
+    assert refused.exit_code == 1
+    assert "a measured bend has a stroke" in refused.output
     assert not (tmp_path / "out").exists()

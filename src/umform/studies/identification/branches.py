@@ -36,7 +36,7 @@ def at_abscissae(
     """Ordinate of a run at each abscissa, its derivatives, and how far the abscissa is beyond the run.
 
     A point of the k-th branch of the abscissae is looked for on the k-th branch of the run. Between two rows both
-    columns are linear; the rows move with the parameters, so that dy = Y' - (slope of the chord) X'.
+    columns are linear; the rows move with the parameters, eq. (5.171).
 
     Parameters
     ----------

@@ -45,7 +45,8 @@ def identify(
 ) -> Identified:
     """Find numbers of a problem from measurements of what it simulates, by least squares.
 
-    Each trial is a run with its derivatives. The misfit is measured in standard deviations of the measurements.
+    Each trial is a run with its derivatives; the sum of squares is eq. (5.172). The misfit is measured in standard
+    deviations of the measurements.
 
     Parameters
     ----------

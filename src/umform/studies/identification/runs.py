@@ -110,7 +110,11 @@ class Runs:
 
     def _derivatives(self, values: Mapping[str, Any], of: list[Any]) -> Derivatives:
         self.count += 1
-        return derivatives(self.thing.with_(values), list(self.paths), of, progress=self.progress)
+        try:
+            return derivatives(self.thing.with_(values), list(self.paths), of, progress=self.progress)
+        except InvalidValue as error:
+            error.where = "quantity" if error.where == "of" else error.where
+            raise
 
     def _check(self, slopes: Floats, runs: Sequence[Derivatives]) -> None:
         """Refuse unknown derivatives."""

@@ -21,6 +21,13 @@ class Sought:
         First value; default: that of the problem if it lies between the bounds, else their middle.
     deviation : float, optional
         Standard deviation of what was known of it before: the start is then a measurement, too.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> strength = uf.Sought(400.0, 700.0, start=520.0, deviation=30.0)
+    >>> strength.high
+    700.0
     """
 
     low: float = -math.inf
