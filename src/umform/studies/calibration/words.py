@@ -26,6 +26,7 @@ def rows(found: Calibration) -> Iterator[tuple[str, str, str, str, str]]:
 def remarks(found: Calibration) -> Iterator[str]:
     """Sentences: how good each fit is, and what is not determined."""
     units = {"yield function": "in units of 1 % of a stress and 5 % of an r-value"}
+    units["modulus"] = "in units of 1 % of Young's modulus"
     for name, fit in found.fits.items():
         unit = units.get(name, "in units of 1 % of the largest stress")
         yield f"{name}: misfit {fit.misfit:.3g} {unit}"
