@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from umform.cli.check import Force
+from umform.cli.compensate import By, Want, compensated
 from umform.cli.derive import Derive, derive_case
 from umform.cli.drawn_tools import drawn_tools
 from umform.cli.given import Given, given_by
@@ -81,6 +82,8 @@ def bend(
     curve: Curve = None,
     flow_curve: FlowCurve = None,
     processes: Annotated[int | None, option("Runs of the budget at a time.", SOLUTION)] = None,
+    want: Want = None,
+    by: By = None,
     derive: Derive = None,
     find: Annotated[list[str] | None, Find] = None,
     quantity: Annotated[list[str] | None, Quantities] = None,
@@ -129,6 +132,7 @@ def bend(
         check_press(angle, table, budget, stroke, force_per_metre, travel)
         case = case if travel is None else with_travel(case, travel)
         check_value(Goal, "force_per_metre", force_per_metre)
+    case = compensated(case, want, by)
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
     if find or quantity:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from umform.cli.compensate import By, Want, compensated
 from umform.cli.derive import Derive, derive_case
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
@@ -47,8 +48,14 @@ _NOT_TYPED = ("material", "newton", "pace")
 #: Diameters of the benchmark by the names of their options.
 _DIAMETERS = {name: 2.0 * ESAFORM[radius] for radius, name in Cup.diameters.items() if radius in ESAFORM}
 
-group = typer.Typer(no_args_is_help=True, help="Draw a part, open the tools and measure it: `umform draw cup`.")
+group = typer.Typer(no_args_is_help=True)
 app.add_typer(group, name="draw")
+
+
+@group.callback()
+def draw() -> None:
+    """Draw a part, open the tools and measure it: `umform draw cup`."""
+
 
 Out = Annotated[str | None, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")]
 LimitCurve = Annotated[Path | None, option("Forming limit: a CSV file of minor and major logarithmic strain.", SHEET)]
@@ -100,6 +107,8 @@ def cup(
     curve: Curve = None,
     flow_curve: FlowCurve = None,
     limit_curve: LimitCurve = None,
+    want: Want = None,
+    by: By = None,
     derive: Derive = None,
     deck: PrintDeck = False,
     overwrite: Overwrite = False,
@@ -147,6 +156,8 @@ def u(
             "--extrapolate/--no-extrapolate",
         ),
     ] = None,
+    want: Want = None,
+    by: By = None,
     derive: Derive = None,
     deck: PrintDeck = False,
     overwrite: Overwrite = False,
@@ -163,7 +174,7 @@ def u(
 
     given = _on_mesh(UBend, given, coarse, fine)
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
-    case = UBend(**given, material=law)
+    case = compensated(UBend(**given, material=law), want, by)
     if deck:
         print_deck(case)
         return

@@ -21,9 +21,9 @@ from umform.results.records import Failed
 Floats = NDArray[np.float64]
 
 #: Error of the displacement of a shadow relative to its distance from the reference: that of a derivative.
-TOLERANCE = 1e-6
+TOLERANCE = 1e-5
 #: Largest residual of a shadow relative to the forces.
-_SMALL = 1e-9
+_SMALL = 1e-8
 #: Residual relative to the forces that is round-off; below another one, a residual that hardly falls is.
 _EXACT, _ROUND_OFF, _STAYS = 1e-13, 1e-9, 0.3
 #: Corrections with the factors of the reference; all corrections.

@@ -120,7 +120,13 @@ def derivatives(
 
 
 def subject_of(subject: Any, by: Any, options: NewtonOptions | None = None, solver: str | None = None) -> Subject:
-    """A thing with parameters, from what :func:`derivatives` takes; one that is made already stays as it is."""
+    """What derivatives are taken of, from what a user gives; one that is made already stays as it is.
+
+    Raises
+    ------
+    InvalidValue
+        A function without the values of its parameters.
+    """
     if isinstance(subject, OfProblem | OfCase | OfFunction):
         return subject
     if isinstance(subject, Problem):

@@ -46,6 +46,8 @@ class Derivatives:
         Change of each parameter in its shadow, by its path.
     held : mapping of str to str
         Responses that stay constant, and the parameters that follow.
+    measured : tuple of Response
+        How each response is taken from a run.
     """
 
     parameters: tuple[Scalar, ...]
@@ -54,6 +56,7 @@ class Derivatives:
     runs: Shadowed
     sizes: Mapping[str, float]
     held: Mapping[str, str]
+    measured: tuple[Response, ...]
 
     @classmethod
     def of(
@@ -71,7 +74,9 @@ class Derivatives:
             for row, (before, after) in enumerate(zip(base, rows.get(one.path, ()), strict=False)):
                 if before is not None and after is not None:
                     values[row, column] = (after - before) / sizes[one.path]
-        return cls(tuple(parameters), tuple(one.quantity for one in wanted), values, runs, dict(sizes), {})
+        return cls(
+            tuple(parameters), tuple(one.quantity for one in wanted), values, runs, dict(sizes), {}, tuple(wanted)
+        )
 
     @property
     def run(self) -> Result:
