@@ -38,7 +38,7 @@ Find = typer.Option(
 )
 Quantities = typer.Option(
     metavar="NAME=VALUE+-DEVIATION",
-    help="Measured number: a quantity such as angle, or a column of the history such as punch_force:max, with its "
+    help="Measured number: a quantity such as angle, or a column of the history such as `punch_force:max`, with its "
     "standard deviation; repeatable.",
 )
 

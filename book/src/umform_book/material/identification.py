@@ -88,7 +88,7 @@ def _noise(page: Page) -> None:
             for n, (name, value) in enumerate(TRUTH.items())
         ],
     )
-    page.text(f"A fit of four constants takes {min(runs)} to {max(runs)} runs, each with its derivatives.")
+    page.text(f"A fit of four constants takes at most {max(runs)} runs, each with its derivatives.")
     count = off.size
     page.check("share of all constants within two standard errors", _share(off), 0.9545, within=0.8 / math.sqrt(count))
     page.check("spread of the distances", float(off.std()), 1.0, within=3.0 / math.sqrt(count))
