@@ -94,6 +94,8 @@ def identify_case(
 
     say = partial(typer.echo, err=True)
     sought = dict(_sought(text) for text in find)
+    if len(sought) < len(find):
+        raise InvalidValue("a number is looked for twice", where="--find", value=", ".join(find), remedy="once")
     data: list[Measured] = [*(_curve(text) for text in curve or []), *(_quantity(text) for text in quantity or [])]
     place = folder_for(out, default, FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     found = search(

@@ -64,6 +64,7 @@ CURVE = ("--curve", "stroke,stroke_force=FILE")
         (["--find", "nowhere=1:2", *CURVE], ["there is no number of this path", "--find"]),
         (["--find", "strength=1,5:2", *CURVE], ["this option cannot be read", "a decimal comma", "--find"]),
         (["--find", "strength=700:400", *CURVE], ["the lower bound is not below the upper one"]),
+        (["--find", "strength=1:2", "--find", "strength=2:3", *CURVE], ["looked for twice"]),
         (["--find", "mesh.layers=1:3", *CURVE], ["it is a whole number"]),
         (["--find", "strength", "--curve", "stroke=FILE"], ["this option cannot be read", "--curve"]),
         (["--find", "strength", "--curve", "stroke,force=FILE"], ["the column force is missing"]),

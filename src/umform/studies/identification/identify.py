@@ -101,8 +101,12 @@ def identify(
     _refuse_mixed(data)
     thing = subject_of(subject, dict.fromkeys(find, 0.0), options, solver)
     known = {one.path: one for one in thing.parameters()}
-    scalars = {_path(name, known): given for name, given in find.items()}
-    sought = {path: Sought.of(given, path) for path, given in scalars.items()}
+    sought: dict[str, Sought] = {}
+    for name, given in find.items():
+        path = _path(name, known)
+        if path in sought:
+            raise InvalidValue("a number is looked for twice", where="find", value=f"{path}, {name}", remedy="once")
+        sought[path] = Sought.of(given, path)
     present = {} if isinstance(thing, OfFunction) else {path: float(known[path].value) for path in sought}
     start = np.array([one.begin(present.get(path), path) for path, one in sought.items()])
     scale = np.array([one.scale(first) for one, first in zip(sought.values(), start, strict=True)])

@@ -179,6 +179,12 @@ def test_a_curve_that_the_run_does_not_have_is_refused(tension, change, said):
         uf.identify(bar, BOUNDS, [replace(curve(tension, deviation=1.0), **change)])
 
 
+def test_a_number_under_two_names_is_refused():
+    find = {"strength": (400.0, 700.0), "material.hardening.strength": (400.0, 700.0)}
+    with pytest.raises(UmformError, match="looked for twice"):
+        uf.identify(AirBending(stroke=4.0), find, [uf.MeasuredNumber("angle", 120.0, 0.1)])
+
+
 def test_measurements_are_checked(tension):
     with pytest.raises(UmformError, match="some measurements have a standard deviation"):
         uf.identify(bar, BOUNDS, [curve(tension), uf.MeasuredNumber("pull_force:last", 200.0, 1.0)])
