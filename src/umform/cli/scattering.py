@@ -30,7 +30,7 @@ _OPTIONS = {
     "tolerances": (
         "--tolerance",
         "PATH=SIZE",
-        "Tolerance of a parameter, such as die_radius=±0.05: three standard deviations",
+        "Tolerance of a parameter, such as `die_radius=±0.05`: three standard deviations",
     ),
     "correlations": ("--correlate", "A,B=NUMBER", "Correlation of two parameters, from -1 to 1"),
     "limits": ("--limit", "NAME=LOW:HIGH", "Limits of a result, such as angle=89:91; for Cp and Cpk"),
