@@ -57,6 +57,9 @@ if TYPE_CHECKING:
     from umform.studies.identification import MeasuredNumber as MeasuredNumber
     from umform.studies.identification import Sought as Sought
     from umform.studies.identification import identify as identify
+    from umform.studies.scatter import Scatter as Scatter
+    from umform.studies.scatter import Scattered as Scattered
+    from umform.studies.scatter import scatter as scatter
     from umform.studies.sweep import Sweep as Sweep
     from umform.studies.sweep import sweep as sweep
     from umform.surfaces import Box as Box
@@ -118,6 +121,7 @@ _HOME = {
     ),
     "umform.studies.derivatives": ("Derivatives", "derivatives"),
     "umform.studies.goals": ("Compensated", "Wanted", "compensate"),
+    "umform.studies.scatter": ("Scatter", "Scattered", "scatter"),
     "umform.studies.identification": ("Identified", "MeasuredCurve", "MeasuredNumber", "Sought", "identify"),
     "umform.studies.sweep": ("Sweep", "sweep"),
 }

@@ -30,6 +30,7 @@ FILES = {
     "plot": "plot",
     "resume": "resume",
     "run": "run",
+    "sigma": "sigma",
     "sweep": "sweep",
     "view": "view",
 }

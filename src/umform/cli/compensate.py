@@ -29,7 +29,7 @@ By = Annotated[
     list[str] | None,
     typer.Option(
         metavar="PATH",
-        help="A parameter that follows a wanted result, with bounds as holder_force=2000:8000; repeatable.",
+        help="A parameter that follows a wanted result, with bounds as `holder_force=2000:8000`; repeatable.",
     ),
 ]
 

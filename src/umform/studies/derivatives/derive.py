@@ -16,10 +16,18 @@ from umform.results.quantity import Quantity
 from umform.spec import Scalar
 from umform.studies.derivatives.found import Derivatives
 from umform.studies.derivatives.responses import Response, responses
-from umform.studies.derivatives.subjects import Built, OfCase, OfFunction, OfProblem, Subject, refuse_other_structure
+from umform.studies.derivatives.subjects import (
+    Built,
+    OfCase,
+    OfFunction,
+    OfProblem,
+    Subject,
+    refuse_other_structure,
+    refuse_same_model,
+)
 
-#: Change of a parameter relative to its value; that of one without a unit, whose effect is often small.
-STEP, STEP_WITHOUT_UNIT = 3e-5, 1e-4
+#: Change of a parameter relative to its value.
+STEP = 3e-5
 #: Tables of a problem whose numbers are no parameters of the part: their effect is an error of the solution.
 _OF_THE_SOLUTION = ("solution.", "output.")
 
@@ -94,6 +102,7 @@ def derivatives(
     for one in parameters:
         shadows[one.path], sizes[one.path] = _shadow(thing, one, lead)
     again = thing.build()
+    refuse_same_model([lead, again, *(built for _, built in shadows.values())])
     found = solve_with_shadows(
         (lead.model, lead.steps),
         (again.model, again.steps),
@@ -109,12 +118,12 @@ def derivatives(
         numbers = {one.name: one.value for one in other.quantities(built, result)}
         return [one.value(numbers, result) for one in wanted]
 
-    base = measured(thing, lead, found.reference)
     rows = {
         path: measured(other, built, found.shadows[path])
         for path, (other, built) in shadows.items()
         if not found.kept[path].lost
     }
+    base = measured(thing, lead, found.reference) if rows else []
     whole = Derivatives.of(parameters, sizes, wanted, base, rows, found)
     return whole.holding(held) if held else whole
 
@@ -163,15 +172,13 @@ def known_parameter(path: str, known: Mapping[str, Scalar]) -> Scalar:
             remedy="one of the paths that umform paths lists" if not found else f"write more of it, as {found[0]}",
         )
     one = known[found[0]]
-    why = ""
+    why, remedy = "", "umform sweep varies it"
     if found[0].startswith(_OF_THE_SOLUTION):
         why = "its effect is an error of the solution, not a change of the part"
     elif isinstance(one.value, int):
-        why = "it is a whole number"
+        why, remedy = "it is a whole number", f"{one.value}.0, if it is none; else {remedy}"
     if why:
-        raise InvalidValue(
-            "this number has no derivative", where=found[0], value=one.value, cause=why, remedy="umform sweep varies it"
-        )
+        raise InvalidValue("this number has no derivative", where=found[0], value=one.value, cause=why, remedy=remedy)
     return one
 
 
@@ -183,7 +190,7 @@ def _shadow(thing: Subject, one: Scalar, lead: Built) -> tuple[tuple[Subject, Bu
     InvalidValue
         Both are refused.
     """
-    size = (STEP if one.unit else STEP_WITHOUT_UNIT) * (abs(one.value) or 1.0)
+    size = STEP * (abs(one.value) or 1.0)
     refusal: UmformError | None = None
     for change in (size, -size):
         try:
