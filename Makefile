@@ -4,7 +4,7 @@
 # that a second install compiles only what changed.
 
 PYTHON ?= python3
-JOBS   ?= $(shell nproc 2>/dev/null || echo 2)
+JOBS   ?= $(shell env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc 2>/dev/null || echo 2)
 ARGS   ?=
 JSON   ?= build/bench.json
 

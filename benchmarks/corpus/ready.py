@@ -18,7 +18,7 @@ from umform.processes.draw.u_bend import UBend
 from umform.processes.draw_bead.case import build
 from umform.processes.draw_bead.spec import DrawBead
 from umform.processes.hemming import Hemming, hemming
-from umform.processes.hemming.spec import ACUTE
+from umform.processes.hemming.spec import acute
 
 _COARSE: dict[str, Any] = {"elements_per_thickness": 1.0, "layers": 1}
 
@@ -42,7 +42,7 @@ def sequence() -> Answer:
 
 def hem(**keys: Any) -> Answer:
     """A hem over an insert."""
-    sheet = replace(ACUTE, **_COARSE)
+    sheet = acute(**_COARSE)
     hem = hemming(Hemming(base=13.0, sheet=sheet, **keys), tolerance=5.0, frames=1, progress=False)
     return Answer([hem.result], tools=[carried(hem.result, [tool.name for tool in hem.result.model.tools])])
 

@@ -42,6 +42,7 @@ _FOLDERS = (
     "free_bending",
     "sharp_bends",
     "air_bending",
+    "scatter",
     "derivatives",
 )
 

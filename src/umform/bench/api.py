@@ -1,4 +1,4 @@
-"""What the page asks for: the form looked at, jobs, their files, decks; all of it JSON."""
+"""Requests of the page: checks of the form, jobs and their files, decks; all answers are JSON."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from collections.abc import Callable
 from dataclasses import asdict
 from typing import Any
 
-from pydantic import ValidationError
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response
@@ -17,20 +16,21 @@ from starlette.routing import Route
 
 from umform.bench.decks import checked_deck, known_templates, schema_text, template_text, title_of
 from umform.bench.folders import RESULTS, SCENE, SHAPE
+from umform.bench.form import form_fields
 from umform.bench.index import Job
 from umform.bench.jobs import MOST_WAITING, Queue, result_file
 from umform.bench.library import library
 from umform.bench.look import look
-from umform.bench.refusals import said
+from umform.bench.refusals import error_record, problems_of
 from umform.bench.strips import FILES as STRIP_FILES
-from umform.bench.wanted import Wanted, problems_of
+from umform.bench.wanted import Wanted
 from umform.errors import InvalidValue, UmformError
 from umform.problem.results import FILES as DECK_FILES
 from umform.processes.air_bending.files import RESULTS as BEND_FILES
 from umform.results.quantity import Quantity, columns
 
 _FILES = frozenset({*BEND_FILES, *DECK_FILES, *STRIP_FILES, SHAPE})
-#: Reports run their own programs: as a page of no origin, which cannot ask this server for anything.
+#: Reports contain programs. They are served without an origin, so that they cannot use this server.
 _SANDBOX = "sandbox allow-scripts allow-downloads allow-popups"
 _SHOWN = (".html", ".png", ".svg")
 #: Most bends of a table that is ordered at once.
@@ -39,7 +39,7 @@ _Json = dict[str, Any]
 
 
 def routes(queue: Queue) -> list[Route]:
-    """All routes of the page's questions."""
+    """All routes of the API."""
     api = _Api(queue)
     get: dict[str, Callable[[Request], _Json | Response]] = {
         "/api/library": lambda request: library(),
@@ -66,37 +66,35 @@ def routes(queue: Queue) -> list[Route]:
         "/api/jobs/{name}/remove": api.remove,
     }
     return [
-        *(Route(path, _answering(ask), methods=["GET"]) for path, ask in get.items()),
-        *(Route(path, _taking(ask), methods=["POST"]) for path, ask in post.items()),
+        *(Route(path, _get_endpoint(handler), methods=["GET"]) for path, handler in get.items()),
+        *(Route(path, _post_endpoint(handler), methods=["POST"]) for path, handler in post.items()),
     ]
 
 
-def _answering(ask: Callable[[Request], _Json | Response]) -> Callable[[Request], Any]:
+def _get_endpoint(handler: Callable[[Request], _Json | Response]) -> Callable[[Request], Any]:
     async def endpoint(request: Request) -> Response:
         try:
-            answer = await run_in_threadpool(ask, request)
+            answer = await run_in_threadpool(handler, request)
         except UmformError as error:
-            return JSONResponse(said(error), 404)
+            return JSONResponse(error_record(error), 404)
         return answer if isinstance(answer, Response) else JSONResponse(answer)
 
     return endpoint
 
 
-def _taking(ask: Callable[[Any, Request], _Json]) -> Callable[[Request], Any]:
+def _post_endpoint(handler: Callable[[Any, Request], _Json]) -> Callable[[Request], Any]:
     async def endpoint(request: Request) -> Response:
         if request.headers.get("content-type", "").split(";")[0] != "application/json":
-            return PlainTextResponse("a question is JSON", 415)
+            return PlainTextResponse("a request must be JSON", 415)
         try:
             body = json.loads(await request.body(), parse_constant=_no_constant)
             json.dumps(body, ensure_ascii=False).encode()  # half a surrogate pair cannot be written to files
         except (ValueError, RecursionError):
-            return JSONResponse({"what": "the question is no JSON"}, 400)
+            return JSONResponse({"what": "the request is not valid JSON"}, 400)
         try:
-            return JSONResponse(await run_in_threadpool(ask, body, request))
-        except ValidationError as error:
-            return JSONResponse({"what": "the form has mistakes", "problems": problems_of(error)}, 422)
+            return JSONResponse(await run_in_threadpool(handler, body, request))
         except UmformError as error:
-            return JSONResponse({**said(error), "problems": [said(error)]}, 422)
+            return JSONResponse({**error_record(error), "problems": problems_of(error)}, 422)
 
     return endpoint
 
@@ -106,14 +104,14 @@ def _no_constant(name: str) -> None:
 
 
 def _text(body: Any, name: str = "text") -> str:
-    """A text of a question."""
+    """A text of a request."""
     if not isinstance(body, dict) or not isinstance(body.get(name), str):
-        raise InvalidValue("a text is missing in the question", where=name)
+        raise InvalidValue("a text is missing in the request", where=name)
     return str(body[name])
 
 
 class _Api:
-    """The questions about jobs."""
+    """Requests about jobs."""
 
     def __init__(self, queue: Queue) -> None:
         self.queue = queue
@@ -123,12 +121,12 @@ class _Api:
         jobs = self.queue.index.jobs()
         full = self.queue.disk.problem()
         rows = [self._row(job) for job in reversed(jobs[-500:])]
-        return {"jobs": rows, "full": None if full is None else said(full)}
+        return {"jobs": rows, "full": None if full is None else error_record(full)}
 
     def job(self, request: Request) -> _Json:
         """A job with its numbers, live data and files."""
-        job = self._known(request)
-        folder = self.queue.place(job.id)
+        job = self._job_of(request)
+        folder = self.queue.folder_of(job.id)
         files = [file for file in sorted(_FILES) if (folder / RESULTS / file).is_file()]
         shape = (folder / SHAPE).is_file()
         return {**asdict(job), "live": self.queue.live(job.id), "files": files, "has_shape": shape}
@@ -141,7 +139,7 @@ class _Api:
         row["summary"]["collides"] = bool(job.summary.get("collisions"))
         return row | {"fraction": live.get("fraction", 0.0), "phase": live.get("phase", "")}
 
-    def _known(self, request: Request) -> Job:
+    def _job_of(self, request: Request) -> Job:
         name = request.path_params["name"]
         job = self.queue.index.job(name)
         if job is None:
@@ -153,7 +151,7 @@ class _Api:
         forms = body.get("forms") if isinstance(body, dict) else None
         if not isinstance(forms, list) or not 1 <= len(forms) <= min(_MOST_AT_ONCE, MOST_WAITING):
             raise InvalidValue(f"1 to {_MOST_AT_ONCE} bends are ordered at once", where="forms")
-        wanted = [Wanted.model_validate(form) for form in forms]
+        wanted = [Wanted.read(form) for form in forms]
         good, refused = [], []
         for number, one in enumerate(wanted):
             try:
@@ -161,10 +159,10 @@ class _Api:
             except UmformError as error:
                 if len(wanted) == 1:
                     raise
-                refused.append({**said(error), "form": number, "title": one.title})
+                refused.append({**error_record(error), "form": number, "title": one.title})
         series = str(body.get("series", ""))[:80]
         add = self.queue.add
-        names = [add("bend", one.title, one.model_dump(), series=series, tools=one.drawn) for one in good]
+        names = [add("bend", one.title, dict(one.values), series=series, tools=one.drawn) for one in good]
         return {"jobs": names, "refused": refused}
 
     def add_deck(self, body: Any, request: Request) -> _Json:
@@ -174,7 +172,7 @@ class _Api:
         return {"jobs": [self.queue.add("deck", title, {}, deck=text)]}
 
     def add_tool(self, body: Any, request: Request) -> _Json:
-        """Read the drawing of a tool, and keep it."""
+        """Read the drawing of a tool and store it."""
         kind, name, layer, drawing = (_text(body, part) for part in ("kind", "name", "layer", "drawing"))
         full = self.queue.disk.problem()
         if full is not None:
@@ -182,35 +180,35 @@ class _Api:
         return self.queue.shelf.add(kind, name, layer, drawing)
 
     def remove_tool(self, body: Any, request: Request) -> _Json:
-        """Take a drawn tool away."""
+        """Delete a drawn tool."""
         self.queue.shelf.remove(_text(body, "kind"), _text(body, "name"))
         return {}
 
     def stop(self, body: Any, request: Request) -> _Json:
         """Stop a job."""
-        self.queue.stop(self._known(request).id)
+        self.queue.stop(self._job_of(request).id)
         return {}
 
     def resume(self, body: Any, request: Request) -> _Json:
-        """Take a job up."""
-        self.queue.resume(self._known(request).id)
+        """Resume a job."""
+        self.queue.resume(self._job_of(request).id)
         return {}
 
     def remove(self, body: Any, request: Request) -> _Json:
-        """Forget a job."""
-        self.queue.remove(self._known(request).id)
+        """Delete a job."""
+        self.queue.remove(self._job_of(request).id)
         return {}
 
     def curve(self, request: Request) -> _Json:
         """The curve of a bend from its file."""
-        path = result_file(self.queue, self._known(request).id, "curve.csv", _FILES)
+        path = result_file(self.queue, self._job_of(request).id, "curve.csv", _FILES)
         with path.open(newline="") as text:
             rows = list(csv.DictReader(text))
         return {"x": [float(row["stroke"]) for row in rows], "y": [float(row["force"]) for row in rows]}
 
     def scene(self, request: Request) -> Response:
         """The present scene of a job, for a page of its shape that is shown."""
-        path = self.queue.place(self._known(request).id) / SCENE
+        path = self.queue.folder_of(self._job_of(request).id) / SCENE
         if path.is_symlink() or not path.is_file():
             raise InvalidValue("this job has no shape yet", where="scene")
         return FileResponse(path, media_type="application/json")
@@ -231,16 +229,16 @@ class _Api:
             for job in map(self.queue.index.job, names)
             if job is not None and job.summary.keys() & {"quantities", "measures"}
         ]
-        shown = ("material", "thickness", "opening", "die_angle", "punch_angle", "punch_radius", "length")
+        shown = [name for name in form_fields() if any(job.parameters.get(name) is not None for job in jobs)]
         text = io.StringIO()
         table = csv.writer(text)
         rows = [
             [Quantity.of(one) for kind in ("quantities", "checks") for one in job.summary.get(kind, ())] for job in jobs
         ]
         found = columns(rows, units=True)
-        table.writerow(["job", "title", *shown, "wanted_angle", *found])
+        table.writerow(["job", "title", *("wanted_angle" if name == "angle" else name for name in shown), *found])
         for number, job in enumerate(jobs):
-            cells = [_cell(job.parameters.get(name)) for name in (*shown, "angle")]
+            cells = [_cell(job.parameters.get(name)) for name in shown]
             table.writerow([job.number, _cell(job.title), *cells, *(column[number] for column in found.values())])
         headers = {"content-disposition": 'attachment; filename="bends.csv"'}
         return Response(text.getvalue(), media_type="text/csv", headers=headers)

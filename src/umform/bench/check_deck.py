@@ -1,4 +1,4 @@
-"""The process of a check: ``python -m umform.bench.check_deck DECK FOLDER`` prints what it finds as JSON."""
+"""The process of a check: ``python -m umform.bench.check_deck DECK FOLDER`` prints its findings as JSON."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from umform.problem.problem import Problem
 
 
 def findings(path: Path, folder: Path) -> list[dict[str, str]]:
-    """What is found in a deck; what it cannot be read or built for is an error among the rest."""
+    """Findings of a deck; an error that prevents reading or building is one of them."""
     try:
         deck = Problem.read(path.read_text(encoding="utf-8"), "deck.toml", folder)
         return [{**asdict(found), "level": found.level.value} for found in check(deck, deck.build())]
@@ -25,7 +25,7 @@ def findings(path: Path, folder: Path) -> list[dict[str, str]]:
         return [_row(error)]
     except MemoryError:
         return [
-            {"level": "error", "about": "mesh", "text": "no memory for so large a model", "remedy": "fewer elements"}
+            {"level": "error", "about": "mesh", "text": "not enough memory for this model", "remedy": "fewer elements"}
         ]
 
 

@@ -1,4 +1,4 @@
-"""Decks on the page: templates, schema, and the check, which has a process of its own and a limit of time."""
+"""Decks on the page: templates, schema, and the check in a separate process with a time limit."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from umform.bench.helpers import NoAnswer, answer_of
 from umform.bench.jobs import LONGEST_DECK
+from umform.bench.subprocess_json import NoAnswer, json_of_module
 from umform.errors import InvalidValue
 from umform.problem import templates
 
@@ -36,7 +36,7 @@ def schema_text() -> str:
 
 
 def title_of(text: str) -> str:
-    """The title in a deck, or its beginning; the deck may be wrong."""
+    """The title of a deck, which may be invalid."""
     try:
         title = tomllib.loads(text[:LONGEST_DECK]).get("title")
     except (tomllib.TOMLDecodeError, RecursionError, ValueError):
@@ -52,7 +52,7 @@ def checked_deck(text: str, folder: Path) -> dict[str, Any]:
     text : str
         The deck.
     folder : Path
-        Where files that it names are looked for.
+        Folder of the files that it names.
 
     Returns
     -------
@@ -66,7 +66,7 @@ def checked_deck(text: str, folder: Path) -> dict[str, Any]:
         path.write_text(text, encoding="utf-8")
         try:
             arguments = ["umform.bench.check_deck", str(path), str(folder)]
-            findings = answer_of(arguments, _LONGEST_CHECK, "the check")
+            findings = json_of_module(arguments, _LONGEST_CHECK, "the check")
         except NoAnswer as error:
             text = "; ".join(part for part in (error.what, error.cause) if part)
             findings = [{"level": "error", "about": "check", "text": text, "remedy": error.remedy}]

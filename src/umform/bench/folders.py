@@ -1,4 +1,4 @@
-"""The folder of a job: names of its files, and the lock by which others see that its process lives."""
+"""The folder of a job: names of its files, and the lock that shows that its process runs."""
 
 from __future__ import annotations
 
@@ -9,8 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-#: What was ordered, what came of it, what it tells while it runs; the shape, and its present scene; the lock; a deck;
-#: the folder of results.
+#: Order, outcome, live data, 3D view and its present scene, lock, deck, folder of results.
 ORDER, OUTCOME, LIVE, SHAPE, SCENE, LOCK, DECK, RESULTS = (
     "job.json",
     "outcome.json",
@@ -27,8 +26,8 @@ NAME = re.compile(r"[0-9a-f]{12}")
 
 
 @contextmanager
-def owned(folder: Path) -> Iterator[bool]:
-    """Hold the lock of a job while it runs; False if another process has it."""
+def locked(folder: Path) -> Iterator[bool]:
+    """Lock a job while it runs; False if another process has locked it."""
     with (folder / LOCK).open("a") as lock:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -36,12 +35,12 @@ def owned(folder: Path) -> Iterator[bool]:
             yield False
             return
         lock.truncate(0)
-        lock.write(str(os.getpid()))  # whom a later server is to ask to stop
+        lock.write(str(os.getpid()))  # a later server sends its signals there
         lock.flush()
         yield True
 
 
-def is_owned(folder: Path) -> bool:
+def is_locked(folder: Path) -> bool:
     """Whether a process holds the lock of a job."""
     try:
         with (folder / LOCK).open("r") as lock:

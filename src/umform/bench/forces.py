@@ -1,4 +1,4 @@
-"""Forces of all operations of a job, and the one that chooses the press: by rules before the run, computed after it."""
+"""Forces of the operations of a job by workshop rules and as computed; the press must have the largest."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import Any
 from umform.bench.wanted import Wanted
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.spec import AirBending
+from umform.processes.hemming import Hemming
 from umform.processes.hemming.formulas import flattening_forces
 
 #: Force of bottoming over that in the air: what is usual.
@@ -24,11 +25,11 @@ class Force:
     operation : str
         "bend", "bottom" or "flatten".
     low, high : float
-        Range of a rule; equal if the force is given or computed.
+        Range of the rule; equal for a given or computed force.
     basis : str
         "rule", "given" or "computed".
     beyond : bool
-        Whether the force may exceed the range: a sheet that is squeezed to a way resists as much as it must.
+        Whether the force may exceed the range, as in bottoming by a way.
     """
 
     operation: str
@@ -47,29 +48,30 @@ class Force:
         }
 
 
-def before(wanted: Wanted, case: AirBending) -> list[Force]:
-    """The operations of a job in their order, by the rules of the shop."""
+def rule_forces(wanted: Wanted, case: AirBending) -> list[Force]:
+    """Forces of the operations in their order, by workshop rules."""
     low, high = shop_forces(case)
     bend = Force("bend", low, high)
-    if wanted.work == "hem":
-        return [bend, Force("flatten", *flattening_forces(case, wanted.gap, insert=wanted.insert))]
-    if wanted.work != "bottom":
+    if wanted.choices.work == "hem":
+        hem = wanted.of(Hemming)
+        return [bend, Force("flatten", *flattening_forces(case, hem["gap"], insert=hem["insert"]))]
+    if wanted.choices.work != "bottom":
         return [bend]
-    if wanted.press_force is not None:
-        return [Force("bottom", wanted.press_force, wanted.press_force, "given")]
+    if wanted.goal.force_per_metre is not None:
+        return [Force("bottom", wanted.goal.force_per_metre, wanted.goal.force_per_metre, "given")]
     return [Force("bottom", _BOTTOMING[0] * low, _BOTTOMING[1] * high, beyond=True)]
 
 
-def after(wanted: Wanted, case: AirBending, computed: Mapping[str, float]) -> list[Force]:
-    """The same with computed forces by operation; the press of a bend in the air is chosen by the rule, if larger."""
+def computed_forces(wanted: Wanted, case: AirBending, computed: Mapping[str, float]) -> list[Force]:
+    """The same with computed forces; for air bending the larger one of rule and computation."""
     found = []
-    for rule in before(wanted, case):
+    for rule in rule_forces(wanted, case):
         force = computed[rule.operation]
         larger = rule.operation == "bend" and force < rule.high
         found.append(rule if larger else Force(rule.operation, force, force, "computed"))
     return found
 
 
-def press(forces: list[Force]) -> Force:
+def largest(forces: list[Force]) -> Force:
     """The operation that needs the largest force."""
     return max(forces, key=lambda one: one.high)

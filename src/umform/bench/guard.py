@@ -1,4 +1,4 @@
-"""Who may ask: a browser of this machine, on a page of this server, with the token of the link; nobody else."""
+"""Access: only a browser of this machine, on a page of this server, with the token of the link."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from starlette.requests import cookie_parser
 from starlette.responses import JSONResponse, PlainTextResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-#: Bytes of a request: a deck, and room; of one with a drawing.
+#: Largest request in bytes, and largest one with a drawing.
 LONGEST_BODY, LONGEST_UPLOAD = 1_000_000, 8_100_000
 _UPLOAD = "/api/tools"
 _OPEN = "/assets/"
@@ -28,16 +28,16 @@ _HEADERS = {
 
 
 class TooLong(Exception):
-    """A body of more bytes than are taken."""
+    """A request that is too long."""
 
 
 class Guard:
-    """Refuses requests of other origins and names, without the token, or too long; adds headers to all answers.
+    """Refuses requests from other origins or to other hosts, without the token, or too long; adds headers to answers.
 
     Parameters
     ----------
     app : ASGIApp
-        What answers the others.
+        The application behind it.
     token : str
         The secret of the link.
     port : int
@@ -50,7 +50,7 @@ class Guard:
         self.cookie = f"umform-bench-{port}"
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer a request, or hand it on."""
+        """Answer a request, or pass it on."""
         if scope["type"] == "lifespan":
             await self.app(scope, receive, send)
             return
@@ -59,7 +59,7 @@ class Guard:
         headers = Headers(scope=scope)
         refusal = self._refusal(scope, headers)
         if refusal is not None:
-            await refusal(scope, receive, _with(send, _HEADERS.items()))
+            await refusal(scope, receive, _adding_headers(send, _HEADERS.items()))
             return
         more = dict(_HEADERS)
         if not scope["path"].startswith("/files/"):
@@ -76,33 +76,33 @@ class Guard:
             await send(message)
 
         try:
-            await self.app(scope, _limited(receive, _most(scope)), _with(watched, more.items()))
+            await self.app(scope, _limited(receive, _longest(scope)), _adding_headers(watched, more.items()))
         except TooLong:
             if not began:
-                await _too_long(_most(scope))(scope, receive, _with(send, _HEADERS.items()))
+                await _too_long(_longest(scope))(scope, receive, _adding_headers(send, _HEADERS.items()))
 
     def _refusal(self, scope: Scope, headers: Headers) -> Response | None:
-        """Why a request is refused, as an answer; None if it is not."""
+        """The answer to a refused request; None for others."""
         if headers.get("host", "") not in self.hosts:
-            return PlainTextResponse("this server has another name", 421)
+            return PlainTextResponse("unknown host name", 421)
         origin = headers.get("origin")
         if origin is not None and origin.removeprefix("http://") not in self.hosts:
-            return PlainTextResponse("a page of another origin may not ask", 403)
+            return PlainTextResponse("request from another origin", 403)
         if headers.get("sec-fetch-site", "none") not in ("none", "same-origin") and scope["path"] != "/":
-            return PlainTextResponse("a page of another origin may not ask", 403)
+            return PlainTextResponse("request from another origin", 403)
         length = headers.get("content-length", "0")
-        if not (length.isdecimal() and len(length) < 12 and int(length) <= _most(scope)):
-            return _too_long(_most(scope))
+        if not (length.isdecimal() and len(length) < 12 and int(length) <= _longest(scope)):
+            return _too_long(_longest(scope))
         if scope["path"].startswith(_OPEN) or self._in_link(scope) or self._in_cookie(headers):
             return None
-        return PlainTextResponse("open the link with its token, which `umform bench` has printed", 401)
+        return PlainTextResponse("the token is missing or wrong: open the link that `umform bench` printed", 401)
 
     def _in_link(self, scope: Scope) -> bool:
         given = parse_qs(scope["query_string"].decode("latin-1")[:500]).get("token", [""])[0] if _is_page(scope) else ""
         return secrets.compare_digest(given.encode(), self.token.encode())
 
     def _in_cookie(self, headers: Headers) -> bool:
-        # Other servers of this machine share the name of the host: their cookies come too, in any form.
+        # The cookies of other servers of this host come too, in any form.
         given = cookie_parser(headers.get("cookie", "")[:8000]).get(self.cookie, "")
         return secrets.compare_digest(given.encode(), self.token.encode())
 
@@ -111,7 +111,7 @@ def _is_page(scope: Scope) -> bool:
     return bool(scope["path"] == "/" and scope["method"] == "GET")
 
 
-def _most(scope: Scope) -> int:
+def _longest(scope: Scope) -> int:
     return LONGEST_UPLOAD if scope["path"] == _UPLOAD else LONGEST_BODY
 
 
@@ -120,7 +120,7 @@ def _too_long(most: int) -> Response:
 
 
 def _limited(receive: Receive, most: int) -> Receive:
-    """Receive no more than a body may have, whatever its header says."""
+    """Limit the length of a body, whatever its header says."""
     taken = 0
 
     async def limited() -> Message:
@@ -134,8 +134,8 @@ def _limited(receive: Receive, most: int) -> Receive:
     return limited
 
 
-def _with(send: Send, headers: Iterable[tuple[str, str]]) -> Send:
-    """Send an answer with more headers; those that it has stay."""
+def _adding_headers(send: Send, headers: Iterable[tuple[str, str]]) -> Send:
+    """Send an answer with more headers; its own are kept."""
     more = list(headers)
 
     async def adding(message: Message) -> None:

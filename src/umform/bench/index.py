@@ -1,4 +1,4 @@
-"""The index of all jobs: a small SQLite file in the folder of the bench; the jobs' folders can make it again."""
+"""The index of all jobs: an SQLite file in the folder of the bench; it can be rebuilt from the folders of the jobs."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ CREATE TABLE IF NOT EXISTS jobs (
     folder TEXT NOT NULL
 )
 """
-#: All states of a job. An unfinished one is taken up when the bench starts again.
+#: All states of a job. Unfinished ones are resumed when the bench starts again.
 STATES = ("waiting", "running", "stopped", "done", "failed")
 UNFINISHED = ("waiting", "running")
 _FIELDS = "number, id, kind, title, series, parameters, state, reason, summary, created, ended, starts, folder"
@@ -56,13 +56,13 @@ class Job:
     state, reason : str
         One of `STATES`, and its reason.
     summary : dict
-        The numbers that came out.
+        Numbers of the result.
     created, ended : float or None
         Seconds since 1970.
     starts : int
-        How often it was started.
+        Number of starts.
     folder : str
-        Where its files are, as seen from the folder of the bench.
+        Folder of its files, relative to the folder of the bench.
     """
 
     number: int
@@ -86,7 +86,7 @@ class Index:
     Parameters
     ----------
     folder : Path
-        Folder of the bench. What is no database there is put aside, and the index is made again.
+        Folder of the bench. A file that is no database is renamed, and the index is rebuilt.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -101,7 +101,7 @@ class Index:
                 with suppress(FileNotFoundError):
                     Path(f"{path}{ending}").unlink()
             self._open(path)
-        self._take_in()
+        self._add_missing()
 
     def _open(self, path: Path) -> None:
         self._base = sqlite3.connect(path, check_same_thread=False, isolation_level=None)
@@ -109,8 +109,8 @@ class Index:
         self._base.execute(_TABLE)
         self._base.execute("SELECT count(*) FROM jobs").fetchone()
 
-    def _take_in(self) -> None:
-        """Take in the jobs whose folders are there and that the index does not know, the oldest first."""
+    def _add_missing(self) -> None:
+        """Add jobs that have a folder but no row, the oldest first."""
         known = {job.id for job in self.jobs()}
         found = []
         for path in (self.folder / "jobs").glob("*/job.json"):
@@ -155,7 +155,7 @@ class Index:
     def change(
         self, name: str, state: str, *, reason: str = "", summary: Mapping[str, Any] | None = None, start: bool = False
     ) -> None:
-        """Give a job another state."""
+        """Set the state of a job."""
         assert state in STATES
         ended = None if state in UNFINISHED else time.time()
         text = "UPDATE jobs SET state = ?, reason = ?, summary = ?, ended = ?, starts = starts + ? WHERE id = ?"
@@ -164,7 +164,7 @@ class Index:
             pass
 
     def remove(self, name: str) -> None:
-        """Forget a job."""
+        """Delete a job."""
         with self._query("DELETE FROM jobs WHERE id = ?", (name,)):
             pass
 
@@ -175,7 +175,7 @@ class Index:
         return None if row is None else _job(row)
 
     def jobs(self, *states: str) -> list[Job]:
-        """All jobs, or those of some states, in the order in which they came."""
+        """All jobs, or those of some states, in the order of their numbers."""
         where = f"WHERE state IN ({', '.join('?' * len(states))})" if states else ""
         with self._query(f"SELECT {_FIELDS} FROM jobs {where} ORDER BY number", states) as rows:
             return [_job(row) for row in rows.fetchall()]

@@ -1,4 +1,4 @@
-"""What the form offers: sheet metals, dies and punches; and the tools with which an angle can be reached."""
+"""What the form offers: fields, sheet metals, dies and punches; and tools that reach an angle."""
 
 from __future__ import annotations
 
@@ -8,9 +8,16 @@ from importlib.resources import files
 from typing import Any
 
 from umform import sheet_metals
-from umform.bench.wanted import MESHES, WORKS, Wanted
+from umform.bench.form import MESHES, form_fields
+from umform.bench.wanted import Wanted
 from umform.errors import UmformError
+from umform.processes.air_bending.spec import AirBending, sizes_of
+from umform.processes.hemming.spec import ACUTE, scaled
 
+#: What the default mesh has where others differ.
+_USUAL_MESH = {name: getattr(AirBending, name) for mesh in MESHES.values() for name in mesh}
+#: Sizes of the tools of a bend.
+_USUAL_SIZES = {name: getattr(AirBending, name) for name in ACUTE}
 #: Degrees between the wanted angle and that of the tools which leave room for springback.
 ROOM = 4.0
 
@@ -23,7 +30,7 @@ def tools() -> dict[str, Any]:
 
 @cache
 def library() -> dict[str, Any]:
-    """All that the page offers: metals, tools, meshes, defaults."""
+    """All that the page offers: fields of the form, metals, tools, meshes."""
     metals = [
         {
             "name": metal.name,
@@ -43,21 +50,21 @@ def library() -> dict[str, Any]:
     return {
         "metals": metals,
         "tools": tools(),
-        "meshes": list(MESHES),
-        "works": list(WORKS),
-        "defaults": Wanted().model_dump(),
-        "units": _units(),
+        "meshes": {name: _USUAL_MESH | mesh for name, mesh in MESHES.items()},
+        "fields": [{**one.record(), "usual": _usual_sizes(one.name)} for one in form_fields().values()],
+        "proportions": {"hem": ACUTE, "": scaled(_USUAL_SIZES, 1.0 / AirBending.thickness)},
     }
 
 
-def _units() -> dict[str, str]:
-    """Units of the fields of the form by their names; degrees as a sign."""
-    rows = Wanted.model_json_schema()["properties"]
-    said = {
-        name: next((arm["unit"] for arm in (row, *row.get("anyOf", ())) if "unit" in arm), "")
-        for name, row in rows.items()
+def _usual_sizes(name: str) -> list[float]:
+    """Sizes of the tools of the library that a field may have."""
+    known = tools()
+    offered = {
+        sizes_of("die")["opening"]: [die["opening"] for die in known["dies"]],
+        sizes_of("die")["angle"]: known["die_angles"],
+        **{sizes_of("punch")[size]: [punch[size] for punch in known["punches"]] for size in ("angle", "radius")},
     }
-    return {name: "°" if unit == "degrees" else unit for name, unit in said.items() if unit}
+    return list(dict.fromkeys(offered.get(name, [])))
 
 
 def _thicker(name: str, limit: float) -> dict[str, float]:
@@ -72,24 +79,25 @@ def _thicker(name: str, limit: float) -> dict[str, float]:
 
 
 def tools_for(wanted: Wanted) -> dict[str, float | None] | None:
-    """Die and punch of the library, nearest to those at hand, with which the wanted angle can be reached.
+    """Die and punch of the library that reach the wanted angle.
 
     Returns
     -------
     dict of str to float, or None
-        The parameters to change, drawn tools are put away; None if there are none, or if no angle is wanted.
+        The parameters to change, without drawn tools; None if no tools reach it, or no angle is wanted.
     """
-    if wanted.work != "bend" or wanted.angle is None:
+    wished = wanted.goal.angle
+    if wished is None:
         return None
-    most = wanted.angle - ROOM
+    most = wished - ROOM
     angles = [angle for angle in tools()["die_angles"] if angle <= most] or tools()["die_angles"][-1:]
     punches = [punch for punch in tools()["punches"] if punch["angle"] <= most] or tools()["punches"][-1:]
     for angle in angles:
         for punch in sorted(punches, key=lambda one: -float(one["angle"])):
-            sizes = {"die_angle": angle, "punch_angle": punch["angle"], "punch_radius": punch["radius"]}
-            change = {name: float(value) for name, value in sizes.items()} | {"punch": None, "die": None}
+            sizes = {sizes_of("punch")[size]: float(value) for size, value in punch.items()}
+            change = {sizes_of("die")["angle"]: float(angle), **sizes, "punch": None, "die": None}
             try:
-                wanted.model_copy(update=change).case()
+                wanted.changed(change).case()
             except UmformError:
                 continue
             return change

@@ -1,4 +1,4 @@
-"""What a job may take: memory of its process, and room on the disk of the bench."""
+"""Limits: memory of a process, and size of the folder of the bench."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from pathlib import Path
 
 from umform.errors import UmformError
 
-#: Part of the memory of the machine that a job may have: a mesh far too fine then fails with a message.
+#: Share of the memory of the machine for a job: a mesh that is far too fine fails with a message.
 _MEMORY = 0.8
-#: Bytes that stay free on the disk, and seconds for which a size that was found counts.
-_LEFT, _FRESH = 200e6, 5.0
+#: Bytes that stay free on the disk, and seconds for which a measured size is valid.
+_MIN_FREE, _MAX_AGE = 200e6, 5.0
 
 
 class DiskFull(UmformError):
-    """The folder of the bench has as much as it may have."""
+    """The folder of the bench has reached its limit, or the disk is full."""
 
     id = "bench.disk"
 
 
 def limit_memory() -> None:
-    """Let a mesh that cannot be meant end in an error of this process."""
+    """Limit the memory of this process: a mesh that needs more raises an error."""
     import resource
 
     with suppress(ValueError, OSError):
@@ -32,14 +32,14 @@ def limit_memory() -> None:
 
 
 class Disk:
-    """Room for the files of the bench.
+    """Disk space of the bench.
 
     Parameters
     ----------
     folder : Path
         Folder of the bench.
     most : float
-        Bytes that all its files may have.
+        Limit of all its files in bytes.
     """
 
     def __init__(self, folder: Path, most: float) -> None:
@@ -48,18 +48,18 @@ class Disk:
         self._next = 0.0
 
     def problem(self) -> UmformError | None:
-        """Why there is no room for another job; None if there is. Looks at the disk every few seconds at most."""
+        """Why another job has no space; None if it has. The disk is checked every few seconds at most."""
         now = time.monotonic()
         if now >= self._next:
-            self._found = self._look()
-            self._next = time.monotonic() + max(_FRESH, 20.0 * (time.monotonic() - now))
+            self._found = self._measure()
+            self._next = time.monotonic() + max(_MAX_AGE, 20.0 * (time.monotonic() - now))
         return self._found
 
-    def forget(self) -> None:
-        """Look again at the next question: something was deleted."""
+    def expire(self) -> None:
+        """Measure again at the next call: files were deleted."""
         self._next = 0.0
 
-    def _look(self) -> UmformError | None:
+    def _measure(self) -> UmformError | None:
         taken, free = _size(self.folder), shutil.disk_usage(self.folder).free
         if taken >= self.most:
             return DiskFull(
@@ -69,7 +69,7 @@ class Disk:
                 cause="many jobs, or a deck that writes many frames",
                 remedy="delete jobs in the list, or start umform bench with a larger --disk",
             )
-        if free < _LEFT:
+        if free < _MIN_FREE:
             return DiskFull(
                 "the disk is nearly full",
                 where=str(self.folder),

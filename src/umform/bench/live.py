@@ -1,4 +1,4 @@
-"""Live data of a running job in a small file: progress, curve, section of the sheet."""
+"""Live data of a running job in a file: progress, curve, section of the sheet."""
 
 from __future__ import annotations
 
@@ -19,25 +19,25 @@ if TYPE_CHECKING:
     from umform.analysis.steps.loop import Run
     from umform.results.history import History
 
-#: Seconds between two files, at least.
-_OFTEN = 0.1
-#: Seconds before the first shape in space; those that follow take at most this part of the time.
+#: Least number of seconds between two files.
+_INTERVAL = 0.1
+#: Seconds before the first 3D view; the next ones take at most this share of the time.
 _FIRST_SHAPE, _SHARE = 1.2, 0.05
-#: Most points of a curve.
+#: Largest number of points of a curve.
 _MOST = 500
-#: Shares of the work: loading, each unloading of a search, and what there is at most before the files are written.
+#: Progress after loading, of each unloading of a search, and at most before the files are written.
 _LOADING, _TRIAL, _BEFORE_FILES = 0.7, 0.08, 0.95
 
 
 def write_live(folder: Path, content: dict[str, Any]) -> None:
-    """Write the file in one step; it need not outlive the machine."""
+    """Write the file in one step; it is not flushed to the disk."""
     waiting = folder / f".{LIVE}.{os.getpid()}"
     waiting.write_text(json.dumps(content, allow_nan=False), encoding="utf-8")
     waiting.replace(folder / LIVE)
 
 
 class Watch:
-    """Writes down what a run has reached, between its increments.
+    """Writes the state of a run between its increments.
 
     Parameters
     ----------
@@ -45,52 +45,52 @@ class Watch:
         Folder of the job.
     title : str
         For the page of the shape.
-    tell : callable
-        Makes the part of the file that is of the process; ``fraction`` and ``phase`` are in it.
+    progress : callable
+        Returns the data of the process, with ``fraction`` and ``phase``.
     """
 
-    def __init__(self, folder: Path, title: str, tell: Callable[[Run], dict[str, Any]]) -> None:
-        self.folder, self.title, self.tell = folder, title, tell
+    def __init__(self, folder: Path, title: str, progress: Callable[[Run], dict[str, Any]]) -> None:
+        self.folder, self.title, self.progress = folder, title, progress
         self.content: dict[str, Any] = {"fraction": 0.0, "phase": "start", "increments": 0, "shape": 0}
         self._start = time.monotonic()
         self._next, self._next_shape = 0.0, self._start + _FIRST_SHAPE
         self._run: Run | None = None
-        self._over = False
+        self._finished = False
 
     def __call__(self, run: Run) -> None:
-        """Look at a run between two increments; those of an error budget are none of the job's."""
+        """Write the state of a run; runs of an error budget are left out."""
         now = time.monotonic()
-        if self._over:
+        if self._finished:
             return
         self._run = run
         if now < self._next:
             return
-        self._take(run)
+        self._update(run)
         if now > self._next_shape and len(run.result) > 1:
             self.shape(run.result)
             self._next_shape = time.monotonic() + (time.monotonic() - now) / _SHARE
         self.write()
-        self._next = time.monotonic() + _OFTEN
+        self._next = time.monotonic() + _INTERVAL
 
     def phase(self, name: str, fraction: float) -> None:
-        """Begin another phase after the end of the run, and write the last increments."""
-        self._over = True
+        """Start another phase after the end of the run, and write the last increments."""
+        self._finished = True
         if self._run is not None:
-            self._take(self._run)
+            self._update(self._run)
             self._run = None
         self.content |= {"phase": name, "fraction": fraction}
         self.write()
 
     def shape(self, result: History) -> None:
-        """Write the shape in space."""
-        from umform.bench.shape import write_shape  # loads the report and its pictures: late
+        """Write the 3D view."""
+        from umform.bench.shape import write_shape  # slow: it loads the report and its pictures
 
         write_shape(self.folder, result, self.title)
         self.content["shape"] += 1
         self.write()
 
-    def _take(self, run: Run) -> None:
-        content = {"increments": len(run.result) - 1, **self.tell(run)}
+    def _update(self, run: Run) -> None:
+        content = {"increments": len(run.result) - 1, **self.progress(run)}
         content["fraction"] = max(content["fraction"], self.content["fraction"])
         self.content |= content
 
@@ -99,7 +99,7 @@ class Watch:
         write_live(self.folder, self.content | {"seconds": round(time.monotonic() - self._start, 2)})
 
 
-class BendTold:
+class BendProgress:
     """Curve, section and progress of a bend on its brake."""
 
     def __init__(self, brake: Brake, angle: float | None, stroke: float | None) -> None:
@@ -135,7 +135,7 @@ class BendTold:
         return _LOADING * min(1.0, max(0.0, done))
 
 
-class DeckTold:
+class DeckProgress:
     """Curve and progress of the run of a deck."""
 
     def __init__(self, increments: int, steps: int) -> None:
@@ -145,11 +145,11 @@ class DeckTold:
         """Live data of the present state."""
         result, number = run.result, min(run.number, self.steps)
         done = max((len(result) - 1) / self.increments, (number - 1) / self.steps)
-        told: dict[str, Any] = {"phase": "loading", "fraction": min(_BEFORE_FILES, done)}
-        told |= {"step": number, "steps": self.steps}
+        content: dict[str, Any] = {"phase": "loading", "fraction": min(_BEFORE_FILES, done)}
+        content |= {"step": number, "steps": self.steps}
         if run.model.controls:
             name = run.model.controls[0].name
             x, y = result[name], result[f"{name}_force"]
             thin = max(1, -(-len(x) // _MOST))
-            told["curve"] = {"x": x[::thin].tolist(), "y": y[::thin].tolist(), "names": [name, f"{name}_force"]}
-        return told
+            content["curve"] = {"x": x[::thin].tolist(), "y": y[::thin].tolist(), "names": [name, f"{name}_force"]}
+        return content

@@ -13,13 +13,13 @@ if TYPE_CHECKING:
     from umform.analysis.steps.loop import Run
     from umform.model import Model
 
-#: Most points of a curve, and of one face of an outline.
+#: Largest number of points of a curve, and of one face of an outline.
 _MOST = 300
-#: Part of an operation that is loading; what there is at most before the files are written.
+#: Share of loading in an operation; largest progress before the files are written.
 _LOADING, _BEFORE_FILES = 0.7, 0.95
 
 
-class StripTold:
+class StripProgress:
     """Curve, outline and progress of a strip.
 
     Parameters
@@ -27,7 +27,7 @@ class StripTold:
     sequence : BendSequence
         Its bends.
     hem : bool
-        Whether it is flattened after them.
+        Whether a hem is flattened after them.
     """
 
     def __init__(self, sequence: BendSequence, *, hem: bool) -> None:
@@ -37,7 +37,7 @@ class StripTold:
 
     def __call__(self, run: Run) -> dict[str, Any]:
         """Live data of the present state."""
-        if run.model is not self._model:  # each operation has its own
+        if run.model is not self._model:  # a new operation
             self._model, self._number = run.model, self._number + 1
         number = min(self._number, self.count - 1)
         bends = self.sequence.bends
@@ -61,7 +61,7 @@ class StripTold:
         }
 
     def _part(self, number: int, stroke: float, back: bool) -> float:
-        """About how much of an operation is done."""
+        """Approximate progress of an operation."""
         if back or number >= len(self.sequence.bends):
             return _LOADING
         bend = self.sequence.bends[number]

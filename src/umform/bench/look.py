@@ -1,19 +1,17 @@
-"""A look at a form before anything is run: outlines of the tools, what is wrong, what is unusual, what to expect."""
+"""Check of a form before a run: outlines of the tools, errors, warnings, expected values."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
-from pydantic import ValidationError
 
-from umform.bench.forces import before, press
+from umform.bench.forces import largest, rule_forces
 from umform.bench.library import ROOM, tools_for
-from umform.bench.refusals import said
+from umform.bench.refusals import problems_of
 from umform.bench.shelf import Shelf
-from umform.bench.wanted import Wanted, problems_of
+from umform.bench.wanted import Mistakes, Wanted
 from umform.errors import UmformError
-from umform.processes.air_bending.drawn_tools import drawn_sizes
 from umform.processes.air_bending.formulas import INNER_RADIUS, shop_forces, strength
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence.collisions import die_body, punch_body
@@ -25,45 +23,43 @@ _NARROW, _WIDE = 5.0, 16.0
 
 
 def look(values: object, shelf: Shelf | None = None) -> dict[str, Any]:
-    """Look at the values of a form.
+    """Check the values of a form.
 
     Parameters
     ----------
     values : object
-        What has come from the page; anything.
+        The request of the page; any JSON.
     shelf : Shelf, optional
         Drawn tools.
 
     Returns
     -------
     dict
-        ``problems`` (nothing can be run while there are any), ``warnings``, and where they can be told ``drawing``,
-        ``expected`` and ``change`` (tools that would do).
+        ``problems`` (errors, which prevent a run) and ``warnings``; for valid tools ``drawing``, ``expected`` and
+        ``change`` (suitable tools).
     """
     try:
-        wanted = Wanted.model_validate(values)
-    except ValidationError as error:
+        wanted = Wanted.read(values)
+    except Mistakes as error:
         return {"problems": problems_of(error), "warnings": []}
     try:
         case = wanted.at_tools(shelf)
     except UmformError as error:
-        return {"problems": [said(error)], "warnings": [], "change": tools_for(wanted)}
+        return {"problems": problems_of(error), "warnings": [], "change": tools_for(wanted)}
     found: dict[str, Any] = {
         "problems": [],
         "warnings": _warnings(wanted, case),
         "drawing": drawing(case, bodies=wanted.of_strip),
     }
     found["expected"] = _expected(wanted, case)
-    angles = {"bottom": case.die_angle, "hem": wanted.first_angle}  # a bottomed sheet has the angle of the die
-    if wanted.work in angles:
-        found["shown"] = {"angle": angles[wanted.work], "stroke": None}
-    found["measured"] = {
-        name: round(value, 4) for name, value in drawn_sizes(case.punch_section, case.die_section).items()
-    }
+    angles = {"bottom": case.die_angle, "hem": wanted.values.get("first_angle")}  # a bottomed sheet has that of the die
+    if wanted.choices.work in angles:
+        found["shown"] = {"angle": angles[wanted.choices.work], "stroke": None}
+    found["measured"] = {name: round(value, 4) for name, value in case.drawn_sizes.items()}
     try:
         wanted.case(shelf)
     except UmformError as error:
-        found |= {"problems": [said(error)], "change": tools_for(wanted)}
+        found |= {"problems": problems_of(error), "change": tools_for(wanted)}
     else:
         found["change"] = tools_for(wanted) if any(row["kind"] == "close" for row in found["warnings"]) else None
     return found
@@ -86,37 +82,36 @@ def drawing(case: AirBending, *, bodies: bool = False) -> dict[str, Any]:
         "punch": np.add(punch.points(chord, far), (0.0, case.thickness)).tolist(),
         "closed": {"die": die.closed, "punch": punch.closed},
         "depth": case.depth,
-        "opening": case.opening,
-        "punch_radius": case.punch_radius,
+        "sizes": {"die": case.sizes("die"), "punch": case.sizes("punch")},
         "half_length": case.half_length,
         "largest_stroke": case.largest_stroke,
         "thickness": case.thickness,
         "shoulder": case.shoulder,
-        "radii": case.punch_radius + case.thickness + case.die_radius,
+        "radii": case.radii,
     }
 
 
 def _expected(wanted: Wanted, case: AirBending) -> dict[str, Any]:
-    """What the rules of the shop say before the run."""
-    forces = before(wanted, case)
+    """Expected values by workshop rules."""
+    forces = rule_forces(wanted, case)
     return {
         "tensile_strength": strength(case),
         "force": list(shop_forces(case)),
         "forces": [{"operation": one.operation, "force": [one.low, one.high], "beyond": one.beyond} for one in forces],
-        "press": press(forces).over(wanted.length),
+        "press": largest(forces).over(wanted.choices.length),
         "radius": INNER_RADIUS * case.opening,
         "ratio": case.opening / case.thickness,
     }
 
 
 def _collisions(wanted: Wanted, case: AirBending) -> list[dict[str, Any]]:
-    """Collisions to be expected of several bends: they are said in red, but the run is the judge."""
-    if wanted.work != "sequence":
+    """Expected collisions of several bends; only the run decides."""
+    if wanted.choices.work != "sequence":
         return []
     try:
         sequence = wanted.sequence(case)
     except UmformError:
-        return []  # a problem that is said elsewhere
+        return []  # an error, which `look` reports
     found = []
     for number, hits in foreseen_collisions(sequence).items():
         for hit in hits:
@@ -126,14 +121,15 @@ def _collisions(wanted: Wanted, case: AirBending) -> list[dict[str, Any]]:
 
 
 def _warnings(wanted: Wanted, case: AirBending) -> list[dict[str, Any]]:
-    """What is unusual, by kind and numbers; the page puts it into words."""
+    """Warnings by kind and numbers; the page has their texts."""
     ratio = case.opening / case.thickness
     found = _collisions(wanted, case)
     if not _NARROW <= ratio <= _WIDE:
         found.append({"where": "opening", "kind": "ratio", "bounds": {"ratio": round(ratio, 1)}})
     sharpest = max(case.die_angle, case.punch_angle)
-    if wanted.work == "bend" and wanted.angle is not None and sharpest < wanted.angle < sharpest + ROOM:
+    angle, length = wanted.goal.angle, wanted.choices.length
+    if angle is not None and sharpest < angle < sharpest + ROOM:
         found.append({"where": "angle", "kind": "close", "bounds": {"angle": sharpest}})
-    if wanted.whole and wanted.length > 20.0 * case.thickness:
-        found.append({"where": "whole", "kind": "long", "bounds": {"ratio": round(wanted.length / case.thickness)}})
+    if wanted.choices.whole and length > 20.0 * case.thickness:
+        found.append({"where": "whole", "kind": "long", "bounds": {"ratio": round(length / case.thickness)}})
     return found

@@ -1,4 +1,4 @@
-"""The process that reads a drawing: ``python -m umform.bench.read_tool KIND FILE LAYER`` prints what it is as JSON."""
+"""The process that reads a drawing: ``python -m umform.bench.read_tool KIND FILE LAYER`` prints the section as JSON."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from pathlib import Path
 from typing import Any
 
 from umform.bench.limits import limit_memory
-from umform.bench.refusals import said
-from umform.bench.shelf import written
+from umform.bench.refusals import error_record
+from umform.bench.shelf import profile_record
 from umform.errors import UmformError
 from umform.processes.air_bending.drawn_tools import DrawnDie, DrawnPunch, read_section
 from umform.surfaces.dxf import layers_and_unit
 
 
 def read(kind: str, path: Path, layer: str) -> dict[str, Any]:
-    """The section of a tool with layers and unit of its drawing; or what is wrong with it.
+    """The section of a tool with layers and unit of its drawing, or the error.
 
     Parameters
     ----------
@@ -34,8 +34,8 @@ def read(kind: str, path: Path, layer: str) -> dict[str, Any]:
         (DrawnPunch if kind == "punch" else DrawnDie).of(profile)
     except UmformError as error:
         where = "layer" if error.what == "there is nothing on this layer" else "drawing"
-        return found | {"problem": said(error) | {"where": where}}
-    return found | written(profile)
+        return found | {"problem": error_record(error) | {"where": where}}
+    return found | profile_record(profile)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Errors in parts, for the page to put into words."""
+"""Errors as JSON, for the page."""
 
 from __future__ import annotations
 
@@ -8,8 +8,13 @@ from umform.errors import UmformError
 from umform.problem.errors import DeckError
 
 
-def said(error: UmformError) -> dict[str, Any]:
-    """An error in parts."""
+def problems_of(error: UmformError) -> list[dict[str, Any]]:
+    """All errors of a form as JSON."""
+    return [_parts(one) for one in getattr(error, "errors", [error])[:20]]
+
+
+def error_record(error: UmformError) -> dict[str, Any]:
+    """An error as JSON."""
     if isinstance(error, DeckError) and len(error.errors) > 1:
         return {**_parts(error), "all": [_parts(one) for one in error.errors[:50]]}
     return _parts(error)

@@ -1,4 +1,4 @@
-"""The server of the bench: the page, its assets, and the questions; on 127.0.0.1 only."""
+"""The server of the bench: page, assets and API, on 127.0.0.1 only."""
 
 from __future__ import annotations
 
@@ -34,10 +34,10 @@ _KINDS = {
     ".svg": "image/svg+xml",
     ".html": "text/html",
 }
-#: Open files of the process: each request has one.
+#: Limit of open files: each request needs one.
 _MOST_FILES = 8192
-#: Leads a browser to the page; its address, which other users of the machine can see, has no token.
-_DOOR = '<!DOCTYPE html><title>umform bench</title><meta http-equiv="refresh" content="0; url={link}">'
+#: Leads a browser to the page: its own address, which other users of the machine can see, has no token.
+_REDIRECT = '<!DOCTYPE html><title>umform bench</title><meta http-equiv="refresh" content="0; url={link}">'
 _TOKEN = re.compile(r"[A-Za-z0-9_-]{20,}")
 
 
@@ -85,24 +85,24 @@ def application(queue: Queue, token: str, port: int) -> Starlette:
 
 
 def _unexpected(request: Request, error: Exception) -> Response:
-    return PlainTextResponse("an error that nobody expected; the terminal of the server has more", 500)
+    return PlainTextResponse("unexpected error: see the terminal of the server", 500)
 
 
 @contextmanager
-def owned(folder: Path) -> Iterator[None]:
-    """Hold the folder of a bench: one server at a time.
+def locked(folder: Path) -> Iterator[None]:
+    """Lock the folder of a bench: one server at a time.
 
     Raises
     ------
     FileProblem
-        If another server has it, or it cannot be made.
+        If another server has locked it, or it cannot be created.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
         lock = (folder / "bench.lock").open("w")
     except OSError as error:
         raise FileProblem(
-            "the folder of the bench cannot be made", where=str(folder), cause=error.strerror or str(error)
+            "the folder of the bench cannot be created", where=str(folder), cause=error.strerror or str(error)
         ) from error
     with lock:
         try:
@@ -112,24 +112,24 @@ def owned(folder: Path) -> Iterator[None]:
                 "another bench uses this folder",
                 where=str(folder),
                 cause="it runs in another terminal",
-                remedy="open the link that it has printed, or choose another folder with --folder",
+                remedy="open the link that it printed, or choose another folder with --folder",
             ) from error
         yield
 
 
 def token_of(folder: Path) -> str:
-    """The token of a folder: kept, so that an open page works after a restart, unless others can read it."""
+    """The token of a folder; it is kept for open pages after a restart, unless others can read it."""
     path = folder / "token"
     with suppress(OSError, ValueError):
         known = path.read_text(encoding="ascii").strip()
         if _TOKEN.fullmatch(known) and path.stat().st_mode & 0o077 == 0:
             return known
     token = secrets.token_urlsafe(24)
-    _for_owner(path, token)
+    _write_private(path, token)
     return token
 
 
-def _for_owner(path: Path, content: str) -> None:
+def _write_private(path: Path, content: str) -> None:
     """Write a file that others cannot read."""
     path.unlink(missing_ok=True)
     with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as text:
@@ -148,7 +148,7 @@ def listening(port: int) -> socket.socket:
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         listener.bind((HOST, port))
-        listener.listen()  # now: before, another server could bind the same port, and a browser would be refused
+        listener.listen()  # at once, so that no other server takes the port
     except OSError as error:
         listener.close()
         raise InvalidValue(
@@ -156,12 +156,12 @@ def listening(port: int) -> socket.socket:
             where="--port",
             value=port,
             cause=error.strerror or "taken",
-            remedy="--port 0 takes any that is free",
+            remedy="--port 0 takes any free port",
         ) from error
     return listener
 
 
-def serve(folder: Path, port: int, at_once: int, disk: float, ready: Callable[[str, Path], None]) -> None:
+def serve(folder: Path, port: int, at_once: int, disk: float, opened: Callable[[str, Path], None]) -> None:
     """Serve the bench until Ctrl-C.
 
     Parameters
@@ -169,16 +169,16 @@ def serve(folder: Path, port: int, at_once: int, disk: float, ready: Callable[[s
     folder : Path
         Where jobs and index are.
     port : int
-        0: any that is free.
+        0: any free port.
     at_once : int
         Jobs at a time.
     disk : float
         Bytes that the folder may have.
-    ready : callable
-        Is called with the link, and with a page that leads there and that only its owner can read.
+    opened : callable
+        Called with the link, and with a page that leads there and that only its owner can read.
     """
-    _allow_files()
-    with owned(folder), listening(port) as listener:
+    _raise_file_limit()
+    with locked(folder), listening(port) as listener:
         own = int(listener.getsockname()[1])
         token = token_of(folder)
         app = application(Queue(folder, at_once, disk), token, own)
@@ -186,17 +186,17 @@ def serve(folder: Path, port: int, at_once: int, disk: float, ready: Callable[[s
             app, log_level="warning", access_log=False, ws="none", server_header=False, timeout_graceful_shutdown=2
         )
         link = f"http://{HOST}:{own}/?token={token}"
-        door = folder / "open.html"
+        redirect = folder / "open.html"
         try:
-            _for_owner(door, _DOOR.format(link=link))
-            ready(link, door)
+            _write_private(redirect, _REDIRECT.format(link=link))
+            opened(link, redirect)
             uvicorn.Server(config).run(sockets=[listener])
         finally:
-            door.unlink(missing_ok=True)
+            redirect.unlink(missing_ok=True)
 
 
-def _allow_files() -> None:
-    """Allow as many open files as many requests at once need."""
+def _raise_file_limit() -> None:
+    """Raise the limit of open files for many requests at once."""
     import resource
 
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)

@@ -1,4 +1,4 @@
-"""The shape of a run in space: a page of its own with scene and curves of the report, and what renews it."""
+"""The 3D view of a run: a page with scene and curves of the report, which is updated during the run."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from umform.report.scene import scene_of
 if TYPE_CHECKING:
     from umform.results.history import History
 
-#: In a frame of another page there is no need for a title, margins or the table.
+#: In a frame of another page: without title, margins and table.
 _STYLE = """
 main { max-width: none; padding: 0 .2rem; }
 header, footer, .history { display: none; }
@@ -26,14 +26,14 @@ header, footer, .history { display: none; }
 
 
 def write_shape(folder: Path, result: History, title: str) -> None:
-    """Write the page, if it is not there, and the scene that renews it where it is shown.
+    """Write the page if there is none, and the scene that updates it.
 
     Parameters
     ----------
     folder : Path
         Folder of the job.
     result : History
-        A result, or what there is of it so far.
+        The result so far.
     title : str
         Of the page.
     """
@@ -42,7 +42,7 @@ def write_shape(folder: Path, result: History, title: str) -> None:
         live = Live.of(result, stills=False)
         table = f'<div class="history">{live.table}</div>'
         content = [live.shape, *map(parts.note, live.notes), live.curves, table]
-        listen = files("umform.bench").joinpath("page", "renewed.js").read_text(encoding="utf-8")
+        listen = files("umform.bench").joinpath("page", "scene_updates.js").read_text(encoding="utf-8")
         scripts = f'{live.scripts}\n<script type="module">{listen}</script>'
         parts.write_html(path, title, "", content, style=style() + _STYLE, scripts=scripts)
     waiting = folder / f".{SCENE}"

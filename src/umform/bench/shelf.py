@@ -1,4 +1,4 @@
-"""Punches and dies of one's own: drawings in the folder of the bench under a name, and what was read of them."""
+"""Drawn punches and dies: drawings in the folder of the bench by name, with the sections read from them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from umform.bench.helpers import answer_of
+from umform.bench.subprocess_json import json_of_module
 from umform.errors import InvalidValue, UmformError
 from umform.io.atomic import PendingFile
 from umform.processes.air_bending.drawn_tools import DrawnDie, DrawnPunch
@@ -29,30 +29,30 @@ _NAME = re.compile(r"\w[\w +.,°-]{0,39}")
 
 @dataclass(frozen=True)
 class Shelf:
-    """The tools in a folder: that of the bench, or that of a job, which has copies of its own.
+    """The tools in a folder: that of the bench, or that of a job, which has its own copies.
 
     Parameters
     ----------
     folder : Path
-        Where ``tools/punch`` and ``tools/die`` are or will be.
+        Folder of ``tools/punch`` and ``tools/die``.
     """
 
     folder: Path
 
-    def place(self, kind: str, name: str) -> Path:
-        """File of what was read of a tool.
+    def path_of(self, kind: str, name: str) -> Path:
+        """File of the section of a tool.
 
         Raises
         ------
         InvalidValue
-            If the name cannot be that of a tool.
+            If no tool can have this name.
         """
         if kind not in KINDS or not _NAME.fullmatch(name) or name.strip(" .") != name:
             raise InvalidValue(
-                "this cannot be the name of a tool",
+                "this name is not valid for a tool",
                 where="name",
                 value=name[:60],
-                cause="it is empty, too long, or has signs that a file cannot have",
+                cause="it is empty, too long, or has characters that a file name cannot have",
                 remedy="1 to 40 letters, digits, blanks, dots and dashes",
             )
         return self.folder / "tools" / kind / f"{name}.json"
@@ -66,7 +66,7 @@ class Shelf:
             If there is none.
         """
         try:
-            text = self.place(kind, name).read_text(encoding="utf-8")
+            text = self.path_of(kind, name).read_text(encoding="utf-8")
         except OSError as error:
             raise InvalidValue(
                 "there is no such drawn tool",
@@ -78,7 +78,7 @@ class Shelf:
         return _tool(kind, text)
 
     def add(self, kind: str, name: str, layer: str, drawing: str) -> dict[str, Any]:
-        """Read a drawing in a process of its own, and keep it under a name; one of the same name is replaced.
+        """Read a drawing in a separate process and store it under a name; a tool of the same name is replaced.
 
         Parameters
         ----------
@@ -92,9 +92,9 @@ class Shelf:
         Returns
         -------
         dict
-            What `rows` says of it; or ``problem`` and ``layers``.
+            Its row of `rows`, or ``problem`` and ``layers``.
         """
-        place = self.place(kind, name)
+        place = self.path_of(kind, name)
         place.parent.mkdir(parents=True, exist_ok=True)
         if len(list(place.parent.glob("*.json"))) >= MOST_TOOLS and not place.exists():
             raise InvalidValue(f"there are {MOST_TOOLS} tools already", where="name", remedy="delete some")
@@ -102,7 +102,7 @@ class Shelf:
             path = Path(folder) / "drawing.dxf"
             path.write_bytes(_bytes(drawing))
             arguments = ["umform.bench.read_tool", kind, str(path), layer]
-            found: dict[str, Any] = answer_of(arguments, _LONGEST_READING, "the reading of the drawing")
+            found: dict[str, Any] = json_of_module(arguments, _LONGEST_READING, "the reading of the drawing")
             if "problem" in found:
                 return found
             shutil.move(path, place.with_suffix(".dxf"))
@@ -119,8 +119,8 @@ class Shelf:
         ]
 
     def remove(self, kind: str, name: str) -> None:
-        """Take a tool away; jobs have their own copies."""
-        place = self.place(kind, name)
+        """Delete a tool; jobs have their own copies."""
+        place = self.path_of(kind, name)
         place.unlink(missing_ok=True)
         place.with_suffix(".dxf").unlink(missing_ok=True)
 
@@ -128,13 +128,13 @@ class Shelf:
         """Copy the tools of a job into its folder."""
         for kind, name in tools.items():
             if name is not None:
-                other = Shelf(folder).place(kind, name)
+                other = Shelf(folder).path_of(kind, name)
                 other.parent.mkdir(parents=True)
-                shutil.copyfile(self.place(kind, name), other)
+                shutil.copyfile(self.path_of(kind, name), other)
 
 
-def written(profile: Profile) -> dict[str, Any]:
-    """A section in a form that JSON can hold, to the last bit."""
+def profile_record(profile: Profile) -> dict[str, Any]:
+    """A section as JSON, exact to the last bit."""
     rows = [
         [*one.start, *one.end, *((*one.centre, int(one.clockwise)) if isinstance(one, Arc) else ())]
         for one in profile.segments
@@ -150,7 +150,7 @@ def _segment(row: list[float]) -> Segment:
 
 @lru_cache(maxsize=64)
 def _tool(kind: str, text: str) -> DrawnPunch | DrawnDie:
-    """The tool of a file; to check that a section does not cross itself takes some milliseconds."""
+    """The tool of a file; cached, because the check for self-intersection takes some milliseconds."""
     try:
         content = json.loads(text)
         profile = Profile([_segment(row) for row in content["segments"]], content["closed"])

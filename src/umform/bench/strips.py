@@ -1,4 +1,4 @@
-"""Jobs that bend a strip more than once: several bends in one part, a hem, as `umform bend` and `umform hem` do."""
+"""Jobs with a whole strip: several bends in one part, or a hem, by the calls of `umform bend` and `umform hem`."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import Any
 
 from umform.analysis.run.watching import watching
 from umform.bench.folders import RESULTS
-from umform.bench.forces import after, press
+from umform.bench.forces import computed_forces, largest
 from umform.bench.live import Watch
-from umform.bench.live_strips import StripTold
+from umform.bench.live_strips import StripProgress
 from umform.bench.wanted import Wanted
 from umform.io.staging import staging
 from umform.processes.air_bending.spec import AirBending
@@ -20,9 +20,9 @@ from umform.processes.hemming import files as hem_files
 
 #: Files of such jobs.
 FILES = (*part_files.FILES, *hem_files.FILES)
-#: Most points of a profile on the page.
+#: Largest number of points of a profile on the page.
 _MOST = 400
-#: What the page shows of a record as it is.
+#: Entries of a record that the page shows unchanged.
 _AS_IT_IS = (
     "collisions",
     "coarse_mesh",
@@ -39,7 +39,7 @@ _AS_IT_IS = (
 
 
 def run_strip(folder: Path, title: str, wanted: Wanted, sheet: AirBending, note: str) -> dict[str, Any]:
-    """Bend a strip as it is wanted, and write what comes out of it.
+    """Bend a strip and write its results.
 
     Parameters
     ----------
@@ -52,16 +52,16 @@ def run_strip(folder: Path, title: str, wanted: Wanted, sheet: AirBending, note:
     sheet : AirBending
         Sheet and tools.
     note : str
-        Where the material comes from.
+        Source of the material.
 
     Returns
     -------
     dict
-        What the page shows.
+        The summary of the page.
     """
     case = wanted.strip(sheet)
     hems = isinstance(case, Hemming)
-    watch = Watch(folder, title, StripTold(case.first if isinstance(case, Hemming) else case, hem=hems))
+    watch = Watch(folder, title, StripProgress(case.first if isinstance(case, Hemming) else case, hem=hems))
     results = folder / RESULTS
     with staging(results, hem_files.FILES if hems else part_files.FILES), watching(watch):
         done = hemming(case, progress=False) if isinstance(case, Hemming) else bend_sequence(case, progress=False)
@@ -76,7 +76,7 @@ def run_strip(folder: Path, title: str, wanted: Wanted, sheet: AirBending, note:
     forces = {"bend": max(bend.measures.largest_force for bend in part.bends)}
     if isinstance(done, Hem):
         forces["flatten"] = done.measures.largest_force
-    needed = press(after(wanted, sheet, forces)).over(wanted.length)
+    needed = largest(computed_forces(wanted, sheet, forces)).over(wanted.choices.length)
     return (_of_hem(done) if isinstance(done, Hem) else _of_part(done)) | {"press": needed}
 
 
@@ -98,7 +98,7 @@ def _of_hem(hem: Hem) -> dict[str, Any]:
 
 
 def _shown(record: dict[str, Any]) -> dict[str, Any]:
-    """What is the same in all records, and the profile with fewer points."""
+    """The common entries of records, and the profile with fewer points."""
     thin = max(1, -(-len(record["profile"]) // _MOST))
     shown = {name: record[name] for name in _AS_IT_IS if name in record}
     return shown | {"profile": record["profile"][::thin]}

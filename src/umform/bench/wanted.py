@@ -1,120 +1,115 @@
-"""The form of the page as data, and the parameters of the bend that follow from it."""
+"""What the form of the page asks for, and the parameters of the process that follow from it."""
 
 from __future__ import annotations
 
+import math
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Any
 
-from annotated_types import Gt, Le
-from pydantic import Field, ValidationError, model_validator
-from pydantic_core import PydanticCustomError
-
-from umform.bench.shelf import Shelf
-from umform.bench.wanted_strips import WantedStrip
+from umform.bench.form import MESHES, WORKS, Choices, FormField, form_fields
+from umform.bench.shelf import KINDS, Shelf
+from umform.errors import InvalidValue
 from umform.materials import J2, Metal
 from umform.processes.air_bending.bottoming import with_travel
-from umform.processes.air_bending.drawn_tools import drawn_sizes
-from umform.processes.air_bending.goal import check_angle
+from umform.processes.air_bending.goal import Goal, check_angle
 from umform.processes.air_bending.spec import AirBending
-from umform.processes.bend_sequence import BendSequence
+from umform.processes.bend_sequence import Bend, BendSequence
 from umform.processes.hemming import Hemming
-from umform.spec import About
-from umform.spec.types import Degrees, Length, Positive, Rolling, Stress
+from umform.spec import check_value, parameters
 
-#: Meshes by name: a quick look, the default of `umform bend`, and what docs/air-bending.md says is better.
-MESHES: dict[str, dict[str, Any]] = {
-    "quick": {"layers": 1, "elements_per_thickness": 1.0, "increment": 0.02},
-    "usual": {},
-    "fine": {"layers": 4, "thickness_points": 5},
-}
-
-#: Kinds of work.
-WORKS = ("bend", "bottom", "sequence", "hem")
-
-#: A longer sheet is no part of a press brake, and would take the memory of the server, in mm.
-_LONGEST = 20000.0
-#: Parameters of `AirBending` that the form asks for by their own names.
-SIZES = ("thickness", "opening", "die_angle", "die_radius", "punch_angle", "punch_radius", "rolling")
+#: Largest number of bends of a part on the page.
+_MOST_BENDS = 20
 
 
-class Wanted(WantedStrip):
+class Mistakes(InvalidValue):
+    """A form with invalid fields.
+
+    Attributes
+    ----------
+    errors : list of InvalidValue
+        One for each; ``where`` is the name of the field, or such as "bend 2, position".
+    """
+
+    def __init__(self, errors: list[InvalidValue]) -> None:
+        first = errors[0]
+        super().__init__(first.what, where=first.where, value=first.value, cause=first.cause, remedy=first.remedy)
+        self.errors = errors
+
+
+@dataclass(frozen=True)
+class Wanted:
     """A bend, or several, in mm, degrees and MPa.
 
     Attributes
     ----------
-    work : str
-        "bend": one bend in the air; "bottom": pressed onto the flanks of the die; "sequence": several bends in one
-        part; "hem": an acute bend, flattened.
-    material : str
-        Metal of the library.
-    yield_stress, tensile_strength, uniform_elongation : float or None
-        Re, Rm, and Ag in percent, of a coil; None: those of the library.
-    rolling : float or None
-        Degrees from the bend line to the rolling direction.
-    thickness, opening, die_angle, die_radius, punch_angle, punch_radius : float
-        See `AirBending`.
-    punch, die : str or None
-        Drawn tools by their names; the numbers of the tool are then those of its drawing.
-    angle, stroke : float or None
-        What is wanted of a bend in the air: one of them.
-    press_force, travel : float or None
-        What is wanted of bottoming, one of them: force in kN/m, or way in mm beyond where flanks and tip are one
-        thickness from the die.
-    length : float
-        Length of the bend, for the force in kN.
-    whole : bool
-        Whether the whole length is computed with its free ends, in place of plane strain.
-    mesh : str
-        A name of `MESHES`.
-    budget : bool
-        Whether the error budget is wanted.
+    values : mapping of str to object
+        Values of the fields of this kind of work, as JSON; see `form_fields`.
     """
 
-    work: Literal["bend", "bottom", "sequence", "hem"] = "bend"
-    material: Annotated[str, Field(min_length=1, max_length=60)] = "DC04"
-    yield_stress: Stress | None = None
-    tensile_strength: Stress | None = None
-    uniform_elongation: Annotated[float, Gt(0.0), Le(80.0), About("%")] | None = None
-    rolling: Rolling | None = AirBending.rolling
-    thickness: Length = AirBending.thickness
-    opening: Annotated[Length, Le(_LONGEST)] = AirBending.opening
-    die_angle: Degrees = AirBending.die_angle
-    die_radius: Length = AirBending.die_radius
-    punch_angle: Degrees = AirBending.punch_angle
-    punch_radius: Length = AirBending.punch_radius
-    punch: Annotated[str, Field(min_length=1, max_length=40)] | None = None
-    die: Annotated[str, Field(min_length=1, max_length=40)] | None = None
-    angle: Degrees | None = 90.0
-    stroke: Length | None = None
-    press_force: Annotated[Positive, About("kN/m")] | None = None
-    travel: Annotated[float, About("mm")] | None = None
-    length: Annotated[Length, Le(_LONGEST)] = 1000.0
-    whole: bool = False
-    mesh: Literal["quick", "usual", "fine"] = "usual"
-    budget: bool = False
+    values: Mapping[str, Any] = field(default_factory=dict)
 
-    @model_validator(mode="after")
-    def _one_goal(self) -> Wanted:
-        if self.work == "bottom":
-            if (self.press_force is None) == (self.travel is None):
-                raise PydanticCustomError("bottom_goal", "give the force or the way beyond the bottom, one of them")
-        elif self.work == "bend" and (self.angle is None) == (self.stroke is None):
-            raise PydanticCustomError("goal", "give the angle or the stroke, one of them")
-        if (self.yield_stress is None) != (self.tensile_strength is None):
-            raise PydanticCustomError("coil", "a coil has both, Re and Rm")
-        if self.uniform_elongation is not None and self.yield_stress is None:
-            raise PydanticCustomError("coil", "a coil has both, Re and Rm")
-        return self
+    @classmethod
+    def read(cls, form: object) -> Wanted:
+        """The values of a form; fields that are not given have their defaults, those of other work are left out.
+
+        Raises
+        ------
+        Mistakes
+            With one error for each invalid field.
+        """
+        if not isinstance(form, Mapping):
+            raise Mistakes([InvalidValue("a form is an object with fields", where="form", value=form)])
+        known = form_fields()
+        errors = [_unknown(name) for name in form if name not in known]
+        work = form.get("work", known["work"].default)
+        values: dict[str, Any] = {}
+        for name, one in known.items():
+            if work in one.works or work not in WORKS:
+                try:
+                    values[name] = _value(one, form.get(name, one.default))
+                except Mistakes as mistakes:
+                    errors += mistakes.errors
+                except InvalidValue as error:
+                    error.where = name
+                    errors.append(error)
+        errors = errors or list(_unfit(values))
+        if errors:
+            raise Mistakes(errors)
+        follow = {name: known[name].times for name, value in values.items() if value is None}
+        return cls(values | {name: times * values["thickness"] for name, times in follow.items() if times is not None})
+
+    def of(self, spec: type) -> dict[str, Any]:
+        """The values of the parameters of a Spec by their names; what is empty has its default."""
+        return {
+            one.parameter.name: self.values[name]
+            for name, one in form_fields().items()
+            if one.parameter.spec is spec and self.values.get(name) is not None
+        }
+
+    @cached_property
+    def choices(self) -> Choices:
+        """What the bench asks itself."""
+        return Choices(**self.of(Choices))
+
+    @cached_property
+    def goal(self) -> Goal:
+        """Angle, force or way that is wanted."""
+        return Goal(**self.of(Goal))
 
     def law(self) -> tuple[J2 | Metal, str]:
         """Law of the sheet, and a note on its source."""
         from umform.sheet_metals import get, of_certificate
 
-        if self.yield_stress is None or self.tensile_strength is None:
-            metal = get(self.material, self.thickness)
+        own = self.choices
+        if own.yield_stress is None or own.tensile_strength is None:
+            metal = get(own.material, self.values["thickness"])
         else:
-            elongation = None if self.uniform_elongation is None else 0.01 * self.uniform_elongation
-            metal = of_certificate(self.material, self.yield_stress, self.tensile_strength, elongation)
+            elongation = None if own.uniform_elongation is None else 0.01 * own.uniform_elongation
+            metal = of_certificate(own.material, own.yield_stress, own.tensile_strength, elongation)
         return metal.law, metal.note
 
     def case(self, shelf: Shelf | None = None) -> AirBending:
@@ -133,69 +128,158 @@ class Wanted(WantedStrip):
         case = self.at_tools(shelf)
         if self.of_strip:
             self.strip(case)
-        elif self.work == "bend" and self.angle is not None:
-            check_angle(case, self.angle)
+        elif self.goal.angle is not None:
+            check_angle(case, self.goal.angle)
         return case
 
     def at_tools(self, shelf: Shelf | None = None) -> AirBending:
         """Parameters of the bend, whatever angle is wanted."""
-        drawn: dict[str, Any] = {}
-        for kind, name in self.drawn.items():
-            if name is not None:
-                drawn[f"{kind}_section"] = (shelf or Shelf(Path())).tool(kind, name)
-        bottoms = self.work == "bottom"
+        drawn: dict[str, Any] = {
+            f"{kind}_section": (shelf or Shelf(Path())).tool(kind, name)
+            for kind, name in self.drawn.items()
+            if name is not None
+        }
+        given = MESHES[self.choices.mesh] | self.of(AirBending) | drawn
         case = AirBending(
-            **{name: getattr(self, name) for name in SIZES},
-            **drawn,
-            width=self.length if self.whole and not self.of_strip else None,
-            stroke=self.stroke if self.work == "bend" else None,
-            bottoming=bottoms,
+            **given,
+            width=self.choices.length if self.choices.whole else None,
+            bottoming=self.choices.work == "bottom",
             material=self.law()[0],
-            **MESHES[self.mesh],
         )
-        return case if not bottoms or self.travel is None else with_travel(case, self.travel)
+        return case if self.goal.travel is None else with_travel(case, self.goal.travel)
 
     @property
     def of_strip(self) -> bool:
         """Whether a whole strip is modelled, in place of half of a bend."""
-        return self.work in ("sequence", "hem")
+        return self.choices.work in ("sequence", "hem")
 
     def strip(self, sheet: AirBending) -> BendSequence | Hemming:
         """The bends of a part, or the hem."""
-        return self.hem(sheet) if self.work == "hem" else self.sequence(sheet)
+        return self.hem(sheet) if self.choices.work == "hem" else self.sequence(sheet)
+
+    def sequence(self, sheet: AirBending) -> BendSequence:
+        """The bends in one part."""
+        given = self.of(BendSequence)
+        return BendSequence(**given | {"bends": tuple(Bend(**row) for row in given["bends"])}, sheet=sheet)
+
+    def hem(self, sheet: AirBending) -> Hemming:
+        """The hem."""
+        try:
+            return Hemming(**self.of(Hemming), sheet=sheet)
+        except InvalidValue as error:
+            names = {one.parameter.name: name for name, one in form_fields().items() if one.parameter.spec is Hemming}
+            error.where = names.get(error.where, error.where)
+            raise
 
     @property
     def drawn(self) -> dict[str, str | None]:
         """Names of the drawn tools."""
-        return {"punch": self.punch, "die": self.die}
+        return {kind: self.values[kind] for kind in KINDS}
+
+    def changed(self, changes: Mapping[str, Any]) -> Wanted:
+        """The same form with other values."""
+        return Wanted({**self.values, **changes})
 
     def as_ordered(self, case: AirBending) -> Wanted:
-        """The same with the sizes of its drawn tools, without goals of other kinds of work."""
-        others = {} if self.work == "bend" else {"angle": None, "stroke": None}
-        return self.model_copy(update={**others, **drawn_sizes(case.punch_section, case.die_section)})
+        """The same with the sizes of its drawn tools."""
+        return self.changed(case.drawn_sizes)
 
     @property
     def title(self) -> str:
         """A few words for lists."""
-        if self.work == "sequence":
-            return f"{self.material} {self.thickness:g} mm, {' '.join(f'{one.angle:g}°' for one in self.bends)}"
-        if self.work == "hem":
-            return f"{self.material} {self.thickness:g} mm, hem {self.gap:g} mm"
-        if self.work == "bottom":
-            goal = f"{self.press_force:g} kN/m" if self.press_force is not None else f"{self.travel:+g} mm"
+        values, goal, work = self.values, self.goal, self.choices.work
+        sheet = f"{self.choices.material} {values['thickness']:g} mm"
+        if work == "sequence":
+            angles = [f"{row['angle']:g}°" for row in values["bends"] if "angle" in row]
+            return f"{sheet}, {' '.join(angles)}"
+        if work == "hem":
+            return f"{sheet}, hem {values['gap']:g} mm"
+        if work == "bottom":
+            aim = f"{goal.force_per_metre:g} kN/m" if goal.force_per_metre is not None else f"{goal.travel:+g} mm"
         else:
-            goal = f"{self.angle:g}°" if self.angle is not None else f"{self.stroke:g} mm"
-        return f"{self.material} {self.thickness:g} mm, V{self.opening:.4g}, {goal}"
+            aim = f"{goal.angle:g}°" if goal.angle is not None else f"{values['stroke']:g} mm"
+        return f"{sheet}, V{values['opening']:.4g}, {aim}"
 
 
-def problems_of(error: ValidationError) -> list[dict[str, Any]]:
-    """What is wrong with a form: field, kind of mistake, and its numbers, for the page to put into words."""
-    found = []
-    for row in error.errors(include_url=False, include_input=False):
-        where = ".".join(str(part) for part in row["loc"][:1]) or "goal"
-        row_number = next((part + 1 for part in row["loc"][1:2] if isinstance(part, int)), None)
-        part = next((str(part) for part in row["loc"][2:3]), None)
-        bounds = {key: value for key, value in row.get("ctx", {}).items() if isinstance(value, int | float | str)}
-        given = {"where": where, "kind": row["type"], "bounds": bounds, "what": row["msg"]}
-        found.append({**given, "row": row_number, "part": part})
-    return found[:20]
+def _value(one: FormField, value: Any) -> Any:
+    """A value of a field as its Spec takes it.
+
+    Raises
+    ------
+    InvalidValue
+        If the Spec refuses it, or a length is larger than the server takes.
+    """
+    if value is None and one.may_be_empty:
+        return None
+    if one.kind == "bends":
+        return _bends(value)
+    value = _checked(one.parameter.spec, one.parameter.name, value)
+    if one.parameter.about.unit == "mm" and value > one.most:
+        raise InvalidValue(
+            f"{one.parameter.subject} is more than the bench takes",
+            value=value,
+            cause="another unit",
+            remedy=f"at most {one.most:g} mm",
+        )
+    return value
+
+
+def _checked(spec: type, name: str, value: Any) -> Any:
+    """A value of JSON, which writes 2.0 as 2, after the check of the Spec."""
+    kinds = {kind.type for kind in parameters(spec)[name].kinds}
+    if type(value) is int and float in kinds:
+        value = float(value) if abs(value) <= sys.float_info.max else math.inf
+    check_value(spec, name, value)
+    return value
+
+
+def _bends(rows: Any) -> list[dict[str, Any]]:
+    """The bends of a part, each checked by its Spec."""
+    if not isinstance(rows, list) or not 1 <= len(rows) <= _MOST_BENDS:
+        raise InvalidValue(f"a part has 1 to {_MOST_BENDS} bends here", cause="no bend, or too many of them")
+    found, errors, known = [], [], parameters(Bend)
+    for number, row in enumerate(rows, start=1):
+        where = f"bend {number}"
+        given: dict[str, Any] = {}
+        if not isinstance(row, Mapping):
+            errors.append(InvalidValue("a bend is an object with fields", where=where, value=row))
+            continue
+        errors += [_unknown(f"{where}, {name}") for name in row if name not in known or name == "tools"]
+        for name in (name for name in row if name in known and name != "tools"):
+            try:
+                if row[name] is not None or not known[name].absent:
+                    given[name] = _checked(Bend, name, row[name])
+            except InvalidValue as error:
+                error.where = f"{where}, {name}"
+                errors.append(error)
+        if "position" not in row:
+            errors.append(InvalidValue("the position of a bend is missing", where=where))
+        found.append(given)
+    if not errors:
+        for number, given in enumerate(found, start=1):
+            try:
+                Bend(**given)
+            except InvalidValue as error:
+                error.where = f"bend {number}"
+                errors.append(error)
+    if errors:
+        raise Mistakes(errors)
+    return found
+
+
+def _unknown(name: object) -> InvalidValue:
+    return InvalidValue("the form has no such field", where=str(name)[:60], cause="a form of another version")
+
+
+def _unfit(values: Mapping[str, Any]) -> Iterator[InvalidValue]:
+    """Goals and values of a coil that are missing, or given twice."""
+
+    def given(*names: str) -> int:
+        return sum(values.get(name) is not None for name in names)
+
+    if values["work"] == "bottom" and given("force_per_metre", "travel") != 1:
+        yield InvalidValue("give the force or the way beyond the bottom, one of them", where="travel")
+    if values["work"] == "bend" and given("angle", "stroke") != 1:
+        yield InvalidValue("give the angle or the stroke, one of them", where="angle")
+    if given("yield_stress", "tensile_strength") == 1 or (given("uniform_elongation") and not given("yield_stress")):
+        yield InvalidValue("a coil has both, Re and Rm", where="yield_stress")

@@ -1,6 +1,6 @@
-"""The process of a job: ``python -m umform.bench.work FOLDER``; without a folder it is read from standard input.
+"""The process of a job: ``python -m umform.bench.work FOLDER``; without FOLDER, standard input names it.
 
-It writes all that it knows into the folder of the job, and lives on where the server dies.
+It writes its state into the folder of the job, and goes on without the server.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from pathlib import Path
 from typing import Any
 
 from umform.analysis.run.watching import watching
-from umform.bench.folders import DECK, ORDER, OUTCOME, RESULTS, owned
-from umform.bench.forces import after, press
+from umform.bench.folders import DECK, ORDER, OUTCOME, RESULTS, locked
+from umform.bench.forces import computed_forces, largest
 from umform.bench.limits import limit_memory
-from umform.bench.live import BendTold, DeckTold, Watch, write_live
-from umform.bench.refusals import said
+from umform.bench.live import BendProgress, DeckProgress, Watch, write_live
+from umform.bench.refusals import error_record
 from umform.bench.shelf import Shelf
 from umform.bench.strips import run_strip
 from umform.bench.wanted import Wanted
@@ -36,8 +36,8 @@ from umform.processes.air_bending.case import air_bending
 from umform.processes.air_bending.files import FILES, record, write_files
 from umform.processes.air_bending.search import find_stroke
 
-#: What a run needs after its first increments: pictures, and the pages of the shape and of the report.
-_LATER = (
+#: Modules that a run needs after its first increments: pictures, 3D view and report.
+_PRELOAD = (
     "matplotlib",
     "matplotlib.transforms",
     "matplotlib.text",
@@ -49,12 +49,12 @@ _LATER = (
 
 
 def main(arguments: list[str]) -> int:
-    """Run the job of a folder; its outcome is a file there."""
-    text = arguments[0] if arguments else _order()
+    """Run the job of a folder and write its outcome there."""
+    text = arguments[0] if arguments else _read_folder()
     if not text:
-        return 0  # the server that has kept this process ready is gone
+        return 0  # the server has ended
     folder = Path(text)
-    with owned(folder) as mine:
+    with locked(folder) as mine:
         if not mine or (folder / OUTCOME).exists():
             return 0
         limit_memory()
@@ -64,9 +64,9 @@ def main(arguments: list[str]) -> int:
     return 0
 
 
-def _order() -> str:
-    """The folder from standard input; what is needed later is loaded in pieces while nobody waits for this process."""
-    for name in _LATER:
+def _read_folder() -> str:
+    """The folder from standard input; meanwhile modules are loaded, one at a time."""
+    for name in _PRELOAD:
         if select.select([sys.stdin], [], [], 0.0)[0]:
             break
         importlib.import_module(name)
@@ -74,14 +74,14 @@ def _order() -> str:
 
 
 def _outcome(folder: Path) -> dict[str, Any]:
-    """Run a job and return its outcome, of failures too."""
+    """Run a job and return its outcome, also of a failure."""
     try:
         order = json.loads((folder / ORDER).read_text(encoding="utf-8"))
         write_live(folder, {"fraction": 0.0, "phase": "start", "increments": 0, "shape": 0})
         work = _bend if order["kind"] == "bend" else _deck
         return {"state": "done", "reason": "", "summary": work(folder, order)}
     except UmformError as error:
-        return {"state": "failed", "reason": str(error), "summary": {"error": said(error)}}
+        return {"state": "failed", "reason": str(error), "summary": {"error": error_record(error)}}
     except KeyboardInterrupt:
         return {"state": "stopped", "reason": "", "summary": {}}
     except MemoryError:
@@ -92,42 +92,44 @@ def _outcome(folder: Path) -> dict[str, Any]:
 
 
 def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
-    """The work of `umform bend`: the same calls, so the same numbers."""
-    wanted = Wanted.model_validate(order["parameters"])
-    case, note = wanted.case(Shelf(folder)), wanted.law()[1]
+    """A bend, by the calls of `umform bend`: the numbers are equal."""
+    wanted = Wanted.read(order["parameters"])
+    case, note, length = wanted.case(Shelf(folder)), wanted.law()[1], wanted.choices.length
     if wanted.of_strip:
-        return run_strip(folder, order["title"], wanted, case, note) | {"length": wanted.length, "note": note}
+        return run_strip(folder, order["title"], wanted, case, note) | {"length": length, "note": note}
     brake = Brake(case, frames=FRAMES)
     accept(of_model(brake.model, millimetres=True))
-    bottom = case.bottom_stroke if wanted.work == "bottom" else None
-    watch = Watch(folder, order["title"], BendTold(brake, wanted.angle, bottom or wanted.stroke))
+    angle, force = wanted.goal.angle, wanted.goal.force_per_metre
+    watch = Watch(
+        folder, order["title"], BendProgress(brake, angle, case.bottom_stroke if case.bottoming else case.stroke)
+    )
 
     with staging(folder / RESULTS, FILES), watching(watch):
         try:
-            if wanted.work == "bottom" and wanted.press_force is not None:
-                done = press_to_force(case, wanted.press_force, brake=brake, progress=False).bend
+            if force is not None:
+                done = press_to_force(case, force, brake=brake, progress=False).bend
             elif case.stroke is not None:
                 done = air_bending(case, brake=brake, progress=False)
             else:
-                assert wanted.angle is not None
-                done = find_stroke(case, wanted.angle, brake=brake, progress=False).bend
+                assert angle is not None
+                done = find_stroke(case, angle, tolerance=wanted.goal.tolerance, brake=brake, progress=False).bend
         except (UmformError, KeyboardInterrupt):
             if len(brake.run.result) > 1:
                 write_csv(folder / RESULTS / "history.csv", brake.run.result.table())
             raise
-        if wanted.budget:
+        if wanted.choices.budget:
             watch.phase("budget", 0.75)
             done = replace(done, budget=error_budget(done.case, done.measures, progress=False))
         watch.phase("files", 0.95)
         watch.shape(done.result)
         write_files(folder / RESULTS, done, note)
     watch.phase("end", 1.0)
-    needed = press(after(wanted, case, {wanted.work: done.measures.largest_force}))
-    return {**record(done), "length": wanted.length, "note": note, "press": needed.over(wanted.length)}
+    needed = largest(computed_forces(wanted, case, {wanted.choices.work: done.measures.largest_force}))
+    return {**record(done), "length": length, "note": note, "press": needed.over(length)}
 
 
 def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
-    """The work of `umform run`, or of `umform resume` where there is a checkpoint."""
+    """A deck, by the calls of `umform run`, or of `umform resume` if there is a checkpoint."""
     from umform.problem import running
     from umform.problem.kept import Kept
     from umform.problem.problem import Problem
@@ -137,11 +139,11 @@ def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     checkpoint = results / CHECKPOINT
     taken_up = checkpoint.is_file()
     kept = Kept.read(checkpoint) if taken_up else None
-    files = folder.parent.parent  # of the bench: where the check looks for what a deck names
+    files = folder.parent.parent  # of the bench; paths in a deck start there, as in the check
     deck = kept.deck if kept else Problem.read((folder / DECK).read_text(encoding="utf-8"), DECK, files)
     steps = deck.contents.steps
-    told = DeckTold(sum(step.expected for step in steps), len(steps))
-    watch = Watch(folder, order["title"], told)
+    progress = DeckProgress(sum(step.expected for step in steps), len(steps))
+    watch = Watch(folder, order["title"], progress)
     with watching(watch):
         every = float(order.get("every", 10.0))
         if kept is not None:

@@ -35,6 +35,7 @@ def main() -> None:
         _prepare_streams()
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # the signal of batch systems: handled as Ctrl-C
         importlib.import_module("umform.cli.drawing").without_help_texts()
+        importlib.import_module("umform.cli.help_pages").without_markdown()
         importlib.import_module("umform.cli.commands").application(sys.argv[1:])(prog_name="umform")
     except KeyboardInterrupt:  # before the first command
         print("umform: interrupted", file=sys.stderr)

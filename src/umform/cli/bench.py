@@ -12,10 +12,10 @@ from umform.cli.root import Debug, Verbose, app
 
 @app.command()
 def bench(
-    folder: Annotated[
-        Path, typer.Option(metavar="FOLDER", help="Where jobs, their results and the index are kept.")
-    ] = Path("results/bench"),
-    port: Annotated[int, typer.Option(min=0, max=65535, help="Port on 127.0.0.1; 0: any that is free.")] = 8765,
+    folder: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder of jobs, results and index.")] = Path(
+        "results/bench"
+    ),
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Port on 127.0.0.1; 0: any free port.")] = 8765,
     processes: Annotated[int, typer.Option(min=1, max=64, help="Jobs at a time.")] = 1,
     disk: Annotated[float, typer.Option(min=0.001, max=1e6, help="GB that the folder may have.")] = 10.0,
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")] = True,

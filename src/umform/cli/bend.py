@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from umform.cli.check import Force
+from umform.cli.compensate import By, Want, compensated
+from umform.cli.derive import Derive, derived
 from umform.cli.drawn_tools import drawn_tools
 from umform.cli.given import Given, given_by
 from umform.cli.goals import check_goal, check_length, check_no_goal, check_press, strokes_of
@@ -31,6 +33,7 @@ from umform.cli.options import (
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.scattering import Wishes, scattering, show_scatter
 from umform.cli.sequence import run_sequence
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
@@ -52,6 +55,7 @@ _GOAL, _TOOLS = "What to do", "Tools"
 
 @app.command()
 @given_by(Goal, AirBending, omit=("material", "punch_section", "die_section"))
+@scattering
 def bend(
     context: typer.Context,
     given: Given,
@@ -79,12 +83,17 @@ def bend(
     curve: Curve = None,
     flow_curve: FlowCurve = None,
     processes: Annotated[int | None, option("Runs of the budget at a time.", SOLUTION)] = None,
+    want: Want = None,
+    by: By = None,
+    derive: Derive = None,
     deck: PrintDeck = False,
     overwrite: Overwrite = False,
     force: Force = False,
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
+    *,
+    wishes: Wishes,
 ) -> None:
     """Air-bend a sheet in a V-die, and unload it.
 
@@ -116,6 +125,8 @@ def bend(
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     tools = drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer)
     case = AirBending(**{**given, "stroke": stroke}, **tools, material=law)
+    if wishes:  # refuse what is wrong before the run
+        wishes.check(replace(case, stroke=stroke or 0.5 * case.largest_stroke))
     if sequence is not None:
         check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, deck)
         run_sequence(sequence, case, note, out, length, tolerance=tolerance, overwrite=overwrite)
@@ -124,6 +135,7 @@ def bend(
         check_press(angle, table, budget, stroke, force_per_metre, travel)
         case = case if travel is None else with_travel(case, travel)
         check_value(Goal, "force_per_metre", force_per_metre)
+    case = compensated(case, want, by)
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
     if deck:
@@ -142,11 +154,13 @@ def bend(
         with _what_was_reached(place) as rows:
             rows += bending_table(case, strokes, brake=brake) if strokes else []
             done = replace(_bent(brake, case, angle, force_per_metre, tolerance), table=tuple(rows))
+        more: list[Path] = []
         try:
             if budget:
                 from umform.processes.air_bending.budget import error_budget
 
                 done = replace(done, budget=error_budget(done.case, done.measures, processes=processes))
+            done, more = derived(done, done.case, derive, place, None if angle is None else {"angle": "stroke"})
             with printing(f"the files of the bend are in {place}"):
                 total = "" if length is None else total_force(done.measures.largest_force, length)
                 show_outcome(done, total, note)
@@ -155,8 +169,10 @@ def bend(
             raise
         finally:  # even if the table cannot be printed
             with done.result.timing.files:
-                files = write_files(place, done, note)
+                files = [*write_files(place, done, note), *more]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+    if wishes:
+        show_scatter(wishes.run(done.case), place, done.warnings)
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
 

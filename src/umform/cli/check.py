@@ -42,8 +42,8 @@ Force = Annotated[bool, typer.Option("--force", help="Run despite implausible nu
 _WORD, _DECIMAL_COMMA = re.compile(r"[^\W\d][\w.-]*"), re.compile(r"[-+]?\d*,\d+")
 
 
-@app.command("check")
-def check_deck(
+@app.command()
+def check(
     deck: DeckFile,
     changes: Changes = None,
     blank: Picture = None,
@@ -56,13 +56,13 @@ def check_deck(
 
     An error ends with exit code 1; warnings do not.
     """
-    from umform.problem.check import check
+    from umform.problem import check as checks
     from umform.problem.findings import Level
 
     with deck_errors():
         loaded = read(deck, changes or (), trust)
         problem = loaded.build()
-        findings = list(check(loaded, problem))
+        findings = list(checks.check(loaded, problem))
     _show(findings)
     if blank is not None:
         _draw_blank(problem, blank)

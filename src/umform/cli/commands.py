@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import importlib
+import os
 from collections.abc import Sequence
 
 import typer
 
+from umform.cli.importing import text_of
 from umform.cli.root import app
 
-#: File in this folder that defines a command.
+#: File in this folder that defines a command, by a function of its name whose docstring is its help.
 FILES = {
     "bead": "bead",
     "bench": "bench",
     "bend": "bend",
     "check": "check",
+    "compensate": "compensate",
     "demo": "demo",
+    "derive": "derive",
     "draw": "draw",
     "elements": "elements",
     "hem": "hem",
@@ -25,14 +29,25 @@ FILES = {
     "plot": "plot",
     "resume": "resume",
     "run": "run",
+    "sigma": "sigma",
     "sweep": "sweep",
     "view": "view",
 }
 
 
-def application(words: Sequence[str] = ()) -> typer.Typer:
-    """The application with the command that the first word names, else with all commands."""
-    files = [FILES[words[0]]] if words and words[0] in FILES else FILES.values()
-    for file in files:
-        importlib.import_module(f"umform.cli.{file}")
+def application(words: Sequence[str] | None = None) -> typer.Typer:
+    """The application with all commands, or for what was typed: its command, or else names and texts of all."""
+    word = next((word for word in words or () if not word.startswith("-")), "")
+    if words is None or "_UMFORM_COMPLETE" in os.environ:
+        for file in FILES.values():
+            importlib.import_module(f"umform.cli.{file}")
+    elif word in FILES:
+        importlib.import_module(f"umform.cli.{FILES[word]}")
+    else:
+        for name, file in FILES.items():
+            app.command(name, help=text_of(f"umform.cli.{file}", name))(_not_loaded)
     return app
+
+
+def _not_loaded() -> None:
+    """Stands for a command in the list of all."""

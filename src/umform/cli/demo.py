@@ -6,7 +6,7 @@ import logging
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -21,11 +21,17 @@ from umform.processes.bending.spec import RECONSTRUCTION, FreeBending
 if TYPE_CHECKING:
     from umform.processes.bending.showcase import Demo
 
-demos = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", help="Run an example and show the results.")
+demos = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown")
 app.add_typer(demos, name="demo")
 
+
+@demos.callback()
+def demo() -> None:
+    """Run an example and show the results."""
+
+
 _RUNS = "Which runs"
-_THROUGH = ("thickness_points", "thickness_rule", "thickness_order", "tie_E33")
+_THROUGH: dict[str, Any] = dict.fromkeys(("thickness_points", "thickness_rule", "thickness_order", "tie_E33"))
 
 
 @demos.command("free-bending", epilog=RECONSTRUCTION)
@@ -33,7 +39,7 @@ _THROUGH = ("thickness_points", "thickness_rule", "thickness_order", "tie_E33")
     FreeBending,
     omit=("mesh", "element", "contact"),
     called={"tie_E33": "--tie-e33/--no-tie-e33"},
-    **dict.fromkeys(_THROUGH),
+    **_THROUGH,
 )
 def free_bending(
     context: typer.Context,
@@ -65,10 +71,10 @@ def free_bending(
     """
     logging.getLogger("umform").addHandler(logging.NullHandler())  # warnings are printed with the name of their run
     from umform.io.folders import folder_for
+    from umform.processes.bending import showcase
     from umform.processes.bending.options import read_contact, read_mesh
-    from umform.processes.bending.showcase import FILES, Selection, demo
 
-    selection = Selection(
+    selection = showcase.Selection(
         meshes=tuple(read_mesh(text) for text in mesh or ()),
         elements=tuple(element or ()),
         contacts=tuple(read_contact(text) for text in contact or ()),
@@ -80,9 +86,9 @@ def free_bending(
         return
     say = partial(typer.echo, err=True)
     place = folder_for(
-        out, Path("results/free-bending"), FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}")
+        out, Path("results/free-bending"), showcase.FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}")
     )
-    outcome = demo(place, runs, processes=processes)
+    outcome = showcase.demo(place, runs, processes=processes)
     with printing(f"the files of the runs are in {place}"):
         _show(outcome, place, options_of(context.command), timing=timing)
 

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from umform.cli.compensate import By, Want, compensated
+from umform.cli.derive import Derive, derived
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
 from umform.cli.options import (
@@ -28,6 +30,7 @@ from umform.cli.options import (
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.scattering import Wishes, scattering, show_scatter
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
@@ -43,15 +46,17 @@ _COARSE = "Coarse mesh, for a first result in seconds"
 _FINE = "Fine mesh: smaller errors for some three times the time"
 #: Fields that no option gives.
 _NOT_TYPED = ("material", "newton", "pace")
-#: Options of diameters by the radii of a cup.
-_DIAMETERS = {
-    "die_radius": "half of --opening",
-    "punch_radius": "half of --punch",
-    "blank_radius": "half of --blank",
-}
+#: Diameters of the benchmark by the names of their options.
+_DIAMETERS = {name: 2.0 * ESAFORM[radius] for radius, name in Cup.diameters.items() if radius in ESAFORM}
 
-group = typer.Typer(no_args_is_help=True, help="Draw a part, open the tools and measure it: `umform draw cup`.")
+group = typer.Typer(no_args_is_help=True)
 app.add_typer(group, name="draw")
+
+
+@group.callback()
+def draw() -> None:
+    """Draw a part, open the tools and measure it: `umform draw cup`."""
+
 
 Out = Annotated[str | None, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")]
 LimitCurve = Annotated[Path | None, option("Forming limit: a CSV file of minor and major logarithmic strain.", SHEET)]
@@ -76,24 +81,26 @@ def _halves() -> Iterator[None]:
     try:
         yield
     except InvalidValue as error:
-        error.where = _DIAMETERS.get(error.where, error.where)
+        if error.where in Cup.diameters:
+            error.where = f"half of --{Cup.diameters[error.where]}"
         raise
 
 
 @group.command()
-@given_by(Cup, omit=(*_NOT_TYPED, "blank_radius", "punch_radius", "die_radius"), **ESAFORM | _varied(Cup))
+@given_by(Cup, omit=(*_NOT_TYPED, *Cup.diameters), **ESAFORM | _varied(Cup))
 @_halves()
+@scattering
 def cup(
     given: Given,
     out: Out = None,
     coarse: Annotated[bool, _mesh(Cup, "coarse", _COARSE)] = False,
     fine: Annotated[bool, _mesh(Cup, "fine", _FINE)] = False,
-    punch: Annotated[float, option("Diameter of the punch in mm.", _TOOLS)] = 2.0 * ESAFORM["punch_radius"],
+    punch: Annotated[float, option("Diameter of the punch in mm.", _TOOLS)] = _DIAMETERS["punch"],
     opening: Annotated[
         float | None,
         option(f"Diameter of the die opening in mm; default: punch + {2.0 * CLEARANCE:g} t.", _TOOLS),
     ] = None,
-    blank: Annotated[float, option("Diameter of the blank in mm.", SHEET)] = 2.0 * ESAFORM["blank_radius"],
+    blank: Annotated[float, option("Diameter of the blank in mm.", SHEET)] = _DIAMETERS["blank"],
     material: Material = None,
     young: Young = None,
     poisson: Poisson = None,
@@ -102,11 +109,16 @@ def cup(
     curve: Curve = None,
     flow_curve: FlowCurve = None,
     limit_curve: LimitCurve = None,
+    want: Want = None,
+    by: By = None,
+    derive: Derive = None,
     deck: PrintDeck = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
+    *,
+    wishes: Wishes,
 ) -> None:
     """Draw a round cup from a disc: forces, ears, thickness, strains and limits, springback.
 
@@ -116,16 +128,18 @@ def cup(
 
     given = _on_mesh(Cup, given, coarse, fine)
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
-    given |= {"punch_radius": 0.5 * punch, "blank_radius": 0.5 * blank, "holder_force": given["holder_force"] or None}
-    case = Cup(**given, die_radius=None if opening is None else 0.5 * opening, material=law)
+    typed: dict[str, Any] = {"punch": punch, "opening": opening, "blank": blank}
+    radii = {radius: typed[name] and 0.5 * typed[name] for radius, name in Cup.diameters.items()}
+    case = Cup(**given | radii | {"holder_force": given["holder_force"] or None}, material=law)
     if deck:
         print_deck(case)
         return
-    _run(case, draw, out, "cup", note, limit_curve, overwrite=overwrite, timing=timing)
+    _run(case, draw, out, "cup", note, limit_curve, derive, wishes, overwrite=overwrite, timing=timing)
 
 
 @group.command()
 @given_by(UBend, omit=_NOT_TYPED, called={"punch_width": "--punch"}, **NUMISHEET | _varied(UBend))
+@scattering
 def u(
     given: Given,
     out: Out = None,
@@ -147,11 +161,16 @@ def u(
             "--extrapolate/--no-extrapolate",
         ),
     ] = None,
+    want: Want = None,
+    by: By = None,
+    derive: Derive = None,
     deck: PrintDeck = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
+    *,
+    wishes: Wishes,
 ) -> None:
     """Draw a U-bend from a strip in plane strain: forces, springback angles, strains and limits.
 
@@ -162,13 +181,13 @@ def u(
 
     given = _on_mesh(UBend, given, coarse, fine)
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
-    case = UBend(**given, material=law)
+    case = compensated(UBend(**given, material=law), want, by)
     if deck:
         print_deck(case)
         return
     three = not coarse if extrapolate is None else extrapolate
     how = extrapolated if three else draw
-    _run(case, how, out, "u-bend", note, limit_curve, overwrite=overwrite, timing=timing)
+    _run(case, how, out, "u-bend", note, limit_curve, derive, wishes, overwrite=overwrite, timing=timing)
 
 
 def _on_mesh(spec: type[Cup | UBend], given: Given, coarse: bool, fine: bool) -> Given:
@@ -216,6 +235,8 @@ def _run(
     name: str,
     note: str,
     limit: Path | None,
+    derive: list[str] | None,
+    wishes: Wishes,
     *,
     overwrite: bool,
     timing: bool,
@@ -227,6 +248,8 @@ def _run(
     from umform.processes.draw.words import before_the_run
 
     print_warnings_once()
+    if wishes:  # refuse what is wrong before the run
+        wishes.check(case)
     curve = _limit(limit)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results") / name, FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
@@ -235,13 +258,17 @@ def _run(
         picture, blank = draw_blank(place, case)
         say(f"umform: the mesh of the blank is drawn in {picture}")
         drawn = how(case, limit=curve)
+        more: list[Path] = []
         try:
+            drawn, more = derived(drawn, case, derive if drawn.released else None, place)
             with printing(f"the files of the part are in {place}"):
                 show_outcome(drawn, note)
         finally:  # even if the table cannot be printed
             with drawn.result.timing.files:
-                files = write_files(place, drawn, note, blank)
+                files = [*write_files(place, drawn, note, blank), *more]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+    if wishes and drawn.released is not None:
+        show_scatter(wishes.run(case), place, drawn.warnings)
     if timing:
         show_timing(drawn.result.timing)
     if drawn.released is None:

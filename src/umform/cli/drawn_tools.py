@@ -8,15 +8,10 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from umform.errors import InvalidValue
+from umform.processes.air_bending.spec import sizes_of
 
 if TYPE_CHECKING:
     from umform.processes.air_bending.drawn_tools import DrawnDie, DrawnPunch
-
-#: Options that follow from the drawing of each tool.
-_FROM_DRAWING = {
-    "punch_dxf": ("punch_angle", "punch_radius", "punch_width"),
-    "die_dxf": ("opening", "die_angle", "die_radius"),
-}
 
 
 def drawn_tools(
@@ -64,7 +59,7 @@ def _refuse_both(context: typer.Context, name: str, path: Path | None, layer: st
             cause=f"{flag} is missing",
             remedy=f"{flag} FILE",
         )
-    for other in _FROM_DRAWING[name] if path is not None else ():
+    for other in sizes_of(name.partition("_")[0]).values() if path is not None else ():
         source = context.get_parameter_source(other)
         if source is not None and source.name == "COMMANDLINE":
             raise InvalidValue(

@@ -16,7 +16,11 @@ Given = dict[str, Any]
 
 
 def given_by(
-    *specs: type, omit: Collection[str] = (), called: Mapping[str, str] = MappingProxyType({}), **defaults: Any
+    *specs: type,
+    omit: Collection[str] = (),
+    called: Mapping[str, str] = MappingProxyType({}),
+    otherwise: Mapping[str, str] = MappingProxyType({}),
+    **defaults: Any,
 ) -> Callable[[Callable[..., Any]], Any]:
     """Give a command the options of all fields of Specs; its parameter ``given`` gets their values by name.
 
@@ -28,21 +32,30 @@ def given_by(
         Fields that the command takes in another way.
     called : mapping of str to str
         Options of fields that have another name than the field.
+    otherwise : mapping of str to str
+        Defaults in words, of options without a default of their own.
     **defaults : object
         Defaults of this command where they differ; None for an option that need not be given.
     """
+    options = [one for spec in specs for one in _options(spec, omit, called, otherwise, defaults)]
+    return in_place_of("given", options, dict)
+
+
+def in_place_of(
+    name: str, options: Sequence[inspect.Parameter], made_of: Callable[[dict[str, Any]], Any]
+) -> Callable[[Callable[..., Any]], Any]:
+    """Give a command some options in place of one of its parameters, which gets what is made of their values."""
 
     def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
         own = inspect.signature(command)
-        options = [one for spec in specs for one in _options(spec, omit, called, defaults)]
         names = [one.name for one in options]
 
         def run(**values: Any) -> Any:
-            return command(given={name: values.pop(name) for name in names}, **values)
+            return command(**{name: made_of({one: values.pop(one) for one in names})}, **values)
 
         hints = get_type_hints(command, include_extras=True)
-        before = [one.replace(annotation=hints[one.name]) for one in own.parameters.values() if one.name != "given"]
-        at = list(own.parameters).index("given")
+        before = [one.replace(annotation=hints[one.name]) for one in own.parameters.values() if one.name != name]
+        at = list(own.parameters).index(name)
         run.__name__, run.__doc__, run.__module__ = command.__name__, command.__doc__, command.__module__
         shown = [*before[:at], *options, *before[at:]]
         run.__signature__ = inspect.Signature(shown, return_annotation=None)  # type: ignore[attr-defined]
@@ -53,7 +66,7 @@ def given_by(
 
 
 def _options(
-    spec: type, omit: Collection[str], called: Mapping[str, str], defaults: dict[str, Any]
+    spec: type, omit: Collection[str], called: Mapping[str, str], otherwise: Mapping[str, str], defaults: dict[str, Any]
 ) -> list[inspect.Parameter]:
     found, panel = [], ""
     groups: dict[str, str] = spec.groups  # type: ignore[attr-defined]
@@ -62,6 +75,7 @@ def _options(
         if name not in omit:
             default = defaults.get(name, parameter.default)
             info = _info(parameter, panel, [called[name]] if name in called else [])
+            info.help = f"{parameter.text.rstrip('.')}; default: {otherwise[name]}." if name in otherwise else info.help
             hint = Annotated[_hint(parameter, default), info]  # type: ignore[valid-type]
             no_default = inspect.Parameter.empty if default is MISSING else default
             kind = inspect.Parameter.POSITIONAL_OR_KEYWORD

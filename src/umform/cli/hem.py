@@ -8,48 +8,47 @@ from typing import Annotated
 
 import typer
 
+from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
-from umform.cli.options import SHEET, SOLUTION, Curve, FlowCurve, Material, Modulus, Poisson, Yield, Young, option
+from umform.cli.options import Curve, FlowCurve, Material, Modulus, Poisson, Yield, Young
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.warnings import print_warnings_once
+from umform.processes.air_bending.spec import AirBending
+from umform.processes.hemming.spec import ACUTE, Hemming, acute
+from umform.spec import parameters
 
-_HEM, _TOOLS = "Hem (mm, degrees)", "Tools of the first bend (mm, degrees)"
+#: Parameters of the sheet that a hem does not have: drawn tools, and what belongs to a single bend.
+_NONE_OF_A_HEM = ("punch_section", "die_section", "width", "width_elements", "stroke", "bottoming")
+_OF_HEM = [name for name in parameters(Hemming) if name != "sheet"]
+#: Lengths that follow from the thickness, over the thickness.
+_LENGTHS = Hemming.proportions | {
+    name: size for name, size in ACUTE.items() if parameters(AirBending)[name].about.unit == "mm"
+}
 
 
 @app.command()
+@given_by(
+    Hemming,
+    AirBending,
+    omit=("sheet", "material", *_NONE_OF_A_HEM),
+    called={"insert": "--insert/--open"},
+    otherwise={name: f"{times:g} thickness{'' if times == 1.0 else 'es'}" for name, times in _LENGTHS.items()},
+    **ACUTE | dict.fromkeys(_LENGTHS) | {"thickness": 1.0},
+)
 def hem(
+    given: Given,
     out: Annotated[
         str | None,
         typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/hem."),
     ] = None,
-    gap: Annotated[
-        float | None, option("Final distance of flange and base, thickness of the insert; default: 1 thickness.", _HEM)
-    ] = None,
-    flange: Annotated[float | None, option("Length of the flat flange; default: 12 thicknesses.", _HEM)] = None,
-    base: Annotated[float | None, option("Length of the flat base; default: 30 thicknesses.", _HEM)] = None,
-    insert: Annotated[
-        bool, option("A rigid plate between flange and base, or an open hem.", _HEM, "--insert/--open")
-    ] = True,
-    angle: Annotated[float, option("Angle after the first bend.", _HEM)] = 40.0,
-    opening: Annotated[float | None, option("Opening of the die; default: 8 thicknesses.", _TOOLS)] = None,
-    die_angle: Annotated[float, option("Angle of the die.", _TOOLS)] = 30.0,
-    die_radius: Annotated[float | None, option("Radius of the die shoulders; default: 1 thickness.", _TOOLS)] = None,
-    punch_angle: Annotated[float, option("Angle of the punch.", _TOOLS)] = 30.0,
-    punch_radius: Annotated[float | None, option("Radius of the punch tip; default: 0.5 thicknesses.", _TOOLS)] = None,
-    thickness: Annotated[float, option("Thickness of the sheet.", SHEET)] = 1.0,
     material: Material = None,
-    rolling: Annotated[
-        float | None, option("Degrees from the bend line to the rolling direction: 0 along it, 90 across.", SHEET)
-    ] = None,
     young: Young = None,
     poisson: Poisson = None,
     yield_stress: Yield = None,
     hardening_modulus: Modulus = None,
     curve: Curve = None,
     flow_curve: FlowCurve = None,
-    layers: Annotated[int, option("Elements through the thickness.", SOLUTION)] = 2,
-    elements_per_thickness: Annotated[float, option("Elements per thickness along the sheet.", SOLUTION)] = 3.0,
     overwrite: Overwrite = False,
     verbose: Verbose = 0,
     debug: Debug = False,
@@ -60,35 +59,15 @@ def hem(
     """
     from umform.io.folders import folder_for
     from umform.io.staging import staging
-    from umform.processes.air_bending.spec import AirBending
-    from umform.processes.hemming import Hemming, hemming
+    from umform.processes.hemming import hemming
     from umform.processes.hemming.files import FILES, RESULTS, write_files
 
-    def size(given: float | None, thicknesses: float) -> float:
-        return thicknesses * thickness if given is None else given
-
     print_warnings_once()
+    thickness = given["thickness"]
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, thickness)
-    sheet = AirBending(
-        thickness=thickness,
-        opening=size(opening, 8.0),
-        die_angle=die_angle,
-        die_radius=size(die_radius, 1.0),
-        punch_angle=punch_angle,
-        punch_radius=size(punch_radius, 0.5),
-        material=law,
-        rolling=rolling,
-        layers=layers,
-        elements_per_thickness=elements_per_thickness,
-    )
-    case = Hemming(
-        gap=size(gap, 1.0),
-        flange=size(flange, 12.0),
-        base=size(base, 30.0),
-        insert=insert,
-        angle=angle,
-        sheet=sheet,
-    )
+    of_hem = {name: given.pop(name) for name in _OF_HEM}
+    sheet = acute(**{name: value for name, value in given.items() if value is not None}, material=law)
+    case = Hemming(**of_hem, sheet=sheet)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/hem"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     with staging(place, FILES):

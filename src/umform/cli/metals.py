@@ -15,10 +15,14 @@ if TYPE_CHECKING:
     from umform.sheet_metals import SheetMetal
     from umform.studies.calibration import Calibration
 
-metals = typer.Typer(
-    no_args_is_help=True, rich_markup_mode="markdown", help="Sheet metals with sources, and laws from measurements."
-)
+metals = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown")
 app.add_typer(metals, name="metal")
+
+
+@metals.callback()
+def metal() -> None:
+    """Sheet metals with sources, and laws from measurements."""
+
 
 _MEASURED, _LAW, _FILES = "Measurements (CSV)", "Law", "Files"
 

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
 from umform.errors import InvalidValue
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 GROUP = "umform.commands"
 #: Commands of packages of the same repository: what they are, and where they are.
@@ -15,24 +18,25 @@ _APART = {"verify": ("the verification book", "umform-book", "./book")}
 
 
 @cache
-def plugins() -> dict[str, Any]:
-    """Commands of installed packages by name; loaded only for a command that umform does not have.
-
-    Returns
-    -------
-    dict of str to command of click
-        The name of an entry point becomes that of the command.
-    """
+def plugins() -> dict[str, EntryPoint]:
+    """Commands of installed packages by name."""
     from importlib.metadata import entry_points  # the import is slow
 
-    found = {}
-    for point in sorted(entry_points(group=GROUP), key=lambda point: point.name):
-        app = typer.Typer(pretty_exceptions_enable=False)
-        app.command(point.name)(point.load())
-        command = typer.main.get_command(app)
-        command.name = point.name
-        found[point.name] = command
-    return found
+    return {point.name: point for point in sorted(entry_points(group=GROUP), key=lambda point: point.name)}
+
+
+def plugin(name: str) -> Any:
+    """The command of an installed package, which is loaded; None if there is none of this name."""
+    return command_of(name, plugins()[name].load()) if name in plugins() else None
+
+
+def command_of(name: str, function: Any, **more: Any) -> Any:
+    """The command of click for a function."""
+    app = typer.Typer(pretty_exceptions_enable=False)
+    app.command(name, **more)(function)
+    command = typer.main.get_command(app)
+    command.name = name
+    return command
 
 
 def check_installed(name: str) -> None:

@@ -27,16 +27,34 @@ class Commands(TyperGroup):
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         """A command of umform, or of another package."""
-        from umform.cli.plugins import check_installed
+        from umform.cli.plugins import check_installed, plugin
 
-        found = super().get_command(ctx, cmd_name) or _plugins().get(cmd_name)
+        found = super().get_command(ctx, cmd_name) or plugin(cmd_name)
         if found is None:
             check_installed(cmd_name)
         return found
 
     def list_commands(self, ctx: Any) -> list[str]:
         """Names of all commands."""
-        return [*super().list_commands(ctx), *_plugins()]
+        from umform.cli.plugins import plugins
+
+        return list(dict.fromkeys([*super().list_commands(ctx), *plugins()]))
+
+    def format_help(self, ctx: Any, formatter: Any) -> None:
+        """Show the help, which lists the commands of other packages without loading them."""
+        from umform.cli.importing import text_of
+        from umform.cli.plugins import command_of, plugins
+
+        own = self.commands
+        others = {
+            name: command_of(name, lambda: None, help=text_of(point.module, point.attr))
+            for name, point in plugins().items()
+        }
+        self.commands = {**others, **own}
+        try:
+            super().format_help(ctx, formatter)
+        finally:
+            self.commands = own
 
     def make_context(self, *args: Any, **kwargs: Any) -> Any:
         """Read the options before the command."""
@@ -129,12 +147,6 @@ def _forget(stream: Any) -> None:
     """Redirect the buffered data of a stream to the null device, so that Python reports no broken pipe at exit."""
     if stream is not None and not stream.closed:
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
-
-
-def _plugins() -> dict[str, Any]:
-    from umform.cli.plugins import plugins
-
-    return plugins()
 
 
 def _show_traceback(ctx: Any) -> None:

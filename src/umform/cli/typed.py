@@ -19,7 +19,7 @@ def options_of(command: Any) -> dict[str, str]:
 
 
 def as_typed(text: str, options: Mapping[str, str]) -> str:
-    """A text in which settings of Python, such as bottoming=True, and names such as punch_radius are options."""
+    """A text in which settings of Python, such as bottoming=True, and names such as die_radius are options."""
     names = sorted(options, key=len, reverse=True)
     joined = [name for name in names if "_" in name]
     if names:

@@ -7,11 +7,9 @@ from umform.model.contact import Contact
 from umform.model.contact.bead import Bead, BeadOptions
 from umform.problem.parts import Name, Part
 from umform.problem.selection import Selection, faces_of
-from umform.problem.tagged import with_keys
 
 
-@with_keys(BeadOptions)
-class BeadPart(Part):
+class BeadPart(Part, of=BeadOptions):
     """An equivalent draw bead: a line on the tool of a contact that restrains the sheet."""
 
     contact: Name

@@ -8,13 +8,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import field, replace
 from pathlib import Path as File
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from umform.errors import FileProblem, InvalidValue
 from umform.io.trees import read_tree, write_tree
@@ -23,6 +21,7 @@ from umform.model.contact import Contact
 from umform.model.contact.kept import KeptContact
 from umform.model.transfer.rigid_motion import RigidMotion
 from umform.problem.errors import DeckError, DeckKey
+from umform.problem.notes import Field, Refusal
 from umform.problem.parts import Name, Part, Vector
 from umform.problem.profiles import ProfilePart, profile_of
 from umform.problem.source import Source
@@ -45,7 +44,7 @@ class Before(Part):
     control: Name | None = None
     """Name of the control, of value 1, of the unbalanced forces: those of tools and supports of that operation, and of
     removed metal. Steps move it to 0. Without it the part was released, and what is left over acts at once."""
-    keep: list[Name] = []
+    keep: list[Name] = field(default_factory=list)
     """Names of contacts with friction of that deck and of this one whose points keep their friction, and a penalty that
     has grown: tools that stay where they stood."""
 
@@ -146,12 +145,11 @@ class Placement(Part):
         """The table of a motion."""
         return {"rotation": motion.rotation.tolist(), "shift": motion.shift.tolist()}
 
-    @model_validator(mode="after")
-    def _is_rotation(self) -> Placement:
+    def __post_init__(self) -> None:
+        """Refuse a matrix that is no rotation."""
         Q = np.array(self.rotation)
         if not np.allclose(Q @ Q.T, np.eye(3), atol=1e-9) or np.linalg.det(Q) < 0.0:
-            raise PydanticCustomError("rotation", "the rows of a rotation are orthogonal unit vectors, right-handed")
-        return self
+            raise Refusal("rotation", "the rows of a rotation are orthogonal unit vectors, right-handed")
 
     def apply(self, model: Model) -> None:
         """Move a model that has no tools and supports yet."""

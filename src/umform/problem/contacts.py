@@ -8,16 +8,15 @@ from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Discriminator, Field, Strict, Tag, model_validator
-from pydantic_core import PydanticCustomError
 
 from umform.model import Model
 from umform.model.contact import Contact, ContactOptions, friction
 from umform.model.tools.tool import Motion
 from umform.model.tools.tool import Tool as RigidTool
+from umform.problem.notes import Discriminator, Field, InTable, Refusal, Tag
 from umform.problem.parts import Name, Part, Positive, Vector
+from umform.problem.reading import write_as
 from umform.problem.selection import Selection, faces_of
-from umform.problem.tagged import deck_type, refused, table, with_keys, write_as
 from umform.surfaces import Tool
 
 Floats = NDArray[np.float64]
@@ -38,19 +37,15 @@ class MotionPart(Part):
     about: Vector = (0.0, 0.0, 0.0)
     """Point of the tool about which it rotates."""
 
-    @model_validator(mode="after")
-    def _is_table(self) -> MotionPart:
+    def __post_init__(self) -> None:
+        """Refuse times that do not increase, and tables of other lengths."""
         if any(b <= a for a, b in pairwise(self.time)):
-            raise PydanticCustomError("motion", "the times of a motion must increase")
+            raise Refusal("motion", "the times of a motion must increase")
         for name in ("translation", "rotation"):
             rows = getattr(self, name)
             if rows is not None and len(rows) != len(self.time):
-                raise PydanticCustomError(
-                    "motion",
-                    "a motion needs one {name} for each time: there are {rows} for {times}",
-                    {"name": name, "rows": len(rows), "times": len(self.time)},
-                )
-        return self
+                text = f"a motion needs one {name} for each time: there are {len(rows)} for {len(self.time)}"
+                raise Refusal("motion", text)
 
     def build(self) -> Motion:
         """Motion as a picklable function of time."""
@@ -73,20 +68,19 @@ def _notation(value: object) -> str:
 
 
 _Coordinate = Annotated[float, Field(allow_inf_nan=True)]
-write_as(friction.Corner, Annotated[tuple[_Coordinate, _Coordinate, _Coordinate], Strict(False)])
-write_as(friction.Region, table(friction.Friction, friction.Region))
+write_as(friction.Corner, tuple[_Coordinate, _Coordinate, _Coordinate])
+write_as(friction.Region, Annotated[friction.Region, InTable(friction.Friction, friction.Region)])
 write_as(
     friction.AnyFriction,
     Annotated[
-        Annotated[deck_type(friction.Coefficient), Tag("number")]
-        | Annotated[table(friction.Friction, friction.FrictionByRegion), Tag("law")],
+        Annotated[friction.Coefficient, Tag("number")]
+        | Annotated[friction.FrictionByRegion, InTable(friction.Friction, friction.FrictionByRegion), Tag("law")],
         Discriminator(lambda value: "number" if isinstance(value, int | float) else "law"),
     ],
 )
 
 
-@with_keys(ContactOptions)
-class ContactPart(Part):
+class ContactPart(Part, of=ContactOptions):
     """Contact of lower or upper faces with one tool."""
 
     tool: Name
@@ -103,11 +97,9 @@ class ContactPart(Part):
     may_bottom: bool = False
     """Whether the tool may press the sheet onto another one: no warning that it bottoms."""
 
-    @model_validator(mode="after")
-    def _is_one(self) -> ContactPart:
-        with refused():
-            ContactOptions(**self.of_spec())
-        return self
+    def __post_init__(self) -> None:
+        """Refuse options that do not belong together."""
+        ContactOptions(**self.of_spec())
 
     def add_to(self, model: Model, tool: Tool | RigidTool, name: str) -> Contact:
         """Add the contact to the model, with a tool of its own or a shared one."""

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import json
-from typing import Annotated
-
-from pydantic import Field
+from dataclasses import field
+from typing import TYPE_CHECKING, Annotated, Any, get_args
 
 from umform.problem.beads import BeadPart
 from umform.problem.before import Before, Cut, Placement
@@ -13,13 +12,24 @@ from umform.problem.contacts import ContactPart
 from umform.problem.controls import ControlPart
 from umform.problem.element import ElementPart
 from umform.problem.material import MaterialPart
-from umform.problem.measures import AnyMeasure
 from umform.problem.mesh import MeshPart
-from umform.problem.parts import Name, Part, describe
+from umform.problem.notes import Field, Later
+from umform.problem.parts import Name, Part
 from umform.problem.settings import Output, Solution, Units
 from umform.problem.steps import StepPart
 from umform.problem.supports import Support
 from umform.problem.tools import ToolPart
+
+if TYPE_CHECKING:
+    from umform.problem.measures import AnyMeasure
+else:
+
+    def _measures() -> Any:
+        from umform.problem.measures import AnyMeasure
+
+        return AnyMeasure
+
+    AnyMeasure = Annotated[Any, Later(_measures)]
 
 
 class Contents(Part):
@@ -29,7 +39,7 @@ class Contents(Part):
     """Title of the problem."""
     before: Before | None = None
     """The previous operation, whose deck then defines mesh, material and element."""
-    trim: list[Cut] = []
+    trim: list[Cut] = field(default_factory=list)
     """Cuts of the part of the previous operation, in order."""
     placement: Placement | None = None
     """Rigid motion of the part before the first step."""
@@ -37,35 +47,37 @@ class Contents(Part):
     """Points and cells."""
     material: MaterialPart
     """Material law."""
-    element: ElementPart = ElementPart()
+    element: ElementPart = field(default_factory=ElementPart)
     """Element and points through the thickness."""
-    tools: dict[Name, ToolPart] = {}
+    tools: dict[Name, ToolPart] = field(default_factory=dict)
     """Rigid tools by name."""
-    contacts: dict[Name, ContactPart] = {}
+    contacts: dict[Name, ContactPart] = field(default_factory=dict)
     """Contacts by name; the names are prefixes of history columns."""
-    beads: dict[Name, BeadPart] = {}
+    beads: dict[Name, BeadPart] = field(default_factory=dict)
     """Equivalent draw beads by name; the names are prefixes of history columns."""
-    supports: list[Support] = []
+    supports: list[Support] = field(default_factory=list)
     """Supports."""
-    controls: dict[Name, ControlPart] = {}
+    controls: dict[Name, ControlPart] = field(default_factory=dict)
     """Quantities that steps move, by name: displacements, loads, tools; the names are history columns."""
-    measures: dict[Name, AnyMeasure] = {}
+    measures: dict[Name, AnyMeasure] = field(default_factory=dict)
     """Measures of the part by name; the names are those of files and fields."""
-    units: Units = Units()
+    units: Units = field(default_factory=Units)
     """Names of the units."""
     steps: Annotated[list[StepPart], Field(min_length=1)]
     """Steps of the run, in order."""
-    solution: Solution = Solution()
+    solution: Solution = field(default_factory=Solution)
     """Sparse solver and Newton's method."""
-    output: Output = Output()
+    output: Output = field(default_factory=Output)
     """Files of the results."""
 
 
 def json_schema() -> str:
     """JSON schema (draft 2020-12) of a deck."""
+    from umform.problem.tagged import describe, table  # pydantic takes long to import
+
+    contents = get_args(table(Contents))[0]
     describe()
-    Contents.model_rebuild(force=True)
-    schema = Contents.model_json_schema()
+    schema = contents.model_json_schema()
     head = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Deck of umform",

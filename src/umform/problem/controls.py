@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import field
 from typing import Annotated, Literal
-
-from pydantic import Field
 
 from umform.model import Model
 from umform.model.contact import Contact
 from umform.model.terms.control import Control
 from umform.model.tools.tool_controls import ToolForce, ToolWay
+from umform.problem.notes import Field
 from umform.problem.parts import Axis, Name, Part, Positive, Vector, Way
 from umform.problem.selection import Selection, faces_of, nodes_of
 
@@ -125,7 +125,7 @@ class _OfTool(Part):
 
     contact: Name
     """Name of the contact."""
-    followers: list[Name] = []
+    followers: list[Name] = field(default_factory=list)
     """Contacts whose tools move together with this one."""
 
     def _followed(self, model: Model, way: ToolWay, contacts: Contacts) -> ToolWay:
@@ -187,7 +187,7 @@ class _Pressed(Part):
 
     contact: Name
     """Name of the contact."""
-    stops: list[StopPart] = []
+    stops: list[StopPart] = field(default_factory=list)
     """Limits of the displacement."""
 
     def _stopped(self, model: Model, force: ToolForce) -> ToolForce:

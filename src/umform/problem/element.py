@@ -4,17 +4,14 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import Field
-
 from umform.elements import CATALOGUE, BodyOptions
 from umform.elements import element as catalogue_element
 from umform.elements.technology import Element
-from umform.problem.parts import Own, Part
-from umform.problem.tagged import with_keys
+from umform.problem.notes import Field, Own
+from umform.problem.parts import Part
 
 
-@with_keys(BodyOptions)
-class ElementPart(Part):
+class ElementPart(Part, of=BodyOptions):
     """Element, its options, and the points through the thickness."""
 
     name: Annotated[str, Field(json_schema_extra={"enum": list(CATALOGUE)})] | Own[Element] = "ANS3DEAS"

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass, field
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 from annotated_types import MinLen
-from pydantic import Discriminator, Tag
 
 from umform import sheet_metals
 from umform.errors import InvalidValue
 from umform.materials import Material
 from umform.materials.laws import laws
+from umform.problem.notes import Discriminator, Tag
 from umform.problem.rolling import RollingPart
-from umform.problem.tagged import table, tagged
+from umform.spec import OneOf
 
 
 @dataclass(frozen=True)
@@ -59,10 +59,7 @@ def _kind(value: Any) -> str:
     return "library" if isinstance(value, FromLibrary) or (isinstance(value, dict) and "library" in value) else "law"
 
 
-if TYPE_CHECKING:
-    MaterialPart = LawPart
-else:
-    MaterialPart = Annotated[
-        Annotated[tagged("law", laws(), LawPart), Tag("law")] | Annotated[table(FromLibrary), Tag("library")],
-        Discriminator(_kind),
-    ]
+MaterialPart = Annotated[
+    Annotated[LawPart, OneOf("law", laws, LawPart), Tag("law")] | Annotated[FromLibrary, Tag("library")],
+    Discriminator(_kind),
+]

@@ -8,12 +8,11 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Discriminator, Field, Strict, Tag, model_validator
-from pydantic_core import PydanticCustomError
 
 from umform import mesh
 from umform.errors import InvertedElement, MeshError, WrongNodeOrder
 from umform.mesh import Floats, Mesh
+from umform.problem.notes import Discriminator, Field, Refusal, Tag
 from umform.problem.outline import Outlined
 from umform.problem.parts import Pair, Part, Positive, Vector, tagged_by, word_or_array
 
@@ -35,7 +34,7 @@ class Strip(Part):
     """Along y."""
     thickness: Positive
     """Along z."""
-    cells: Annotated[tuple[Divisions, Divisions], Strict(False)]
+    cells: tuple[Divisions, Divisions]
     """Elements along x and y."""
     layers: Annotated[int, Field(ge=1, le=100)] = 1
     """Elements through the thickness."""
@@ -46,16 +45,15 @@ class Strip(Part):
     rolled: Positive | None = None
     """Radius of the mid-surface of a strip rolled about an axis along y at z = -rolled; x is the arc length."""
 
-    @model_validator(mode="after")
-    def _is_possible(self) -> Strip:
+    def __post_init__(self) -> None:
+        """Refuse too many cells, and a strip that cannot be rolled."""
         _refuse_too_many(self.cells[0] * self.cells[1] * self.layers)
         if min(self.grading) <= 0:
-            raise PydanticCustomError("grading", "the ratios of a grading must be positive")
+            raise Refusal("grading", "the ratios of a grading must be positive")
         if self.rolled is not None and self.rolled <= 0.5 * self.thickness:
-            raise PydanticCustomError("rolled", "the radius of a rolled strip must be more than half of its thickness")
+            raise Refusal("rolled", "the radius of a rolled strip must be more than half of its thickness")
         if self.rolled is not None and self.length >= 2 * np.pi * self.rolled:
-            raise PydanticCustomError("rolled", "a rolled strip must be shorter than the full circle")
-        return self
+            raise Refusal("rolled", "a rolled strip must be shorter than the full circle")
 
     def build(self, cell: str, folder: Path) -> Mesh:
         """Mesh of cells of a type."""
@@ -88,16 +86,13 @@ class Grid(Part):
     z: Lines
     """Borders of the layers, increasing."""
 
-    @model_validator(mode="after")
-    def _is_possible(self) -> Grid:
+    def __post_init__(self) -> None:
+        """Refuse lines that do not increase, and too many cells."""
         for name in ("x", "y", "z"):
             lines = getattr(self, name)
             if any(b <= a for a, b in pairwise(lines)):
-                raise PydanticCustomError(
-                    "lines", "the lines of a grid must increase, those of {axis} do not", {"axis": name}
-                )
+                raise Refusal("lines", f"the lines of a grid must increase, those of {name} do not")
         _refuse_too_many((len(self.x) - 1) * (len(self.y) - 1) * (len(self.z) - 1))
-        return self
 
     def build(self, cell: str, folder: Path) -> Mesh:
         """Mesh of cells of a type."""
@@ -113,7 +108,7 @@ class Blank(Part):
 
     thickness: Positive
     """Along z."""
-    cells: Annotated[tuple[Divisions, Divisions], Strict(False)]
+    cells: tuple[Divisions, Divisions]
     """Elements along a side of the core (of a ring: on a quarter of the circle), and towards the rim."""
     part: Portion = "whole"
     """A half has x >= 0, a quarter y >= 0 as well."""
@@ -135,10 +130,9 @@ class Disc(Blank):
     radii: Lines | None = None
     """Radii of the rings, from the core to the rim, in place of the second number of cells and the grading."""
 
-    @model_validator(mode="after")
-    def _is_possible(self) -> Disc:
+    def __post_init__(self) -> None:
+        """Refuse too many cells."""
         _refuse_too_many(4 * self.cells[0] * (self.cells[0] + 2 * self.cells[1]) * self.layers)
-        return self
 
     def build(self, cell: str, folder: Path) -> Mesh:
         """Mesh of cells of a type."""
@@ -158,12 +152,11 @@ class Ring(Blank):
     outer: Positive
     """Radius of the rim."""
 
-    @model_validator(mode="after")
-    def _is_possible(self) -> Ring:
+    def __post_init__(self) -> None:
+        """Refuse a rim within the hole, and too many cells."""
         if self.inner >= self.outer:
-            raise PydanticCustomError("ring", "the outer radius of a ring must be larger than the inner one")
+            raise Refusal("ring", "the outer radius of a ring must be larger than the inner one")
         _refuse_too_many(4 * self.cells[0] * self.cells[1] * self.layers)
-        return self
 
     def build(self, cell: str, folder: Path) -> Mesh:
         """Mesh of cells of a type."""
@@ -231,7 +224,7 @@ class Shell(Part):
 
 def _refuse_too_many(cells: int) -> None:
     if cells > _MOST_CELLS:
-        raise PydanticCustomError("cells", "{cells} cells are more than {most}", {"cells": cells, "most": _MOST_CELLS})
+        raise Refusal("cells", f"{cells} cells are more than {_MOST_CELLS}")
 
 
 #: Keys that distinguish a surface to be thickened from hexahedra.

@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import re
-import types
 from collections.abc import Iterator, Mapping
+from functools import cache
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
-from pydantic import BaseModel, Tag, ValidationError
+from pydantic import BaseModel, Tag, TypeAdapter, ValidationError
 from pydantic.fields import FieldInfo
 
 from umform.errors import UmformError
 from umform.problem.contents import Contents
 from umform.problem.errors import ANY_CAUSE, ANY_REMEDY, DeckKey, nearest, shortened, slip
 from umform.problem.lines import Path
-from umform.problem.parts import Part
 from umform.problem.places import placed
+from umform.problem.reading import UNIONS
 from umform.problem.source import Source
-from umform.problem.tagged import OWN
+from umform.problem.tagged import OWN, table, texts
 
-_UNIONS = (Union, types.UnionType)
 _BEYOND = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
 _CAUSES = dict.fromkeys(_BEYOND, "a sign, another unit, or a typing error") | {
     "float_type": "a word or a truth value",
@@ -44,6 +43,19 @@ _REMEDIES = dict.fromkeys(_BEYOND, "write a number within the bound") | {
     "finite_number": "write a finite number",
     "too_long": "numbers have a decimal point, entries a comma between them: [25.0, 0.5]",
 }
+
+
+@cache
+def _reader() -> TypeAdapter[Contents]:
+    return TypeAdapter(table(Contents))
+
+
+def checked(source: Source) -> tuple[Contents | None, list[UmformError]]:
+    """The content of a deck, or all that is wrong with it."""
+    try:
+        return _reader().validate_python(source.data, context=source.context), []
+    except ValidationError as error:
+        return None, list(messages(error, source))
 
 
 def messages(error: ValidationError, source: Source) -> Iterator[UmformError]:
@@ -86,8 +98,7 @@ def _message(found: Mapping[str, Any], source: Source) -> UmformError:
             remedy="entries are counted from 0; " + ANY_REMEDY,
         )
     if kind == "missing":
-        part = part_at(loc[:-1])
-        sentence = part.texts().get(str(loc[-1]), "") if issubclass(part, Part) else ""
+        sentence = texts(part_at(loc[:-1])).get(str(loc[-1]), "")
         return _missing(source, path, str(loc[-1]), sentence and f": {sentence}")
     if kind in ("union_tag_not_found", "union_tag_invalid") or "key" in context:
         return _wrong_kind(source, path, given, context, _words_at(loc))
@@ -158,9 +169,9 @@ def _quoted(text: str) -> list[str]:
 def path_in(data: Any, loc: tuple[str | int, ...]) -> Path:
     """Path in the data for a location of pydantic, without its tags of unions."""
     path: Path = ()
-    kind: Any = Contents
+    kind: Any = table(Contents)
     for part in loc:
-        tag = get_origin(_bare(kind)) in _UNIONS
+        tag = get_origin(_bare(kind)) in UNIONS
         kind = _inside(kind, part)
         if tag:
             continue
@@ -189,13 +200,13 @@ def part_at(loc: tuple[str | int, ...]) -> type:
 def _words_at(loc: tuple[str | int, ...]) -> list[str]:
     """Words that distinguish the tables that a location of pydantic may hold."""
     kind = _kind_at(loc)
-    members = get_args(kind) if get_origin(kind) in _UNIONS else ()
+    members = get_args(kind) if get_origin(kind) in UNIONS else ()
     return [str(word) for member in members for word in _tags(member)]
 
 
 def _kind_at(loc: tuple[str | int, ...]) -> Any:
     """Type at a location of pydantic."""
-    kind: Any = Contents
+    kind: Any = table(Contents)
     for part in loc:
         kind = _inside(kind, part)
     return _bare(kind)
@@ -208,7 +219,7 @@ def _inside(kind: Any, part: str | int) -> Any:
         field = kind.model_fields.get(str(part))
         return field.annotation if field else None
     arguments = get_args(kind)
-    if get_origin(kind) in _UNIONS:
+    if get_origin(kind) in UNIONS:
         return next((member for member in arguments if part in _tags(member)), OWN.get(str(part)))
     if get_origin(kind) is dict:
         return arguments[1]
@@ -220,7 +231,7 @@ def _bare(kind: Any) -> Any:
     while True:
         if get_origin(kind) is Annotated:
             kind = get_args(kind)[0]
-        elif get_origin(kind) in _UNIONS and type(None) in get_args(kind):
+        elif get_origin(kind) in UNIONS and type(None) in get_args(kind):
             members = [member for member in get_args(kind) if member is not type(None)]
             kind = members[0] if len(members) == 1 else Union[tuple(members)]  # noqa: UP007
         else:

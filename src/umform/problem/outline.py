@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import field
 from pathlib import Path
 from typing import Annotated, Literal
-
-from pydantic import Field
 
 from umform import mesh
 from umform.errors import InvalidValue
 from umform.mesh import Mesh
+from umform.problem.notes import Field
 from umform.problem.parts import NotNegative, Part, Positive
 from umform.problem.profiles import ProfilePart, profile_of
 from umform.surfaces import Tool, ToolSizes, tool_sizes
@@ -28,7 +28,7 @@ class Outlined(Part):
     """The word outline."""
     outline: ProfilePart
     """Closed curve of lines and arcs in x and y: corners, segments, or a DXF file."""
-    holes: list[ProfilePart] = []
+    holes: list[ProfilePart] = field(default_factory=list)
     """Closed curves inside of it."""
     thickness: Positive
     """Along z."""

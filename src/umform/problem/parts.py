@@ -2,54 +2,107 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from typing import Annotated, Any, ClassVar, Literal, TypeVar
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import MISSING, FrozenInstanceError, dataclass, field, fields
+from types import MappingProxyType
+from typing import Annotated, Any, ClassVar, Literal, Self, dataclass_transform
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, InstanceOf, Strict, Tag
-from pydantic.json_schema import SkipJsonSchema
+from umform.errors import InvalidValue
+from umform.problem.notes import Discriminator, Field, Tag
+from umform.problem.reading import Unfit, read
+from umform.spec import FieldOf, parameters
 
-from umform.spec import Parameter, sentences
 
+@dataclass_transform(kw_only_default=True, frozen_default=True, field_specifiers=(field,))
+class Part:
+    """A table of a deck. Numbers are finite, words are not converted to numbers, and unknown keys are errors.
 
-class Part(BaseModel):
-    """A table of a deck. Numbers are finite, words are not converted to numbers, and unknown keys are errors."""
+    A frozen dataclass whose methods are written here once: to generate them for each class takes long.
+    """
 
-    # Python starts quickly: validators are built when a table is read, sentences are read when they are shown.
-    model_config = ConfigDict(defer_build=True, extra="forbid", strict=True, allow_inf_nan=False, frozen=True)
+    #: Keys that are fields of a dataclass, and the fields.
+    spec_keys: ClassVar[Mapping[str, FieldOf]] = {}
+
+    def __init_subclass__(
+        cls, of: Any = None, leave: Collection[str] = (), called: Mapping[str, str] = MappingProxyType({})
+    ) -> None:
+        """Declare a table.
+
+        Parameters
+        ----------
+        of : type, optional
+            A dataclass whose fields are further keys of the table; `of_spec` returns their values.
+        leave : collection of str
+            Its fields that the table writes in a way of its own.
+        called : mapping of str to str
+            Keys that have other names than their fields.
+        """
+        super().__init_subclass__()
+        chosen = [one for one in fields(of) if one.init and one.name not in leave] if of else []
+        cls.spec_keys = {called.get(one.name, one.name): FieldOf(of, one.name) for one in chosen} or cls.spec_keys
+        for key, one in zip(cls.spec_keys, chosen, strict=False):
+            cls.__annotations__[key] = cls.spec_keys[key]
+            if one.default is not MISSING:
+                setattr(cls, key, one.default)
+            elif one.default_factory is not MISSING:
+                setattr(cls, key, field(default_factory=one.default_factory))
+        dataclass(init=False, repr=False, eq=False, match_args=False)(cls)
+
+    def __init__(self, **keys: Any) -> None:
+        """A table with some keys; its values are checked as in a deck."""
+        kind: type = type(self)
+        known = parameters(kind) if keys else {}
+        for key, value in keys.items():
+            try:
+                keys[key] = read(known[key].hint, value, {})
+            except (KeyError, Unfit):
+                what = f"{key} must be {known[key].must_be}" if key in known else "there is no such key"
+                where = f"{kind.__name__}.{key}"
+                raise InvalidValue(what, where=where, value=value, remedy="docs/decks.md has all keys") from None
+        self._take(keys)
 
     @classmethod
-    def texts(cls) -> dict[str, str]:
-        """The sentence of each key."""
-        return sentences(cls) | {key: one.sentence.replace("``", "") for key, one in cls.spec_keys.items()}
+    def of_values(cls, **keys: Any) -> Self:
+        """A table with values that are known to be valid."""
+        made = object.__new__(cls)
+        made._take(keys)
+        return made
 
-    #: Keys that are fields of a dataclass.
-    spec_keys: ClassVar[Mapping[str, Parameter]] = {}
+    def _take(self, keys: Mapping[str, Any]) -> None:
+        values = vars(self)
+        for one in fields(self):  # type: ignore[arg-type]
+            if one.name in keys:
+                values[one.name] = keys[one.name]
+            elif one.default_factory is not MISSING:
+                values[one.name] = one.default_factory()
+            elif one.default is not MISSING:
+                values[one.name] = one.default
+            else:
+                raise InvalidValue("this key is missing", where=f"{type(self).__name__}.{one.name}")
+        self.__post_init__()
+
+    def __post_init__(self) -> None:
+        """Refuse values that do not belong together.
+
+        Raises
+        ------
+        Refusal
+        """
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise FrozenInstanceError(f"cannot assign to field {name!r}")
+
+    def __eq__(self, other: object) -> bool:
+        return type(other) is type(self) and vars(other) == vars(self)
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(f'{key}={value!r}' for key, value in vars(self).items())})"
 
     def of_spec(self) -> dict[str, Any]:
         """Values of the fields of the dataclass."""
         return {one.name: getattr(self, key) for key, one in self.spec_keys.items()}
 
 
-def describe() -> None:
-    """Give all keys of all parts their sentences, for a schema."""
-    parts = list(_below(Part))
-    for part in parts:
-        for name, sentence in part.texts().items():
-            if name in part.model_fields:
-                part.model_fields[name].description = sentence
-    for part in parts:
-        part.model_rebuild(force=True)
-
-
-def _below(part: type[Part]) -> Iterator[type[Part]]:
-    for kind in part.__subclasses__():
-        yield kind
-        yield from _below(kind)
-
-
-_T = TypeVar("_T")
-#: An object of Python as a value of a problem; no notation in TOML.
-Own = SkipJsonSchema[InstanceOf[_T]]
 Positive = Annotated[float, Field(gt=0)]
 NotNegative = Annotated[float, Field(ge=0)]
 Count = Annotated[int, Field(ge=1)]
@@ -57,9 +110,9 @@ Count = Annotated[int, Field(ge=1)]
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=60)]
 Axis = Literal["x", "y", "z"]
 
-# TOML has arrays where Python has tuples; their entries stay strict.
-Pair = Annotated[tuple[float, float], Strict(False)]
-Vector = Annotated[tuple[float, float, float], Strict(False)]
+# An array of TOML becomes a tuple.
+Pair = tuple[float, float]
+Vector = tuple[float, float, float]
 
 
 def word_or_array(value: Any) -> str | None:
@@ -104,13 +157,11 @@ __all__ = [
     "Count",
     "Name",
     "NotNegative",
-    "Own",
     "Pair",
     "Part",
     "Positive",
     "Vector",
     "Way",
-    "describe",
     "number_or_array",
     "number_or_table",
     "tagged_by",

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pydantic import ValidationError
 
 from umform.analysis.run import Result
 from umform.errors import InvalidValue, UmformError
@@ -21,9 +20,9 @@ from umform.problem.building import build, sheet
 from umform.problem.contents import Contents
 from umform.problem.errors import DeckError, DeckKey
 from umform.problem.keys import written_out
-from umform.problem.messages import messages
 from umform.problem.prepared import Prepared
 from umform.problem.profiles import as_written
+from umform.problem.reading import Unfit, read
 from umform.problem.references import unknown_names
 from umform.problem.source import Source, change, parse, read_file
 from umform.problem.written import deck_text, plain
@@ -97,11 +96,14 @@ class Problem:
         if before is not None:
             source = merged(source, before.source)
         errors: list[UmformError] = [*_idle_trim(source)]
-        contents = None
+        contents: Contents | None = None
         try:
-            contents = Contents.model_validate(source.data, context={"folder": source.folder, "trust": source.trust})
-        except ValidationError as error:
-            errors += messages(error, source)
+            contents = read(Contents, source.data, source.context)
+        except Unfit:
+            from umform.problem.messages import checked  # pydantic takes long to import
+
+            contents, wrong = checked(source)
+            errors += wrong
         errors += unknown_names(source)
         if errors or contents is None:
             raise DeckError(errors)
@@ -189,7 +191,8 @@ class Problem:
             A value that was made by a program has no notation in TOML, or the files of the start have no name.
         """
         if self.start is None:
-            return self.source.written
+            source = self.source
+            return deck_text(source.data, source.remarks) if source.changes else source.written
         if before is None:
             raise InvalidValue(
                 "a deck names the files of the operation before",

@@ -5,20 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from functools import reduce
 from pathlib import Path as File
-from typing import TYPE_CHECKING, Annotated, Any, Literal
-
-from pydantic import Discriminator, Field, Tag, ValidationInfo, ValidatorFunctionWrapHandler, WrapValidator
+from typing import Annotated, Any, Literal
 
 from umform import surfaces
+from umform.problem.notes import Built, Discriminator, Field, Tag
 from umform.problem.parts import NotNegative, Pair, Part, Positive, number_or_array
-from umform.problem.tagged import refused, tagged
-from umform.spec import Scalar, scalars
+from umform.problem.reading import read
+from umform.spec import OneOf, Scalar, scalars
 from umform.surfaces import Profile
 
-if TYPE_CHECKING:
-    Segment = surfaces.Line | surfaces.Arc
-else:
-    Segment = tagged("kind", {"line": surfaces.Line, "arc": surfaces.Arc})
+Segment = Annotated[surfaces.Line | surfaces.Arc, OneOf("kind", lambda: {"line": surfaces.Line, "arc": surfaces.Arc})]
 Radii = Annotated[
     Annotated[NotNegative, Tag("number")] | Annotated[list[NotNegative], Tag("array")], Discriminator(number_or_array)
 ]
@@ -116,17 +112,8 @@ def profile_of(part: ProfilePart, folder: File) -> Profile:
     return (FromDxf(file=part) if isinstance(part, str) else part).build(folder)
 
 
-def _read(value: Any, read: ValidatorFunctionWrapHandler, info: ValidationInfo) -> Profile:
-    """The profile that a deck describes; files are found from its folder."""
-    if isinstance(value, Profile):
-        return value
-    part = read(value)
-    with refused():
-        return profile_of(part, File((info.context or {}).get("folder", ".")))
-
-
 #: A section that is read at once.
-ReadProfile = Annotated[ProfilePart, WrapValidator(_read)]
+ReadProfile = Annotated[ProfilePart, Built(Profile, profile_of)]
 
 
 def as_written(numbers: Iterable[Scalar], data: Mapping[str, Any]) -> Iterator[Scalar]:
@@ -147,7 +134,7 @@ def as_written(numbers: Iterable[Scalar], data: Mapping[str, Any]) -> Iterator[S
             yield one
         elif path not in done and isinstance(table, Mapping):
             done.add(path)
-            yield from scalars(_KEYS[_kind(table) or ""].model_validate(table), path)
+            yield from scalars(read(_KEYS[_kind(table) or ""], table, {}), path)
 
 
 def _entry(table: Any, key: str) -> Any:

@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import Discriminator, Field, Tag
 
 from umform.elements import Rolling, rolling_at
 from umform.errors import FileProblem
+from umform.problem.notes import Discriminator, Field, Tag
 from umform.problem.parts import Part, Vector, Way, word_or_array
 from umform.surfaces import unit_vector
 

@@ -7,11 +7,10 @@ from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Discriminator, Field, Tag, model_validator
-from pydantic_core import PydanticCustomError
 
 from umform.errors import EmptySet
 from umform.mesh import FACES, Ids, Mesh
+from umform.problem.notes import Discriminator, Field, Refusal, Tag
 from umform.problem.parts import Part, Vector
 
 #: Thickness added to planes of a box, as a fraction of the size of the mesh.
@@ -53,12 +52,11 @@ class Box(Part):
     max: Annotated[list[Bound], Field(min_length=3, max_length=3)] | None = None
     """Highest corner; inf leaves a side open."""
 
-    @model_validator(mode="after")
-    def _is_box(self) -> Box:
+    def __post_init__(self) -> None:
+        """Refuse corners in the wrong order."""
         lowest, highest = np.array(self.min or [-np.inf] * 3), np.array(self.max or [np.inf] * 3)
         if not (lowest <= highest).all():
-            raise PydanticCustomError("box", "the lowest corner of a box must lie below its highest one")
-        return self
+            raise Refusal("box", "the lowest corner of a box must lie below its highest one")
 
     def _inside(self, mesh: Mesh) -> NDArray[np.bool_]:
         hair = _HAIR * float(np.ptp(mesh.points, axis=0).max())
@@ -155,4 +153,3 @@ Selection = Annotated[
         "min, max, nearest, ids, intersection",
     ),
 ]
-Intersection.model_rebuild()

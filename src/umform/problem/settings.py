@@ -4,16 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
-
 from umform.analysis.newton.options import NewtonOptions
+from umform.problem.notes import Field, Refusal
 from umform.problem.parts import Pair, Part, Positive
-from umform.problem.tagged import with_keys
 
 
-@with_keys(NewtonOptions)
-class Solution(Part):
+class Solution(Part, of=NewtonOptions):
     """Sparse solver and Newton's method."""
 
     solver: Annotated[str, Field(min_length=1)] = "auto"
@@ -58,17 +54,16 @@ class Output(Part):
     """Forming limit: logarithmic minor and major strains, the minor ones ascending, or Keeler-Brazier (of the thickness
     in mm and the hardening of a plastic material); adds the margin as a field."""
 
-    @model_validator(mode="after")
-    def _ascending(self) -> Output:
+    def __post_init__(self) -> None:
+        """Refuse a curve of less than two points, one that does not ascend, and strains in per cent."""
         if self.forming_limit is None or isinstance(self.forming_limit, str):
-            return self
+            return
         minor = [pair[0] for pair in self.forming_limit]
         if len(minor) < 2 or sorted(set(minor)) != minor:
             text = "a forming limit has two points or more, pairs of minor and major strain, the minor ones ascending"
-            raise PydanticCustomError("forming_limit", text)
+            raise Refusal("forming_limit", text)
         from umform.results.forming.limits import LARGEST_STRAIN  # NumPy loads slowly
 
         if any(abs(strain) > LARGEST_STRAIN for pair in self.forming_limit for strain in pair):
             text = "the strains of a forming limit are logarithmic, not per cent: 0.262 = ln(1.3) for 30 %"
-            raise PydanticCustomError("forming_limit", text)
-        return self
+            raise Refusal("forming_limit", text)

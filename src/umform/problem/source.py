@@ -68,6 +68,11 @@ class Source:
         """
         return deck_text(self.data, self.remarks) if self.made else self.text
 
+    @property
+    def context(self) -> dict[str, Any]:
+        """What reading the data depends on."""
+        return {"folder": self.folder, "trust": self.trust}
+
     def place(self, path: Path) -> str:
         """File, line and key of a path."""
         line = nearest_line(self.lines, path)

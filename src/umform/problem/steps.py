@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Literal
-
-from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
+from dataclasses import dataclass, field
+from typing import Annotated, Literal
 
 from umform.analysis import steps
 from umform.model.contact import Contact
 from umform.model.supports.support import Support
 from umform.model.terms.control import Control
+from umform.problem.notes import Field, Refusal
 from umform.problem.parts import Name, Pair, Part
-from umform.problem.tagged import table, with_keys
 from umform.spec.types import Increments
 
 
@@ -42,14 +39,7 @@ _OF_A_RELEASE = 30
 _OF_CLOSING = 10
 
 
-if TYPE_CHECKING:
-    Pace = steps.Pace
-else:
-    Pace = table(steps.Pace)
-
-
-@with_keys(steps.Move, leave=("control", "to", "steps", "follow"))
-class Move(Part):
+class Move(Part, of=steps.Move, leave=("control", "to", "steps", "follow")):
     """Move one or more controls along straight lines."""
 
     kind: Literal["move"]
@@ -58,16 +48,15 @@ class Move(Part):
     """End value of each control."""
     increments: Increments | None = None
     """Number of equal increments; by default their size adapts, see pace."""
-    pace: Pace | None = None
+    pace: steps.Pace | None = None
     """Limits of the changes in one increment, if their number is not given."""
-    follow: dict[Name, Annotated[list[Pair], Field(min_length=1)]] = {}
+    follow: dict[Name, Annotated[list[Pair], Field(min_length=1)]] = field(default_factory=dict)
     """Other controls as piecewise linear tables of the first one: pairs of its value and theirs."""
 
-    @model_validator(mode="after")
-    def _one_of_both(self) -> Move:
+    def __post_init__(self) -> None:
+        """Refuse a number of increments together with a pace."""
         if self.increments is not None and self.pace is not None:
-            raise ValueError("give the number of increments or their pace, not both")
-        return self
+            raise Refusal("value_error", "Value error, give the number of increments or their pace, not both")
 
     def build(self, named: Named) -> steps.Step:
         """The step."""
@@ -92,8 +81,7 @@ class _Controlled(Part):
     """Which control."""
 
 
-@with_keys(steps.Release, leave=("control",))
-class Release(_Controlled):
+class Release(_Controlled, of=steps.Release, leave=("control",)):
     """Move a control back until its force is zero or contact is lost."""
 
     kind: Literal["release"]
@@ -109,8 +97,7 @@ class Release(_Controlled):
         return _OF_A_RELEASE
 
 
-@with_keys(steps.Arc, leave=("control", "to", "until"), kind="length")
-class Arc(Part):
+class Arc(Part, of=steps.Arc, leave=("control", "to", "until"), called={"kind": "length"}):
     """Follow the equilibrium path through limit points while controls move along straight lines."""
 
     kind: Literal["arc"]
@@ -129,24 +116,22 @@ class Arc(Part):
         return most
 
 
-@with_keys(steps.Free, leave=("support", "on"), steps="increments")
-class Free(Part):
+class Free(Part, of=steps.Free, leave=("support", "on"), called={"steps": "increments"}):
     """Remove a support, or open tools, gradually: their forces become loads that decrease to zero."""
 
     kind: Literal["free"]
     """The word free."""
     support: Name | None = None
     """Name of the support."""
-    contacts: list[Name] = []
+    contacts: list[Name] = field(default_factory=list)
     """Contacts whose tools open."""
     on: Name | None = None
     """Name of a support of the kind rigid, which holds the sheet from then on."""
 
-    @model_validator(mode="after")
-    def _something(self) -> Free:
+    def __post_init__(self) -> None:
+        """Refuse a step that frees nothing."""
         if self.support is None and not self.contacts:
-            raise PydanticCustomError("free", "a step frees a support, or contacts, or both")
-        return self
+            raise Refusal("free", "a step frees a support, or contacts, or both")
 
     def build(self, named: Named) -> steps.Step:
         """The step."""
@@ -163,8 +148,7 @@ class Free(Part):
         return increments
 
 
-@with_keys(steps.Close, leave=("control",))
-class Close(_Controlled):
+class Close(_Controlled, of=steps.Close, leave=("control",)):
     """Close a pressed tool under displacement control until a force is reached, then hold the force."""
 
     kind: Literal["close"]

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import field
 from typing import Annotated, Literal
-
-from pydantic import Field
 
 from umform.errors import InvalidValue
 from umform.model import Model
 from umform.model.supports.axes import Axes, cylindrical
 from umform.model.supports.support import Support as Held
+from umform.problem.notes import Field
 from umform.problem.parts import Axis, Name, Part, Vector, Way
 from umform.problem.selection import Selection, nodes_of
 
@@ -103,7 +103,7 @@ class Rigid(Part):
     """Name, for the step that activates it."""
     nodes: Selection = "all"
     """Nodes that may be held: three that are not on a line, or more."""
-    instead_of: list[Name] = []
+    instead_of: list[Name] = field(default_factory=list)
     """Names of supports that the same step frees, whose nodes may be held."""
 
     def add_to(self, model: Model, *, here: bool = False) -> Held:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections import ChainMap
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar
+from typing import Annotated, ClassVar
 
 from umform.problem.parts import Way
 from umform.problem.profiles import ReadProfile
-from umform.problem.tagged import tagged, write_as
-from umform.spec import check_fields
+from umform.problem.reading import write_as
+from umform.spec import OneOf, check_fields
 from umform.spec.known import known
 from umform.surfaces import Direction, Drawing, Profile, Tool, ToolSpec
 from umform.surfaces.directions import Point
@@ -59,9 +61,11 @@ class Posed:
         return tool.moved(self.translation, (x, y, z))
 
 
-if TYPE_CHECKING:
-    ToolPart = Posed
-else:
-    write_as(Direction, Way)
-    write_as(Profile, ReadProfile)
-    ToolPart = tagged("shape", {**known("umform.surfaces", ToolSpec), "Drawing": Drawing}, Posed)
+def _shapes() -> Mapping[str, type]:
+    """All tools by the words of decks."""
+    return ChainMap({"Drawing": Drawing}, known("umform.surfaces", ToolSpec))  # type: ignore[arg-type]
+
+
+write_as(Direction, Way)
+write_as(Profile, ReadProfile)
+ToolPart = Annotated[Posed, OneOf("shape", _shapes, Posed)]

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import logging
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -192,6 +193,17 @@ class History:
     def begin_anew(self, evaluation: Evaluation) -> None:
         """Go on from the last state with loads in the place of tools that have been opened."""
         self._work.begin_anew(evaluation)
+
+    def of_steps(self, first: int, last: int) -> Self:
+        """The part of the history within some steps, from the end of the step before; pictures within it are shared."""
+        steps = [int(row["step"]) for row in self.rows]
+        start = max((n for n, step in enumerate(steps) if step < first), default=0)
+        end = max(n for n, step in enumerate(steps) if step <= last) + 1
+        part = copy(self)
+        part.rows, part.iterations = self.rows[start:end], self.iterations[start:end]
+        inside = (frame for frame in self.frames if start <= frame.number < end)
+        part.frames = [replace(frame, number=frame.number - start) for frame in inside]
+        return part
 
     def mark(self) -> Mark:
         """The present end of the history, to go back to."""

@@ -153,7 +153,7 @@ def of_certificate(
     row = {**_data()[metal.name], "yield_stress": yield_stress, "tensile_strength": tensile_strength}
     if uniform_elongation is not None:
         row |= {"uniform": "measured", "measured": uniform_elongation + tensile_strength / float(row["young"])}
-    row |= {"basis": "numbers of a coil", "source": f"R, Rm of a coil; all else as {metal.name}: {metal.source}"}
+    row |= {"basis": "values of a coil", "source": f"R and Rm of a coil; the rest as {metal.name}: {metal.source}"}
     try:
         return _from_row(metal.name, row)
     except InvalidValue:

@@ -13,7 +13,7 @@ the help of a command starts quickly.
 """
 
 from umform.spec.in_deck import InDeck, OneOf, deck_keys, entries, note_of
-from umform.spec.parameter import About, Parameter, parameters, sentences
+from umform.spec.parameter import About, FieldOf, Parameter, hint_of, parameters, sentences
 from umform.spec.paths import Scalar, changed, scalars
 from umform.spec.rule import Checked, Rule, check_fields, check_value
 from umform.spec.takes import takes
@@ -21,6 +21,7 @@ from umform.spec.takes import takes
 __all__ = [
     "About",
     "Checked",
+    "FieldOf",
     "InDeck",
     "OneOf",
     "Parameter",
@@ -31,6 +32,7 @@ __all__ = [
     "check_value",
     "deck_keys",
     "entries",
+    "hint_of",
     "note_of",
     "parameters",
     "scalars",

@@ -22,10 +22,14 @@ class OneOf:
         Key of a deck whose word names the class; empty if each word is itself the key of a table.
     classes : callable
         The classes by their words; called when a deck is read, so that the classes may be declared later.
+    within : type, optional
+        A class around the object, whose other fields are further keys of the same table: the field that its ``inside``
+        names, or the first one, takes the object.
     """
 
     key: str
     classes: Callable[[], Mapping[str, type]]
+    within: type | None = None
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,6 @@ import math
 import operator
 import re
 import sys
-import textwrap
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, field, fields
 from functools import cache, reduce
@@ -202,6 +201,22 @@ class Parameter:
         return f"{usual}; or leave it out" if self.optional else usual
 
 
+@dataclass(frozen=True)
+class FieldOf:
+    """Annotation of a field that is one of another Spec.
+
+    Attributes
+    ----------
+    spec : type
+        The other Spec.
+    name : str
+        Name of the field there.
+    """
+
+    spec: type
+    name: str
+
+
 @cache
 def parameters(spec: type) -> Mapping[str, Parameter]:
     """The parameters of a Spec by name, in the order of its fields."""
@@ -209,7 +224,7 @@ def parameters(spec: type) -> Mapping[str, Parameter]:
 
 
 def _parameter(spec: type, one: Field[Any]) -> Parameter:
-    hint = _hint(spec, one)
+    hint = hint_of(spec, one)
     arms = list(_arms(hint))
     kinds = tuple(_kind(arm, extras) for arm, extras in arms if arm is not type(None))
     extras = [extra for _, more in arms for extra in more]
@@ -226,13 +241,16 @@ def _over(under: About, over: About) -> About:
     return About(*(first or second for first, second in pairs))
 
 
-def _hint(spec: type, one: Field[Any]) -> Any:
+def hint_of(spec: type, one: Field[Any]) -> Any:
     """The annotation of a field; names that are imported for types only are objects of any kind."""
-    if not isinstance(one.type, str):
-        return one.type
+    kind: Any = one.type
+    if isinstance(kind, FieldOf):
+        return parameters(kind.spec)[kind.name].hint
+    if not isinstance(kind, str):
+        return kind
     for base in spec.__mro__:
         if one.name in vars(base).get("__annotations__", ()):
-            return eval(one.type, {}, _Names(vars(sys.modules[base.__module__])))
+            return eval(kind, {}, _Names(vars(sys.modules[base.__module__])))
     raise AssertionError(one.name)
 
 
@@ -268,19 +286,35 @@ def _kind(hint: Any, extras: tuple[Any, ...]) -> Kind:
 
 
 @cache
+def _classes(module: str) -> dict[str, list[ast.stmt]]:
+    """Statements of all classes of a module by their names; none of a module that no file has."""
+    try:
+        tree = ast.parse(inspect.getsource(sys.modules[module]))
+    except (OSError, TypeError, KeyError):
+        return {}
+    return dict(_within(tree, ""))
+
+
+def _within(node: ast.AST, name: str) -> Iterator[tuple[str, list[ast.stmt]]]:
+    for one in ast.iter_child_nodes(node):
+        if isinstance(one, ast.ClassDef):
+            yield f"{name}{one.name}", one.body
+            yield from _within(one, f"{name}{one.name}.")
+        elif isinstance(one, ast.FunctionDef):
+            yield from _within(one, f"{name}{one.name}.<locals>.")
+
+
+@cache
 def sentences(spec: type) -> dict[str, str]:
     """The strings below the fields of a class and its bases."""
     found: dict[str, str] = {}
     for base in reversed(spec.__mro__):
         if "__annotations__" not in vars(base):
             continue
-        try:
-            text = textwrap.dedent(inspect.getsource(base))
-        except (OSError, TypeError):  # a class that no file has
-            continue
-        body = ast.parse(text).body[0]
-        assert isinstance(body, ast.ClassDef)
-        for first, second in pairwise(body.body):
+        for name, hint in base.__annotations__.items():
+            if isinstance(hint, FieldOf):
+                found[name] = sentences(hint.spec).get(hint.name, "").replace("``", "")
+        for first, second in pairwise(_classes(base.__module__).get(base.__qualname__, ())):
             if isinstance(first, ast.AnnAssign) and isinstance(first.target, ast.Name):
                 below = second.value if isinstance(second, ast.Expr) else None
                 if isinstance(below, ast.Constant) and isinstance(below.value, str):

@@ -8,7 +8,6 @@ from typing import Any
 
 from umform.errors import InvalidValue
 from umform.spec.in_deck import entries
-from umform.spec.parameter import About, sentences
 
 
 @dataclass(frozen=True)
@@ -97,8 +96,3 @@ def _entries(spec: Any) -> Iterator[tuple[Any, Any, str, str]]:
                 yield from _entries(value)
             else:
                 yield name, value, one.about.unit, one.sentence
-    elif hasattr(kind, "model_fields"):  # a table of a deck
-        known = kind.texts() if hasattr(kind, "texts") else sentences(kind)
-        for name, field in kind.model_fields.items():
-            units = [note.unit for note in field.metadata if isinstance(note, About)]
-            yield name, getattr(spec, name), "".join(units[-1:]), known.get(name, "")

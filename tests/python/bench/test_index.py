@@ -84,7 +84,7 @@ def test_too_many_jobs_are_refused(queue, monkeypatch):
 )
 def test_names_that_are_none_of_jobs_lead_nowhere(queue, name):
     with pytest.raises(InvalidValue):
-        queue.place(name)
+        queue.folder_of(name)
 
 
 def test_job_that_waits_is_stopped_resumed_and_removed(queue):
@@ -94,4 +94,4 @@ def test_job_that_waits_is_stopped_resumed_and_removed(queue):
     queue.resume(name)
     assert queue.index.job(name).state == "waiting"
     queue.remove(name)
-    assert queue.index.job(name) is None and not queue.place(name).exists()
+    assert queue.index.job(name) is None and not queue.folder_of(name).exists()

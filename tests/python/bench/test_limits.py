@@ -26,23 +26,23 @@ def test_folder_has_as_much_as_it_may(tmp_path):
     found = disk.problem()
     assert isinstance(found, DiskFull) and "--disk" in found.remedy
     (tmp_path / "deep" / "er" / "file").unlink()
-    disk.forget()
+    disk.expire()
     assert disk.problem() is None
 
 
 def test_full_folder_takes_no_job_and_starts_none(tmp_path):
     queue = Queue(tmp_path, disk=1e6)
-    queue.ready.command = [sys.executable, "-S", "-c", WAITING]
+    queue.spare.command = [sys.executable, "-S", "-c", WAITING]
     name = queue.add("deck", "strip", {}, deck="x")
     (tmp_path / "large").write_bytes(b"x" * 2_000_000)
-    queue.disk.forget()
+    queue.disk.expire()
     with pytest.raises(DiskFull):
         queue.add("deck", "strip", {}, deck="x")
     queue.start()
     time.sleep(0.3)
     assert queue.index.job(name).state == "waiting"
     (tmp_path / "large").unlink()
-    queue.disk.forget()
+    queue.disk.expire()
     until = time.monotonic() + 30
     while queue.index.job(name).state == "waiting" and queue.index.job(name).starts == 0:
         assert time.monotonic() < until
@@ -52,7 +52,7 @@ def test_full_folder_takes_no_job_and_starts_none(tmp_path):
 
 def test_running_job_is_stopped_when_the_folder_is_full(tmp_path):
     queue = Queue(tmp_path, disk=1e6)
-    queue.ready.command = [sys.executable, "-S", "-c", f"{WAITING}; import time; time.sleep(100)"]
+    queue.spare.command = [sys.executable, "-S", "-c", f"{WAITING}; import time; time.sleep(100)"]
     name = queue.add("deck", "strip", {}, deck="x")
     queue.start()
     until = time.monotonic() + 30
@@ -60,7 +60,7 @@ def test_running_job_is_stopped_when_the_folder_is_full(tmp_path):
         assert time.monotonic() < until
         if queue.index.job(name).state == "running":
             (tmp_path / "large").write_bytes(b"x" * 2_000_000)
-            queue.disk.forget()
+            queue.disk.expire()
         time.sleep(0.05)
     queue.close()
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import umform
 from umform import errors
+from umform.bench.form import Choices, form_fields
 from umform.processes.air_bending.goal import Goal
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence.spec import Bend, BendSequence
@@ -36,10 +37,9 @@ MAKERS = {
     "_level",
     "DiskFull",
     "NoAnswer",
-    "PydanticCustomError",
 }
 #: What the form asks for.
-SPECS = (AirBending, Bend, BendSequence, Goal, Hemming)
+SPECS = (AirBending, Bend, BendSequence, Choices, Goal, Hemming)
 PARTS = ("what", "cause", "remedy")
 GERMAN = json.loads(files("umform.bench").joinpath("page", "messages.de.json").read_text(encoding="utf-8"))
 #: What no form can lead to: files of curves, the Python interface, the start of the server.
@@ -89,6 +89,12 @@ def of_specs():
     return found | {"{} must be {}", "{}; or leave it out"}
 
 
+def of_fields():
+    """Label and sentence of each field of the form."""
+    records = [one.record() for one in form_fields().values()]
+    return {one[part] for one in records if one["kind"] != "bends" for part in ("label", "help")} - {""}
+
+
 def _name(func):
     return func.id if isinstance(func, ast.Name) else getattr(func, "attr", "")
 
@@ -117,6 +123,10 @@ def test_all_that_is_said_of_parameters_is_german_too():
     assert of_specs() - plain == set()
 
 
+def test_labels_and_texts_of_the_fields_are_german_too():
+    assert of_fields() - GERMAN.keys() == set()
+
+
 def test_translations_fill_in_what_the_messages_do():
     for english, german in GERMAN.items():
         assert german and english.count("{}") >= german.count("{}"), english
@@ -126,5 +136,5 @@ def test_translations_fill_in_what_the_messages_do():
 def test_translated_messages_are_those_of_the_code():
     code = "".join(path.read_text(encoding="utf-8") for path in SOURCE.rglob("*.py"))
     code = re.sub(r'"\s*\n\s*f?"', "", code)  # texts over several lines
-    pieces = {piece for text in GERMAN.keys() - of_specs() for piece in text.split("{}")}
+    pieces = {piece for text in GERMAN.keys() - of_specs() - of_fields() for piece in text.split("{}")}
     assert {piece for piece in pieces if json.dumps(piece)[1:-1] not in code and piece not in code} == set()

@@ -17,7 +17,7 @@ import pytest
 from umform.bench import jobs
 from umform.bench.index import UNFINISHED
 from umform.bench.jobs import MOST_STARTS, Queue
-from umform.bench.server import owned
+from umform.bench.server import locked
 from umform.errors import FileProblem
 from umform.problem.problem import Problem
 
@@ -154,7 +154,7 @@ def test_server_that_is_killed_twenty_times_loses_nothing(tmp_path):
 
 
 def test_second_server_on_a_folder_is_refused(tmp_path):
-    with owned(tmp_path), pytest.raises(FileProblem, match="another bench"), owned(tmp_path):
+    with locked(tmp_path), pytest.raises(FileProblem, match="another bench"), locked(tmp_path):
         pass
 
 
@@ -162,7 +162,7 @@ def test_deck_that_is_stopped_and_handed_on_ends_with_the_same_bits(tmp_path):
     queue = Queue(tmp_path)
     queue.start()
     name = queue.add("deck", "strip", {}, deck=DECK)
-    results = queue.place(name) / "results"
+    results = queue.folder_of(name) / "results"
     wait(lambda: queue.live(name).get("increments", 0) > 3)
     queue.stop(name)
     wait(lambda: queue.index.job(name).state not in UNFINISHED)
@@ -189,12 +189,12 @@ def test_deck_that_is_stopped_and_handed_on_ends_with_the_same_bits(tmp_path):
 
 def test_process_that_dies_without_a_word_is_started_again_but_not_for_ever(tmp_path):
     queue = Queue(tmp_path)
-    queue.ready.command = [sys.executable, "-S", "-c", "import sys; sys.stdin.readline(); sys.exit(9)"]
+    queue.spare.command = [sys.executable, "-S", "-c", "import sys; sys.stdin.readline(); sys.exit(9)"]
     queue.start()
     name = queue.add("deck", "strip", {}, deck=DECK)
     wait(lambda: queue.index.job(name).state not in UNFINISHED)
     job = queue.index.job(name)
-    assert (job.state, job.starts) == ("failed", MOST_STARTS) and "died" in job.reason
+    assert (job.state, job.starts) == ("failed", MOST_STARTS) and "without a result" in job.reason
     queue.close()
 
 
@@ -212,16 +212,16 @@ time.sleep(600)
 
 
 def test_job_that_does_not_stop_is_killed_with_its_children(tmp_path, monkeypatch):
-    monkeypatch.setattr(jobs, "_GENTLE", 0.2)
+    monkeypatch.setattr(jobs, "_GRACE", 0.2)
     queue = Queue(tmp_path)
-    queue.ready.command = [sys.executable, "-S", "-c", _DEAF]
+    queue.spare.command = [sys.executable, "-S", "-c", _DEAF]
     queue.start()
     name = queue.add("deck", "strip", {}, deck=DECK)
-    wait((queue.place(name) / "pids").is_file)
+    wait((queue.folder_of(name) / "pids").is_file)
     queue.stop(name)
     wait(lambda: queue.index.job(name).state == "stopped")
     queue.close()
-    child = int((queue.place(name) / "pids").read_text().split()[1])
+    child = int((queue.folder_of(name) / "pids").read_text().split()[1])
     wait(lambda: not _runs(child))
 
 
@@ -235,14 +235,14 @@ def _runs(pid):
 
 
 def test_job_that_was_stopped_while_the_server_ends_is_not_taken_up(tmp_path, monkeypatch):
-    monkeypatch.setattr(jobs, "_GENTLE", 0.2)
+    monkeypatch.setattr(jobs, "_GRACE", 0.2)
     queue = Queue(tmp_path)
-    queue.ready.command = [sys.executable, "-S", "-c", _DEAF]
+    queue.spare.command = [sys.executable, "-S", "-c", _DEAF]
     queue.start()
     name = queue.add("deck", "strip", {}, deck=DECK)
-    wait((queue.place(name) / "pids").is_file)
+    wait((queue.folder_of(name) / "pids").is_file)
     with queue._lock:
-        queue._over.set()
+        queue._closing.set()
         queue.stop(name)
     queue.close()
     queue = Queue(tmp_path)
@@ -256,9 +256,9 @@ def test_more_running_jobs_than_are_allowed_start_no_others(tmp_path):
     queue._running = dict.fromkeys(names[:3])  # of a server before this one, which ran three at a time
     for name in names[:3]:
         queue.index.change(name, "running")
-    queue.ready.command = [sys.executable, "-S", "-c", "import sys; sys.stdin.readline()"]
-    queue._begin()
+    queue.spare.command = [sys.executable, "-S", "-c", "import sys; sys.stdin.readline()"]
+    queue._start_waiting()
     assert [queue.index.job(name).state for name in names[3:]] == ["waiting"] * 3
     queue._running.clear()
-    queue.ready.let_go()
+    queue.spare.end()
     queue.index.close()

@@ -37,7 +37,7 @@ def stranger(bench):
 
 
 def test_numbers_are_those_of_the_library_to_the_last_bit(bench, done):
-    wanted = Wanted.model_validate(done["parameters"])
+    wanted = Wanted.read(done["parameters"])
     expected = json.loads(json.dumps(record(air_bending(wanted.case(), progress=False))))
     for name in ("measures", "shop_forces", "parameters", "increments", "force_balance"):
         assert done["summary"][name] == expected[name], name
@@ -45,7 +45,7 @@ def test_numbers_are_those_of_the_library_to_the_last_bit(bench, done):
 
 def test_bottoming_is_that_of_the_library(bench):
     form = {"work": "bottom", "angle": None, "travel": 0.0, "mesh": "quick", "die_angle": 88.0, "punch_angle": 88.0}
-    wanted = Wanted.model_validate(form)
+    wanted = Wanted.read(form)
     job = bench.ended(bench.order(**form, stroke=None))
     assert job["state"] == "done", job["reason"]
     assert job["summary"]["measures"]["angle"] == air_bending(wanted.case(), progress=False).measures.angle
@@ -54,8 +54,8 @@ def test_bottoming_is_that_of_the_library(bench):
 
 def test_part_of_a_bend_is_that_of_the_library(bench):
     form = {"work": "sequence", "mesh": "quick", "strip_length": 40.0}
-    form["bends"] = [{"position": 18.0, "angle": 165.0, "over": True}]
-    wanted = Wanted.model_validate(form)
+    form["bends"] = [{"position": 18.0, "angle": 165.0, "direction": "down"}]
+    wanted = Wanted.read(form)
     name = bench.order(**form, stroke=None)
     part = bend_sequence(wanted.sequence(wanted.case()), progress=False)
     job = bench.ended(name)
@@ -80,7 +80,7 @@ def test_part_of_a_bend_is_that_of_the_library(bench):
 def test_hem_is_that_of_the_library(bench):
     tools = {"opening": 8.0, "die_angle": 30.0, "die_radius": 1.0, "punch_angle": 30.0, "punch_radius": 0.5}
     form = {"work": "hem", "mesh": "quick", "thickness": 1.0, **tools}
-    wanted = Wanted.model_validate(form)
+    wanted = Wanted.read(form)
     job = bench.ended(bench.order(**form, stroke=None), 300)
     assert job["state"] == "done", job["reason"]
     assert job["summary"]["hem"]["height"] == hemming(wanted.hem(wanted.case()), progress=False).measures.height
@@ -125,7 +125,7 @@ def test_series_finds_angles_as_the_library_does_and_leaves_out_what_cannot_be_r
     answer = bench.client.post("/api/jobs", json={"forms": forms, "series": "table"}).json()
     assert len(answer["jobs"]) == 1 and [row["form"] for row in answer["refused"]] == [1]
     job = bench.ended(answer["jobs"][0])
-    found = find_stroke(Wanted.model_validate(job["parameters"]).case(), 160.0, progress=False)
+    found = find_stroke(Wanted.read(job["parameters"]).case(), 160.0, progress=False)
     assert job["series"] == "table"
     assert job["summary"]["measures"]["stroke"] == found.measures.stroke
     assert abs(job["summary"]["measures"]["angle"] - 160.0) <= 0.02
@@ -203,7 +203,7 @@ def test_files_that_are_no_results_are_not_given(bench, done, file):
 
 
 def test_link_in_the_results_is_not_followed(bench, done):
-    place = bench.queue.place(done["id"]) / "results" / "history.csv"
+    place = bench.queue.folder_of(done["id"]) / "results" / "history.csv"
     place.symlink_to("/etc/hostname")
     assert bench.client.get(f"/files/{done['id']}/history.csv").status_code == 404
     place.unlink()

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from umform.bench import helpers
+from umform.bench import subprocess_json
 from umform.bench.read_tool import read
 from umform.bench.shelf import LONGEST_DRAWING, Shelf
 from umform.bench.wanted import Wanted
@@ -69,14 +69,14 @@ def test_look_draws_the_tool_and_tells_its_sizes(bench, kept):
 def test_bend_is_that_of_the_command_to_the_last_bit_and_outlives_the_shelf(bench, kept, tmp_path):
     path = tmp_path / "die.dxf"
     path.write_bytes(die())
-    place = bench.queue.shelf.place("die", "borrowed")
-    place.write_text(bench.queue.shelf.place("die", "V20").read_text())
+    place = bench.queue.shelf.path_of("die", "borrowed")
+    place.write_text(bench.queue.shelf.path_of("die", "V20").read_text())
     name = bench.order(die="borrowed")
     bench.client.post("/api/tools/remove", json={"kind": "die", "name": "borrowed"})
     job = bench.ended(name)
     assert job["state"] == "done", job["reason"]
     assert job["parameters"]["opening"] == pytest.approx(20.0)
-    quick = Wanted.model_validate({"mesh": "quick", "angle": None, "stroke": 1.0}).case()
+    quick = Wanted.read({"mesh": "quick", "angle": None, "stroke": 1.0}).case()
     case = AirBending(**{**quick.record(), "die_section": read_die(path)})
     assert job["summary"]["measures"]["force"] == air_bending(case, progress=False).measures.force
     assert 'kind = "arc"' in bench.client.get(f"/files/{name}/bend.toml").text
@@ -131,7 +131,7 @@ def test_drawing_that_is_too_large_is_refused(bench):
 
 
 def test_no_more_checks_at_once_than_there_are_places(bench):
-    taken = [helpers._places.acquire(blocking=False) for _ in range(helpers.AT_ONCE)]
+    taken = [subprocess_json._places.acquire(blocking=False) for _ in range(subprocess_json.AT_ONCE)]
     assert all(taken)
     try:
         answer = upload(bench, die(), name="later")
@@ -139,12 +139,12 @@ def test_no_more_checks_at_once_than_there_are_places(bench):
         assert bench.client.post("/api/decks/check", json={"text": "title = 1"}).status_code == 422
     finally:
         for _ in taken:
-            helpers._places.release()
+            subprocess_json._places.release()
 
 
 def test_file_of_a_tool_that_is_broken_is_an_answer(bench, tmp_path):
     shelf = Shelf(tmp_path)
-    place = shelf.place("punch", "mine")
+    place = shelf.path_of("punch", "mine")
     place.parent.mkdir(parents=True)
     place.write_text('{"segments": [[1]], "closed": true}')
     assert shelf.rows() == [{"kind": "punch", "name": "mine", "broken": True}]

@@ -14,6 +14,7 @@ from umform.errors import InvalidValue, WrongCellType
 from umform.mesh import disc, ring
 from umform.mesh.quality import jacobians
 from umform.problem.mesh import MeshPart
+from umform.problem.tagged import deck_type
 
 PARTS = {"whole": 1.0, "half": 0.5, "quarter": 0.25}
 
@@ -111,6 +112,6 @@ def test_rings_and_cells_that_make_no_sense_are_refused():
     ],
 )
 def test_decks_make_them(table, sets):
-    part = TypeAdapter(MeshPart).validate_python(table)
+    part = TypeAdapter(deck_type(MeshPart)).validate_python(table)
     mesh = part.build("hex18", Path())
     assert sets <= set(mesh.sets) and mesh.cell == "hex18"

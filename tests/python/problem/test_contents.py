@@ -2,8 +2,8 @@ import json
 from pathlib import Path
 
 import pytest
-from pydantic import ValidationError
 
+from umform.errors import InvalidValue
 from umform.problem.contents import json_schema
 from umform.problem.settings import Solution
 
@@ -34,5 +34,5 @@ def test_extrapolation_has_an_order_and_may_be_true_or_false():
     assert orders == {0: 0, 1: 1, 2: 2}
     assert [Solution(extrapolate=value).build().extrapolate for value in (False, True)] == [0, 1]
     for value in (3, -1, 1.5, "line"):
-        with pytest.raises(ValidationError, match="0, 1 or 2"):
+        with pytest.raises(InvalidValue, match="0, 1 or 2"):
             Solution(extrapolate=value)

@@ -5,9 +5,10 @@ from pydantic import TypeAdapter
 from umform.errors import EmptySet
 from umform.mesh import FACES, strip
 from umform.problem.selection import Selection, faces_of, nodes_of
+from umform.problem.tagged import deck_type
 
 MESH = strip(4.0, 2.0, 1.0, (4, 2), layers=2)
-ADAPTER = TypeAdapter(Selection)
+ADAPTER = TypeAdapter(deck_type(Selection))
 INF = float("inf")
 
 

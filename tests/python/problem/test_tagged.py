@@ -8,8 +8,7 @@ from annotated_types import Gt
 from pydantic import TypeAdapter, ValidationError
 
 from umform.errors import InvalidValue
-from umform.problem.parts import describe
-from umform.problem.tagged import table, tagged
+from umform.problem.tagged import describe, table, tagged
 from umform.spec import About, OneOf, check_fields
 
 Size = Annotated[float, Gt(0.0), About("mm")]

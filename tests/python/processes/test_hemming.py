@@ -14,9 +14,9 @@ from umform.processes.hemming import Hemming, hemming
 from umform.processes.hemming.files import FILES, record, write_files
 from umform.processes.hemming.measures import clearances
 from umform.processes.hemming.run import _refuse_touch
-from umform.processes.hemming.spec import ACUTE
+from umform.processes.hemming.spec import acute
 
-COARSE = Hemming(base=13.0, increments=24, sheet=replace(ACUTE, elements_per_thickness=1.0, layers=1, increment=0.025))
+COARSE = Hemming(base=13.0, increments=24, sheet=acute(elements_per_thickness=1.0, layers=1, increment=0.025))
 
 
 @pytest.fixture(scope="module")

@@ -18,7 +18,7 @@ from umform.processes.draw.u_bend import NUMISHEET, UBend
 from umform.processes.draw_bead.case import drawn_through
 from umform.processes.draw_bead.spec import DrawBead
 from umform.processes.hemming import Hemming, hemming
-from umform.processes.hemming.spec import ACUTE
+from umform.processes.hemming.spec import acute
 from umform.processes.problems import problem_of
 
 METAL = uf.sheet_metals.get("DC04").law
@@ -57,7 +57,7 @@ def repeated(decks, folder, monkeypatch):
 
 
 def test_the_decks_of_bends_and_a_hem_repeat_their_histories(tmp_path, monkeypatch):
-    sheet = replace(ACUTE, layers=1, elements_per_thickness=1.0, increment=0.025)
+    sheet = acute(layers=1, elements_per_thickness=1.0, increment=0.025)
     hem = hemming(Hemming(base=13.0, sheet=sheet, increments=12), frames=1, progress=False)
     runs = [hem.first.bends[0].result, hem.result]
     for run, again in zip(runs, repeated(hem.decks(), tmp_path, monkeypatch), strict=True):

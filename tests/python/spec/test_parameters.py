@@ -15,7 +15,6 @@ from pydantic import TypeAdapter, ValidationError
 from typer.testing import CliRunner
 
 import umform as uf
-from umform.bench.wanted import SIZES, Wanted
 from umform.cli.given import Given, given_by
 from umform.errors import InvalidValue, NotFinite
 from umform.model.contact import ContactOptions
@@ -151,13 +150,6 @@ def test_each_field_of_a_process_has_a_sentence_and_each_number_a_reason(spec):
         assert parameter.sentence.endswith(".") and parameter.sentence[0].isupper(), name
         if parameter.kinds[0].type is float:
             assert parameter.about.unit or name in WITHOUT_UNIT, name
-
-
-def test_the_form_of_the_bench_has_the_defaults_and_bounds_of_the_process():
-    for name in SIZES:
-        assert Wanted.model_fields[name].default == parameters(AirBending)[name].default
-        with pytest.raises(ValidationError):
-            Wanted.model_validate({name: 1e9 if name == "rolling" else -1.0})
 
 
 def test_the_outer_description_covers_the_inner_one():

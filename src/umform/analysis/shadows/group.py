@@ -1,4 +1,4 @@
-"""A run with its shadows: a reference that is solved to round-off, and one shadow a parameter. docs/theory, 5.16"""
+"""A run with its shadows: a reference that is solved to round-off, and one shadow a parameter. docs/theory, 5.17"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A shadow: a run of a slightly different problem that repeats the increments of another run. docs/theory, 5.16"""
+"""A shadow: a run of a slightly different problem that repeats the increments of another run. docs/theory, 5.17"""
 
 from __future__ import annotations
 
@@ -246,7 +246,7 @@ class Shadow:
     def _correct(
         self, goal: State, u: Floats, du: Floats, given: Factors | None, guess: Guess | None = None
     ) -> Evaluation:
-        """Equilibrium from ``u + du``, to round-off; or nearly so, with the factors of the reference."""
+        """Equilibrium from ``u + du``, to round-off; or nearly so, with the factors of the reference. eq. (5.162)"""
         run, system = self.run, self.run.model.system
         norms: list[float] = []
         while True:

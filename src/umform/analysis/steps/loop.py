@@ -41,7 +41,7 @@ class Loop(Protocol):
         """State of the loop as numbers, lists and arrays; ``recall`` of its class restores it."""
 
     def follow(self, run: Run, step: Any, lead: Run, take: Take) -> None:
-        """Repeat the last accepted increment of the loop of a leading run. docs/theory, 5.16"""
+        """Repeat the last accepted increment of the loop of a leading run. docs/theory, 5.17"""
 
 
 #: Makes an increment to values of some controls at a time.

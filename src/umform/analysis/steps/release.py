@@ -176,7 +176,7 @@ class Releasing:
             run.result.note(f"step {run.number}: {how} at {control.name} = {control.value:.6g}")
 
     def follow(self, run: Run, step: Release, lead: Run, take: Take) -> None:
-        """Repeat the last accepted increment of the loop of a leading run, to the same force. eq. (5.161)
+        """Repeat the last accepted increment of the loop of a leading run, to the same force. eq. (5.163)
 
         Near the end the force is an equation. Where contact is about to be lost it determines no value any more: the
         distance from the leading run then stays.

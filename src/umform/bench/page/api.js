@@ -1,7 +1,7 @@
 // @ts-check
-// Questions to the server of this page; nothing else is ever asked.
+// Requests to the server of this page, the only ones of the page.
 
-/** An answer that refuses: what is wrong, and where. */
+/** An answer with an error. */
 export class Refused extends Error {
   /** @param {number} status @param {Record<string, any>} answer */
   constructor(status, answer) {

@@ -1,11 +1,11 @@
 // @ts-check
-// The bends of a part in the order of the work: position, angle, direction; rows are added, moved and taken away.
+// The bends of a part in the order of the work: position, angle, direction; rows can be added, moved and deleted.
 
 import { element, make } from "./dom.js";
 import { howRead, numberField } from "./number_field.js";
 import { t } from "./texts.js";
 
-/** @typedef {{position: number | string | null, angle: number | string | null, over: boolean}} Bend */
+/** @typedef {{position: number | string | null, angle: number | string | null, direction: "up" | "down"}} Bend */
 
 export class Bends {
   /** @param {() => void} changed */
@@ -17,10 +17,12 @@ export class Bends {
 
   /** @param {Bend[]} rows */
   build(rows) {
+    // The browser may have kept rows of another version.
+    rows.splice(0, rows.length, ...rows.map(({ position, angle, direction = "up" }) => ({ position, angle, direction })));
     this.rows = rows;
     const list = make("ol", { id: "bends-list" }, ...rows.map((row, i) => this.row(row, i)));
     const add = make("button", { type: "button", id: "bends-add", disabled: rows.length >= 20, onclick: () => this.add() }, t("bends.add"));
-    return make("fieldset", { id: "f-bends", class: "bends", "aria-describedby": "n-bends" }, make("legend", {}, t("field.bends")), list, add,
+    return make("fieldset", { id: "f-bends", class: "bends", "aria-describedby": "n-bends" }, make("legend", {}, t("bends.title")), list, add,
       make("p", { class: "note", id: "n-bends", role: "status" }));
   }
 
@@ -34,10 +36,11 @@ export class Bends {
       };
       return numberField({ id: `b-${i}-${name}`, "aria-label": t(`bends.${name}`, { number }) }, row[name], taken);
     };
-    const way = make("select", { id: `b-${i}-over`, "aria-label": t("bends.over", { number }) }, make("option", { value: "" }, t("bends.up")), make("option", { value: "1" }, t("bends.down")));
-    way.value = row.over ? "1" : "";
+    const way = make("select", { id: `b-${i}-direction`, "aria-label": t("bends.direction", { number }) },
+      ...["up", "down"].map((one) => make("option", { value: one }, t(`bends.${one}`))));
+    way.value = row.direction;
     way.addEventListener("change", () => {
-      row.over = Boolean(way.value);
+      row.direction = way.value;
       this.changed();
     });
     const earlier = make("button", { type: "button", id: `b-${i}-earlier`, disabled: i === 0, "aria-label": t("bends.earlier", { number }), onclick: () => this.swap(i) }, "↑");
@@ -45,7 +48,7 @@ export class Bends {
     return make("li", {}, make("span", {}, `${number}.`), input("position"), input("angle"), way, earlier, remove);
   }
 
-  /** How numbers were read, where it is worth a word. */
+  /** How numbers with the decimal sign of the other language were read. */
   howRead() {
     return this.rows.flatMap((_, i) => ["position", "angle"].map((name) => howRead(element(`b-${i}-${name}`).value))
       .filter(Boolean).map((text) => `${t("bend.number", { number: i + 1 })}: ${text}`));

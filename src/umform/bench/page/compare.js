@@ -1,13 +1,12 @@
 // @ts-check
-// Jobs side by side: numbers in columns, curves in one picture.
+// Comparison of jobs: numbers in columns, curves in one picture.
 
 import { get } from "./api.js";
 import { element, make } from "./dom.js";
+import { fields, label } from "./fields.js";
 import { plot } from "./plot.js";
 import { cell, forShop, heading } from "./quantities.js";
 import { number, t } from "./texts.js";
-
-const GIVEN = ["material", "thickness", "opening", "die_angle", "punch_angle", "punch_radius", "angle", "mesh"];
 
 /** @param {string[]} names */
 export async function compare(names) {
@@ -21,8 +20,9 @@ export async function compare(names) {
   }
   const curves = await Promise.all(jobs.map(async (job) => ({ name: `${job.number}`, ...(await get(`/api/jobs/${job.id}/curve`)) })));
   const head = make("tr", {}, make("td"), ...jobs.map((job, i) => make("th", { scope: "col" }, make("i", { class: `swatch c${i % 6}` }), `${job.number}`)));
-  const given = GIVEN.filter((name) => new Set(jobs.map((job) => job.parameters[name])).size > 1 || ["material", "angle"].includes(name))
-    .map((name) => givenRow(t(`field.${name}`), jobs.map((job) => shown(job.parameters[name]))));
+  const given = fields.map(({ name }) => name)
+    .filter((name) => new Set(jobs.map((job) => JSON.stringify(job.parameters[name] ?? null))).size > 1 || ["material", "angle"].includes(name))
+    .map((name) => givenRow(label(name), jobs.map((job) => shown(job.parameters[name]))));
   /** @type {import("./quantities.js").Quantity[][]} */
   const columns = jobs.map((job) => [...(job.summary.quantities ?? []), ...(job.summary.checks ?? [])]);
   const row = (/** @type {string} */ name, /** @type {(one: any, job: any) => any} */ as) => {

@@ -23,7 +23,7 @@ export class Deck {
     this.at = "";
   }
 
-  /** Load what is needed when the view is seen for the first time. */
+  /** Load templates and schema when the view is first opened. */
   async start() {
     if (this.schema) return;
     this.schema = await get("/api/decks/schema");

@@ -1,11 +1,11 @@
 // @ts-check
-// Making elements.
+// Elements of the page.
 
 /** @param {string} id @returns {any} */
 export const element = (id) => document.getElementById(id);
 
 /**
- * An element with attributes and content; texts are texts, never HTML.
+ * An element with attributes and content; a text is never read as HTML.
  * @param {string} tag @param {Record<string, any>} [attributes] @param {...(Node | string | null)} content @returns {any}
  */
 export function make(tag, attributes = {}, ...content) {

@@ -1,5 +1,5 @@
 // @ts-check
-// Tools and sheet in true proportion: before a run bent by geometry alone, in a run as it was computed.
+// Tools and sheet to scale: before a run by geometry, then as computed.
 
 import { draw } from "./dom.js";
 import { drawPart, partByGeometry } from "./part.js";
@@ -8,7 +8,7 @@ import { number } from "./texts.js";
 /** @typedef {[number, number]} Point */
 /**
  * @typedef {{die: Point[], punch: Point[], half_length: number, largest_stroke: number, thickness: number,
- *   shoulder: number, radii: number, depth: number, opening: number, punch_radius: number, closed: {die: boolean, punch: boolean}}} Outlines
+ *   shoulder: number, radii: number, depth: number, sizes: {die: {opening: number}, punch: {radius: number}}, closed: {die: boolean, punch: boolean}}} Outlines
  */
 
 export class Drawing {
@@ -18,7 +18,7 @@ export class Drawing {
     /** @type {Outlines | null} */
     this.outlines = null;
     /** @type {any} */
-    this.values = { work: "bend", opening: 16, punch_radius: 1.5, angle: 90, stroke: null };
+    this.values = {};
     /** A section, an outline in the tools, or the profile of a part. @type {any} */
     this.computed = null;
     new ResizeObserver(() => this.show()).observe(svg);
@@ -47,11 +47,11 @@ export class Drawing {
       return;
     }
     if (!computed && this.values.work === "sequence") {
-      const part = partByGeometry(this.values, outlines.opening);
+      const part = partByGeometry(this.values, outlines.sizes.die.opening);
       drawPart(this.svg, part.outline, "sheet", part.bends);
       return;
     }
-    const bent = computed?.outline ? computed : computed ? fromSection(computed) : byGeometry(outlines, { ...this.values, punch_radius: outlines.punch_radius });
+    const bent = computed?.outline ? computed : computed ? fromSection(computed) : byGeometry(outlines, this.values);
     const deep = Math.max(outlines.depth, outlines.largest_stroke);
     const extent = (/** @type {(point: Point) => number} */ of) => 1.08 * (computed?.outline ?? []).reduce((/** @type {number} */ most, /** @type {Point} */ point) => Math.max(most, of(point)), 0);
     const half = Math.max(1.1 * outlines.half_length, extent(([x]) => Math.abs(x)));
@@ -80,7 +80,7 @@ export class Drawing {
    * @param {number} width @param {number} height
    */
   labels(place, bent, width, height) {
-    const opening = this.outlines?.opening ?? this.values.opening;
+    const opening = this.outlines?.sizes.die.opening ?? 0;
     const half = opening / 2;
     const [[left], [right]] = [place([-half, 0]), place([half, 0])];
     const low = height - 14;
@@ -106,7 +106,7 @@ const line = (x1, y1, x2, y2) => draw("line", { x1, y1, x2, y2, class: "dimensio
 /** @param {number} x @param {number} y @param {string} text @param {string} [name] */
 const label = (x, y, text, name = "") => draw("text", { x, y, class: name, "text-anchor": "middle" }, text);
 
-/** The punch goes on beyond the picture. @param {Point[]} punch @param {number} far @returns {Point[]} */
+/** The punch, extended beyond the picture. @param {Point[]} punch @param {number} far @returns {Point[]} */
 function lengthened(punch, far) {
   const [a, b] = punch;
   const slope = (a[0] - b[0]) / (a[1] - b[1]);
@@ -120,10 +120,11 @@ function flat({ half_length: half, thickness }) {
 }
 
 /**
- * A sheet wrapped around the tip of the punch: what there is to draw before anything is computed.
- * @param {Outlines} outlines @param {{angle: number | null, stroke: number | null, punch_radius: number}} values
+ * A sheet wrapped around the tip of the punch, for the drawing before the run.
+ * @param {Outlines} outlines @param {{angle: number | null, stroke: number | null}} values
  */
-function byGeometry(outlines, { angle, stroke, punch_radius: radius }) {
+function byGeometry(outlines, { angle, stroke }) {
+  const { radius } = outlines.sizes.punch;
   const { radii, shoulder, thickness, half_length: half } = outlines;
   const wayOf = (/** @type {number} */ a) =>
     ((shoulder - radii * Math.sin(a)) / Math.cos(a)) * Math.sin(a) + radii * (1 - Math.cos(a));

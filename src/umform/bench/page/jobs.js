@@ -1,5 +1,5 @@
 // @ts-check
-// The list of jobs, asked for again and again: more often while one runs.
+// The list of jobs, updated regularly, more often while one runs.
 
 import { get, post } from "./api.js";
 import { element, make } from "./dom.js";
@@ -10,7 +10,7 @@ const [BUSY, IDLE] = [300, 2000];
 export class Jobs {
   /**
    * @param {(name: string) => void} open @param {(chosen: string[]) => void} choose
-   * @param {() => void} ended is called when another job has ended
+   * @param {() => void} ended called when another job has ended
    */
   constructor(open, choose, ended) {
     this.ended = ended;
@@ -94,7 +94,7 @@ export class Jobs {
   }
 }
 
-/** A part that has collided with the tools is none that is done. @param {string} state @param {any} summary */
+/** A part that collided with the tools has a state of its own. @param {string} state @param {any} summary */
 const markOf = (state, summary) => (state === "done" && summary.collides ? "collides" : state);
 
 /** Progress of a job, or its outcome. @param {any} row @returns {string} */

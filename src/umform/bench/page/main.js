@@ -1,23 +1,25 @@
 // @ts-check
-// The page: its views, and what happens between its parts.
+// The page: its views, and how they work together.
 
 import { get, post } from "./api.js";
 import { compare } from "./compare.js";
 import { Deck } from "./deck.js";
 import { element, make } from "./dom.js";
 import { Drawing } from "./drawing.js";
+import { known, setFields } from "./fields.js";
 import { Form } from "./form.js";
 import { Jobs } from "./jobs.js";
 import { Result } from "./result.js";
 import { askTable, seriesTable } from "./table.js";
 import { loadTexts, number, problemText, t } from "./texts.js";
-import { retell, tour } from "./tour.js";
+import { showAgain, tour } from "./tour.js";
 
 const VIEWS = ["bend", "compare", "deck"];
 
 async function start() {
   if (location.search) history.replaceState(null, "", location.pathname + location.hash); // the token stays in the cookie
   const [, library] = await Promise.all([loadTexts(), get("/api/library")]);
+  setFields(library.fields);
   const drawing = new Drawing(element("drawing"));
   const comparing = () => location.hash.startsWith("#compare");
   const jobs = new Jobs((name) => go(`bend/${name}`), (chosen) => chosen.length && comparing() && go(`compare/${chosen.join(",")}`),
@@ -27,7 +29,7 @@ async function start() {
     expected,
     ask: (/** @type {string} */ name, /** @type {any} */ what) => jobs.ask(name, what),
     again: (/** @type {any} */ job) => {
-      Object.assign(form.values, structuredClone(job.parameters));
+      Object.assign(form.values, structuredClone(known(job.parameters)));
       form.build();
       go("bend");
       form.look();
@@ -59,7 +61,7 @@ async function start() {
   });
   element("language").addEventListener("change", async () => {
     await loadTexts(element("language").value);
-    retell();
+    showAgain();
     form.build();
     form.look();
     jobs.mark(jobs.shown);
@@ -113,7 +115,7 @@ function series(rows) {
 }
 
 /**
- * What the rules of the shop say before the run, and the force that chooses the press: after the run that one is computed.
+ * Values by workshop rules, and the force of the press, which is computed after the run.
  * @param {any} found @param {any} values @param {any} [needed]
  */
 function expected(found, values, needed) {

@@ -1,5 +1,5 @@
 // @ts-check
-// Messages of the program in the language of the reader: English ones with {} for what is filled in, and their translations.
+// Messages of the program in the language of the reader: English templates with {} and their translations.
 
 /** @type {Map<string, string>} */
 let exact = new Map();
@@ -11,7 +11,7 @@ export async function loadMessages(language) {
   const known = language === "en" ? {} : await (await fetch(`/assets/messages.${language}.json`)).json();
   const pairs = /** @type {[string, string][]} */ (Object.entries(known));
   exact = new Map(pairs.filter(([text]) => !text.includes("{}")));
-  // the longest first: "{} differ" would take too much
+  // the longest first: "{} differ" would match too much
   filled = pairs.filter(([text]) => text.includes("{}")).sort(([a], [b]) => b.length - a.length)
     .map(([text, other]) => [new RegExp(`^${text.split("{}").map(escaped).join("(.+?)")}$`, "s"), other]);
 }
@@ -19,7 +19,7 @@ export async function loadMessages(language) {
 /** @param {string} text */
 const escaped = (text) => text.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
 
-/** A message, and what is filled in, where they are known; else as they are. @param {string} text @returns {string} */
+/** A message and its inserts, translated where known. @param {string} text @returns {string} */
 export function message(text) {
   const known = exact.get(text);
   if (known !== undefined) return known;

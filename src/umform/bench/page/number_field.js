@@ -1,5 +1,5 @@
 // @ts-check
-// Fields for numbers: all of the page read what is typed in the same way, and say how.
+// Fields for numbers, which read texts in the same way.
 
 import { read, typed } from "./decimals.js";
 import { make } from "./dom.js";
@@ -7,9 +7,10 @@ import { language, t } from "./texts.js";
 
 /**
  * A field for a number. `taken` gets the number, null for an empty field, or the text if it is no clear number.
- * @param {Record<string, any>} attributes @param {unknown} value @param {(value: number | string | null) => void} taken @param {number} [step] of the arrow keys
+ * @param {Record<string, any>} attributes @param {unknown} value @param {(value: number | string | null) => void} taken
+ * @param {{integer?: boolean, bounds?: {gt?: number, ge?: number, lt?: number, le?: number}}} [range] of the arrow keys
  */
-export function numberField(attributes, value, taken, step = 1) {
+export function numberField(attributes, value, taken, { integer = false, bounds = {} } = {}) {
   // A field of type "number" drops a comma without a message in an English browser.
   const field = make("input", { type: "text", inputmode: "decimal", autocomplete: "off", ...attributes, value: typed(value, language) });
   field.addEventListener("input", () => taken(taking(field.value)));
@@ -18,7 +19,10 @@ export function numberField(attributes, value, taken, step = 1) {
     const now = taking(field.value);
     if (!way || typeof now !== "number") return;
     event.preventDefault();
-    const next = Number((now + way * step).toFixed(6));
+    const step = integer ? 1 : 10 ** Math.floor(Math.log10(Math.abs(now) || 1) - 1); // the second digit
+    const next = Number((now + way * step).toPrecision(12));
+    const { gt = -Infinity, ge = -Infinity, lt = Infinity, le = Infinity } = bounds;
+    if (next <= gt || next < ge || next >= lt || next > le) return;
     show(field, next);
     taken(next);
   });

@@ -1,11 +1,11 @@
 // @ts-check
-// A part of several bends to scale: before the run bent by geometry alone, after it as it was computed.
+// A part of several bends to scale: before the run by geometry, then as computed.
 
 import { draw } from "./dom.js";
 import { number } from "./texts.js";
 
 /** @typedef {[number, number]} Point */
-/** Inside radius over the opening, as the shop reckons. */
+/** Inside radius over the opening, workshop rule. */
 const RADIUS = 0.16;
 
 /**
@@ -24,12 +24,12 @@ export function partByGeometry({ strip_length: length, bends, thickness }, openi
     middle.push([x, z, heading]);
   };
   const marks = [];
-  for (const { position, angle, over, order } of ordered) {
+  for (const { position, angle, direction, order } of ordered) {
     const turn = ((180 - (angle ?? 180)) / 180) * Math.PI;
     const arc = radius * turn;
     go(Math.max(0, position - arc / 2 - at));
     for (let i = 0; i < 12; i += 1) {
-      heading += ((over ? -1 : 1) * turn) / 12;
+      heading += ((direction === "down" ? -1 : 1) * turn) / 12;
       go(arc / 12);
       if (i === 5) marks.push({ at: /** @type {Point} */ ([x, z]), text: `${order}: ${number(angle, 0)}°` });
     }

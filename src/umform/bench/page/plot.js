@@ -1,5 +1,5 @@
 // @ts-check
-// Curves in one picture: force over stroke of a run that goes on, or of jobs side by side.
+// Curves in one picture: force over stroke of a run, or of several jobs.
 
 import { draw } from "./dom.js";
 import { number } from "./texts.js";
@@ -46,7 +46,7 @@ const largest = (values) => values.reduce((a, b) => Math.max(a, b), 0);
 /** @param {number[]} values */
 const smallest = (values) => values.reduce((a, b) => Math.min(a, b), Infinity);
 
-/** Round numbers that part a range. @param {number} low @param {number} high @param {number} parts @returns {number[]} */
+/** Round numbers for the ticks of a range. @param {number} low @param {number} high @param {number} parts @returns {number[]} */
 function ticks(low, high, parts) {
   if (!(high > low) || !Number.isFinite(high - low)) return [];
   const power = 10 ** Math.floor(Math.log10((high - low) / parts));

@@ -1,5 +1,5 @@
 // @ts-check
-// Numbers of a job as the server names them: label, unit, decimals, error, limit; all tables take them from here.
+// Quantities of a job as the server declares them: label, unit, decimals, error, limit; all tables use them.
 
 import { make } from "./dom.js";
 import { language, number, t } from "./texts.js";
@@ -22,7 +22,7 @@ function shown({ decimals, digits, band }, value) {
 /** @param {Quantity} one */
 export const best = ({ value, band }) => band?.middle ?? value;
 
-/** The label in the reader's words where they are known. @param {Pick<Quantity, "name" | "label">} one @param {string} words @returns {string} */
+/** The label, translated where known. @param {Pick<Quantity, "name" | "label">} one @param {string} words @returns {string} */
 function labelOf({ name, label }, words) {
   const [, bend, rest] = /^bend (\d+): (.*)$/.exec(name) ?? [];
   if (bend) return `${t("bend.number", { number: Number(bend) })}: ${labelOf({ name: rest, label: label.replace(/^bend \d+: /, "") }, words)}`;
@@ -56,7 +56,7 @@ export const tile = (one, words, means) =>
     make("dd", { class: one.missed ? "bad" : null }, make("b", {}, numberText(one)), make("span", {}, ` ${[unitOf(one), errorText(one)].filter(Boolean).join(" ")}`)),
     means ? make("dd", { class: "soft" }, means) : null);
 
-/** As the shop reads it: the largest force over the whole length in kN, the thinnest point as thinning in per cent. @param {Quantity} one @param {number} length @returns {Quantity} */
+/** For the workshop: the largest force over the whole length in kN, the thinnest point as thinning in per cent. @param {Quantity} one @param {number} length @returns {Quantity} */
 export function forShop(one, length) {
   const of = (/** @type {(value: number) => number} */ change, /** @type {number} */ factor, /** @type {Partial<Quantity>} */ what) => {
     const changed = (/** @type {number | null | undefined} */ value) => (value === null || value === undefined ? null : change(value));

@@ -1,8 +1,9 @@
 // @ts-check
-// One job: how far it is while it runs, then its numbers with what they mean.
+// One job: its progress, then its numbers with their meaning.
 
 import { get, post } from "./api.js";
 import { element, make } from "./dom.js";
+import { known } from "./fields.js";
 import { message } from "./messages.js";
 import { howRead, numberField, taking, unclear } from "./number_field.js";
 import { plot } from "./plot.js";
@@ -11,7 +12,7 @@ import { stripNumbers } from "./strips.js";
 import { language, number, problemText, t } from "./texts.js";
 
 const OFTEN = 200;
-/** The numbers that go to the machine, in the order of the page. */
+/** The numbers for the machine, in the order of the page. */
 const HEROES = ["stroke", "largest_force", "angle", "springback", "radius", "k_factor", "bend_deduction", "outer_strain", "thinning"];
 
 export class Result {
@@ -25,9 +26,9 @@ export class Result {
     /** @type {any} */
     this.job = null;
     this.shapeOf = "";
-    /** What the server finds in the form of the job. @type {any} */
+    /** Findings of the server for the form of the job. @type {any} */
     this.looked = {};
-    // Buttons stay while the numbers change, lest a click be lost; the frame of the shape stays, lest it load again.
+    // Buttons and the frame of the 3D view are kept while numbers change: no click is lost, nothing is loaded again.
     this.bar = make("div", { class: "bar-part" });
     this.top = make("div", { class: "top-part" });
     this.space = make("div", { class: "shape" });
@@ -75,7 +76,7 @@ export class Result {
     if (bar !== this.barOf) this.bar.replaceChildren(this.head(job));
     this.barOf = bar;
     if (!this.job) {
-      this.looked = job.kind === "bend" ? await post("/api/look", job.parameters) : {};
+      this.looked = job.kind === "bend" ? await post("/api/look", known(job.parameters)) : {};
       if (job.id !== this.name) return; // another job was opened meanwhile
       if (this.looked.drawing) this.drawing.set(this.looked.drawing, { ...job.parameters, ...this.looked.shown });
     }
@@ -115,7 +116,7 @@ export class Result {
     await this.refresh();
   }
 
-  /** What went wrong, in parts where they are known. @param {any} job */
+  /** The error of a job. @param {any} job */
   failure({ reason, summary: { error } }) {
     const all = error ? error.all ?? [error] : [{ what: reason }];
     const text = (/** @type {any} */ one) => [problemText({ ...one, kind: "" }), one.where && `${one.where}: ${one.value}`].filter(Boolean).join("\n");
@@ -206,7 +207,7 @@ export class Result {
     this.space.replaceChildren(frame);
   }
 
-  /** Hand the present scene to the frame of the shape, which keeps view and choices. @param {string} name */
+  /** Send the present scene to the frame of the 3D view, which keeps its view and choices. @param {string} name */
   async renew(name) {
     const frame = this.space.querySelector("iframe");
     try {

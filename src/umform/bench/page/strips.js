@@ -6,7 +6,7 @@ import { message } from "./messages.js";
 import { cell, forShop, heading, table, tile } from "./quantities.js";
 import { number, t } from "./texts.js";
 
-/** The numbers of a bend that go to the machine, and those of a hem. */
+/** The numbers of a bend for the machine, and those of a hem. */
 const OF_BEND = ["stroke", "largest_force", "angle", "final_angle", "springback", "radius", "k_factor", "bend_deduction", "outer_strain"];
 const OF_HEM = ["height", "springback", "largest_force", "tip_gap", "loop_gap", "angle", "outer_strain", "thinning"];
 

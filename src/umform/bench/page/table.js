@@ -1,12 +1,13 @@
 // @ts-check
-// A table by angle and by opening: one job for each pair, all of them ordinary bends.
+// A table by angle and opening: one bend for each pair.
 
 import { post } from "./api.js";
 import { element, make } from "./dom.js";
+import { label } from "./fields.js";
 import { taking, unclear } from "./number_field.js";
 import { number, problemText, t } from "./texts.js";
 
-/** Numbers of a list; what is no clear number is an error. @param {string} text @returns {number[]} */
+/** Numbers of a list; an unclear number is an error. @param {string} text @returns {number[]} */
 function listed(text) {
   const numbers = text.split(/[;\s]+|,\s+/).filter(Boolean).slice(0, 12).map(taking);
   const wrong = numbers.find((value) => typeof value === "string");
@@ -63,7 +64,7 @@ export function seriesTable(rows) {
     const found = done.find((row) => row.parameters.angle === angle && row.parameters.opening === opening)?.summary.measures;
     return found ? make("td", {}, `${number(found.stroke, 2)} / ${number(found.largest_force, 0)} / ${number(found.bend_deduction, 2)}`) : make("td", {}, "–");
   };
-  const head = make("tr", {}, make("th", {}, t("field.angle")), ...openings.map((opening) => make("th", { scope: "col" }, `V ${number(opening)}`)));
+  const head = make("tr", {}, make("th", {}, label("angle")), ...openings.map((opening) => make("th", { scope: "col" }, `V ${number(opening)}`)));
   const body = angles.map((angle) => make("tr", {}, make("th", { scope: "row" }, `${number(angle)}°`), ...openings.map((opening) => cell(angle, opening))));
   return make("figure", { class: "card" }, make("div", { class: "wide" }, make("table", { class: "columns" }, make("thead", {}, head), make("tbody", {}, ...body))),
     make("figcaption", {}, t("table.caption")));

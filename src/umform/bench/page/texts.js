@@ -57,7 +57,7 @@ export function number(value, decimals) {
 }
 
 /**
- * What is wrong, in the reader's words where they are known.
+ * An error in the language of the reader.
  * @param {Record<string, any>} problem @returns {string}
  */
 export function problemText(problem) {

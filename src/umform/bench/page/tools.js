@@ -1,14 +1,13 @@
 // @ts-check
-// Punches and dies of one's own: drawings are uploaded, read by the server, and kept under a name.
+// Drawn punches and dies: drawings are uploaded, read by the server, and stored under a name.
 
 import { get, post } from "./api.js";
 import { element, make } from "./dom.js";
+import { label } from "./fields.js";
 import { number, problemText, t } from "./texts.js";
 
 /** @typedef {{kind: "punch" | "die", name: string, angle?: number, radius?: number, opening?: number, layer?: string, unit?: string, layers?: string[]}} Tool */
-/** Numbers of the form that follow from the drawing of a tool. */
-export const MEASURED = { punch: ["punch_angle", "punch_radius"], die: ["opening", "die_angle", "die_radius"] };
-/** Bytes of a drawing that the server takes. */
+/** Largest drawing in bytes. */
 const MOST = 6e6;
 
 export class Tools {
@@ -32,7 +31,7 @@ export class Tools {
 
   ask() {
     const dialog = element("tool-dialog");
-    const kind = make("select", { id: "tool-kind" }, ...["punch", "die"].map((one) => make("option", { value: one }, t(`field.${one}`))));
+    const kind = make("select", { id: "tool-kind" }, ...["punch", "die"].map((one) => make("option", { value: one }, label(one))));
     const file = make("input", { id: "tool-file", type: "file", accept: ".dxf", required: true });
     const name = make("input", { id: "tool-name", maxlength: 40, required: true });
     const layer = make("input", { id: "tool-layer", list: "tool-layers", placeholder: t("tool.layer.all") });
@@ -87,7 +86,7 @@ export class Tools {
 
   list() {
     element("tool-list").replaceChildren(...this.rows.map((one) => make("li", {},
-      make("span", {}, `${t(`field.${one.kind}`)} · ${one.name}`, make("span", { class: "soft" }, ` ${sizes(one)}`)),
+      make("span", {}, `${label(one.kind)} · ${one.name}`, make("span", { class: "soft" }, ` ${sizesText(one)}`)),
       make("button", { type: "button", "aria-label": t("tool.remove", { name: one.name }), onclick: () => this.remove(one) }, "×"))));
   }
 
@@ -101,8 +100,8 @@ export class Tools {
   }
 }
 
-/** @param {Tool} one */
-function sizes({ opening, angle, radius }) {
+/** Sizes of a tool in short. @param {{opening?: number, angle?: number, radius?: number}} one */
+export function sizesText({ opening, angle, radius }) {
   return [opening === undefined ? "" : `V ${number(opening, 1)}`, angle === undefined ? "?" : `${number(angle, 1)}°`, radius === undefined ? "" : `R ${number(radius, 2)}`].filter(Boolean).join(" ");
 }
 

@@ -1,13 +1,13 @@
 // @ts-check
-// The tour: six places of the page in about a minute, offered once.
+// The tour: six stops in about a minute, offered once.
 
 import { element, make } from "./dom.js";
 import { t } from "./texts.js";
 
 const STOPS = [["fields", "form"], ["sketch", "drawing"], ["n-angle", "checks"], ["run", "run"], ["jobs-title", "jobs"], ["result", "numbers"]];
 
-/** Shows the present stop again, in the language of the page; nothing where no tour is open. */
-export let retell = () => {};
+/** Show the present stop again in another language, if a tour is open. */
+export let showAgain = () => {};
 
 /** @param {boolean} [asked] */
 export function tour(asked = true) {
@@ -37,7 +37,7 @@ export function tour(asked = true) {
     if (at >= STOPS.length) dialog.close();
     else show();
   };
-  retell = () => { if (dialog.open) show(); };
+  showAgain = () => { if (dialog.open) show(); };
   dialog.onclose = () => document.querySelectorAll(".lit").forEach((node) => node.classList.remove("lit"));
   dialog.show();
   dialog.onkeydown = (/** @type {KeyboardEvent} */ event) => {

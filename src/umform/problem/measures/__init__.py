@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import Field
-
 from umform.problem.measures.base import MeasurePart
 from umform.problem.measures.curves import DrawIn, Ears, SectionCurve, Springback
 from umform.problem.measures.forces import Forces
 from umform.problem.measures.maps import Distance, Gauge, Map
+from umform.problem.notes import Field
 
 AnyMeasure = Annotated[
     SectionCurve | Springback | DrawIn | Ears | Distance | Gauge | Map | Forces, Field(discriminator="kind")

@@ -7,13 +7,13 @@ from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Discriminator, Field, Strict, Tag
 
 from umform.errors import InvalidValue
 from umform.mesh import Ids, Mesh
 from umform.model import Model
 from umform.problem.measures.base import FORMED, RELEASED, Formed, Measured, MeasurePart, Row, in_states
 from umform.problem.measures.hat import halves
+from umform.problem.notes import Discriminator, Field, Tag
 from umform.problem.parts import Positive, Vector
 from umform.problem.selection import Selection, nodes_of
 from umform.report.symmetry import mirrors
@@ -26,7 +26,7 @@ Floats = NDArray[np.float64]
 #: Least part of the circle that the rim of a cup covers, in degrees.
 _AROUND = 40.0
 
-_Three = Annotated[tuple[Positive, Positive, Positive], Strict(False)]
+_Three = tuple[Positive, Positive, Positive]
 
 
 class _Cut(MeasurePart):

@@ -7,12 +7,12 @@ from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field
 
 from umform.errors import InvalidValue
 from umform.mesh import Mesh
 from umform.model import Model
 from umform.problem.measures.base import FORMED, RELEASED, Formed, Measured, MeasurePart, in_states
+from umform.problem.notes import Field
 from umform.problem.parts import Name, Positive, Vector
 from umform.report.symmetry import with_images
 from umform.results.forming import Laid, distance_from, forming_fields, lay_by_best_fit, lay_on_three_points

@@ -156,15 +156,13 @@ def read_section(path: str | Path, layer: str | None, *, above: bool) -> Profile
     return profile.reversed() if above and not profile.closed else profile
 
 
-def drawn_sizes(punch: DrawnPunch | None, die: DrawnDie | None) -> dict[str, float]:
-    """Parameters of air bending that follow from drawn tools.
+def check_drawn(punch: object, die: object) -> None:
+    """Refuse drawn tools that are something else.
 
     Raises
     ------
     InvalidValue
-        If one of them is something else.
     """
-    sizes: dict[str, float] = {}
     for name, tool, kind in (("punch_section", punch, DrawnPunch), ("die_section", die, DrawnDie)):
         if tool is not None and not isinstance(tool, kind):
             raise InvalidValue(
@@ -174,11 +172,6 @@ def drawn_sizes(punch: DrawnPunch | None, die: DrawnDie | None) -> dict[str, flo
                 cause="a path or a Profile in place of the tool",
                 remedy=f"read_{name.partition('_')[0]}(path), or {kind.__name__}.of(profile)",
             )
-    if punch is not None:
-        sizes |= {"punch_angle": punch.angle, "punch_radius": punch.radius}
-    if die is not None:
-        sizes |= {"opening": die.opening, "die_angle": die.angle, "die_radius": die.radius}
-    return sizes
 
 
 def check_one_sided(punch: DrawnPunch, reach: float) -> None:

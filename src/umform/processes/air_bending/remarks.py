@@ -17,9 +17,10 @@ _DEFAULT = {field.name: field.default for field in fields(AirBending)}
 
 def tools_text(case: AirBending) -> str:
     """The tools in use, those that nobody has given too."""
-    die = f"V {case.opening:g}, {case.die_angle:g} degrees, shoulder {case.die_radius:g}"
-    punch = f"punch radius {case.punch_radius:g}, {case.punch_angle:g} degrees"
-    return f"tools: {die}, {punch}; V/t {case.opening / case.thickness:.3g}"
+    die, punch = case.sizes("die"), case.sizes("punch")
+    v = f"V {die['opening']:g}, {die['angle']:g} degrees, shoulder {die['radius']:g}"
+    tip = f"punch radius {punch['radius']:g}, {punch['angle']:g} degrees"
+    return f"tools: {v}, {tip}; V/t {case.opening / case.thickness:.3g}"
 
 
 def coarse_mesh(case: AirBending) -> list[str]:

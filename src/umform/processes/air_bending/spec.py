@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
-from functools import cached_property
+from functools import cache, cached_property
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from annotated_types import Ge, Gt, Le
 
 from umform.errors import InvalidValue
 from umform.processes.rules import PLASTIC, check_rolling
-from umform.spec import About, check_fields
+from umform.spec import About, check_fields, note_of, parameters
 from umform.spec.types import ContactPoints, Degrees, Length, Positive, Rolling
 
 if TYPE_CHECKING:
@@ -33,6 +34,22 @@ def dc04_like() -> J2:
     from umform.materials import J2, Swift
 
     return J2(E=210e3, nu=0.3, hardening=Swift(strength=520.0, offset=0.004, exponent=0.22))
+
+
+@dataclass(frozen=True)
+class SizeOf:
+    """Annotation of a parameter that is a size of a tool; a drawing of the tool has it too.
+
+    Attributes
+    ----------
+    tool : str
+        "punch" or "die".
+    size : str
+        Its name in `DrawnPunch` or `DrawnDie`.
+    """
+
+    tool: str
+    size: str
 
 
 @dataclass(frozen=True)
@@ -63,15 +80,15 @@ class AirBending:
 
     thickness: Length = 2.0
     """Thickness of the sheet."""
-    opening: Length = 16.0
+    opening: Annotated[Length, SizeOf("die", "opening")] = 16.0
     """Opening of the die: distance of the lines where its flanks, drawn on as planes, meet its top."""
-    die_angle: Degrees = 85.0
+    die_angle: Annotated[Degrees, SizeOf("die", "angle")] = 85.0
     """Angle between the flanks of the die."""
-    die_radius: Length = 2.0
+    die_radius: Annotated[Length, SizeOf("die", "radius")] = 2.0
     """Radius of the shoulders of the die."""
-    punch_angle: Degrees = 85.0
+    punch_angle: Annotated[Degrees, SizeOf("punch", "angle")] = 85.0
     """Angle between the flanks of the punch."""
-    punch_radius: Length = 1.5
+    punch_radius: Annotated[Length, SizeOf("punch", "radius")] = 1.5
     """Radius of the tip of the punch."""
     punch_section: DrawnPunch | None = None
     """Drawn punch; ``punch_angle`` and ``punch_radius`` are then those of the drawing."""
@@ -87,7 +104,7 @@ class AirBending:
     """Way of the punch from where it touches the sheet; a search or a table does not need it."""
     bottoming: bool = False
     """Whether the punch may press the sheet onto the flanks of the die."""
-    punch_width: Length | None = None
+    punch_width: Annotated[Length, SizeOf("punch", "width")] | None = None
     """Width of the body of the punch above its flanks; without it they have no end."""
     element: str | Element = "BEND18"
     """Element of the catalogue, or one of your own."""
@@ -114,18 +131,38 @@ class AirBending:
     """Way of the punch in one increment, over the opening."""
 
     def __post_init__(self) -> None:
-        from umform.processes.air_bending.drawn_tools import check_one_sided, drawn_sizes
+        if self.punch_section is not None or self.die_section is not None:
+            from umform.processes.air_bending.drawn_tools import check_drawn  # it loads NumPy
 
-        for name, value in drawn_sizes(self.punch_section, self.die_section).items():
-            object.__setattr__(self, name, value)
+            check_drawn(self.punch_section, self.die_section)
+            for name, value in self.drawn_sizes.items():
+                object.__setattr__(self, name, value)
         check_fields(self)
         _check_consistency(self)
         if self.punch_section is not None:
+            from umform.processes.air_bending.drawn_tools import check_one_sided
+
             check_one_sided(self.punch_section, self.half_length)
 
     def record(self) -> dict[str, Any]:
         """All parameters by name."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    @property
+    def drawn_sizes(self) -> dict[str, float]:
+        """Parameters that follow from drawn tools; no width is measured."""
+        tools = {"punch": self.punch_section, "die": self.die_section}
+        return {
+            name: getattr(drawn, size)
+            for tool, drawn in tools.items()
+            if drawn is not None
+            for size, name in sizes_of(tool).items()
+            if hasattr(drawn, size)
+        }
+
+    def sizes(self, tool: str) -> dict[str, Any]:
+        """Sizes of a tool, "punch" or "die"."""
+        return {size: getattr(self, name) for size, name in sizes_of(tool).items()}
 
     @cached_property
     def die(self) -> VDie | Extruded:
@@ -185,12 +222,12 @@ class AirBending:
             Slope of the leg in degrees.
         """
         a = math.radians(slope)
-        return (self.shoulder - self._radii * math.sin(a)) / math.cos(a)
+        return (self.shoulder - self.radii * math.sin(a)) / math.cos(a)
 
     def rigid_stroke(self, slope: float) -> float:
         """Stroke at a slope of the leg in degrees, for a sheet that is wrapped around the tip: an upper bound."""
         a = math.radians(slope)
-        return self.free_length(slope) * math.sin(a) + self._radii * (1.0 - math.cos(a))
+        return self.free_length(slope) * math.sin(a) + self.radii * (1.0 - math.cos(a))
 
     @property
     def largest_stroke(self) -> float:
@@ -228,9 +265,16 @@ class AirBending:
         return self.reach + 3.0 * self.thickness
 
     @property
-    def _radii(self) -> float:
+    def radii(self) -> float:
         """Distance of the axes of tip and shoulder, measured across a leg."""
         return self.punch_radius + self.thickness + self.die_radius
+
+
+@cache
+def sizes_of(tool: str) -> Mapping[str, str]:
+    """Parameters that are sizes of a tool, "punch" or "die", by the names of the sizes."""
+    notes = {name: note_of(one.hint, SizeOf) for name, one in parameters(AirBending).items()}
+    return {note.size: name for name, note in notes.items() if note is not None and note.tool == tool}
 
 
 def _check_consistency(case: AirBending) -> None:
@@ -335,20 +379,20 @@ def _check_room(case: AirBending) -> None:
     if tip >= case.opening:
         raise _unfit(
             case,
-            "punch_radius",
+            name := "punch_radius",
             "the tip of the punch is wider than the opening of the die",
             f"the tip is round on a width of {tip:.4g}, the opening is {case.opening:.4g}",
-            "a smaller punch_radius, or a wider opening",
+            f"a smaller {name}, or a wider opening",
         )
     flank = 0.5 * case.opening / math.sin(math.radians(0.5 * case.die_angle))  # from the top to the apex of the V
     setback = case.die_radius * math.tan(math.radians(0.25 * (180.0 - case.die_angle)))
     if setback >= flank:
         raise _unfit(
             case,
-            "die_radius",
+            name := "die_radius",
             "the shoulders of the die are rounder than its flanks are long",
             f"each takes {setback:.4g} of a flank of {flank:.4g}",
-            "a smaller die_radius, or a wider opening",
+            f"a smaller {name}, or a wider opening",
         )
     if case.free_length(case.steepest) <= 0.0:
         raise _unfit(

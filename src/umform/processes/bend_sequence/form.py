@@ -3,40 +3,41 @@
 from __future__ import annotations
 
 import tomllib
+from dataclasses import MISSING
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, create_model
 
 from umform.errors import FileProblem
 from umform.problem.errors import ANY_CAUSE, DeckKey, shortened, slip
 from umform.problem.messages import worded
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence.spec import TOOLS, Bend, BendSequence, Bodies
-from umform.spec.types import Degrees, Length
+from umform.spec import parameters
+from umform.spec.types import Length
 
 
 class _Form(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
 
-class BendForm(_Form):
-    """One bend: `Bend`, with the sizes of its tools as further keys."""
+#: Keys of a bend: the fields of `Bend`, but for its tools, whose sizes are keys themselves.
+_KEYS: dict[str, Any] = {
+    name: (one.hint, ... if one.default is MISSING else one.default)
+    for name, one in parameters(Bend).items()
+    if name != "tools"
+} | {name: (parameters(AirBending)[name].hint | None, None) for name in TOOLS}
 
-    position: Length
-    angle: Degrees | None = None
-    stroke: Length | None = None
-    direction: Literal["up", "down"] = "up"
-    opening: Length | None = None
-    die_angle: Degrees | None = None
-    die_radius: Length | None = None
-    punch_angle: Degrees | None = None
-    punch_radius: Length | None = None
+
+class BendForm(create_model("_Keys", __base__=_Form, **_KEYS)):  # type: ignore[misc]
+    """One bend: `Bend`, with the sizes of its tools as further keys."""
 
     def bend(self) -> Bend:
         """The bend."""
-        tools = {name: getattr(self, name) for name in TOOLS if getattr(self, name) is not None}
-        return Bend(self.position, self.angle, self.stroke, self.direction, tools)
+        given: dict[str, Any] = dict(self)
+        tools = {name: given.pop(name) for name in TOOLS}
+        return Bend(**given, tools={name: size for name, size in tools.items() if size is not None})
 
 
 class SequenceForm(_Form):

@@ -8,12 +8,12 @@ from typing import Annotated, ClassVar, Literal
 
 from umform.errors import InvalidValue
 from umform.processes.air_bending.goal import check_angle
-from umform.processes.air_bending.spec import AirBending
+from umform.processes.air_bending.spec import AirBending, sizes_of
 from umform.spec import About, check_fields
 from umform.spec.types import Degrees, Length
 
 #: Parameters of the tools that may differ between bends.
-TOOLS = ("opening", "die_angle", "die_radius", "punch_angle", "punch_radius")
+TOOLS = (*sizes_of("die").values(), *sizes_of("punch").values())
 #: Largest number of bends.
 MOST_BENDS = 50
 
@@ -70,6 +70,9 @@ class Bodies:
 @dataclass(frozen=True)
 class BendSequence:
     """A strip with several bends, in order."""
+
+    groups: ClassVar = {"length": "Part"}
+    """Group of the parameters from each of these on."""
 
     length: Length
     """Length of the flat strip."""
@@ -156,7 +159,11 @@ def _check_place(sequence: BendSequence, bend: Bend, count: int) -> None:
     """Refuse a bend whose shoulders do not support flat sheet."""
     case = sequence.case(bend)
     if bend.angle is not None:
-        check_angle(case, bend.angle)
+        try:
+            check_angle(case, bend.angle)
+        except InvalidValue as error:
+            error.where = f"bend {count}, angle"
+            raise
     if bend.position >= sequence.length:
         raise InvalidValue(
             "the bend line lies beyond the strip", where=f"bend {count}", value=bend.position, cause="another unit"

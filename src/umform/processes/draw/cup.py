@@ -56,6 +56,8 @@ class Cup(Draw):
 
     kind: ClassVar[str] = "cup"
     groups: ClassVar = Draw.groups | {"blank_radius": "Sheet", "punch_radius": "Tools", "around": "Solution"}
+    diameters: ClassVar = {"punch_radius": "punch", "die_radius": "opening", "blank_radius": "blank"}
+    """Names of the radii whose diameters are usual."""
     meshes: ClassVar = {"coarse": {"turn": 30.0, "around": 8}, "fine": {"turn": 9.0, "around": 24}}
 
     blank_radius: Length
@@ -86,6 +88,11 @@ class Cup(Draw):
     def __post_init__(self) -> None:
         super().__post_init__()
         self._check_tools()
+
+    @property
+    def title(self) -> str:
+        """Heading of tables and pages."""
+        return f"Cup: punch of {2.0 * self.punch_radius:g} mm, {self.thickness:g} mm sheet"
 
     def _check_tools(self) -> None:
         wanted = self.punch_radius + CLEARANCE * self.thickness

@@ -263,10 +263,7 @@ class Drawn(Outcome):
     @property
     def title(self) -> str:
         """Heading of tables and pages."""
-        case = self.case
-        if isinstance(case, Cup):
-            return f"Cup: punch of {2.0 * case.punch_radius:g} mm, {case.thickness:g} mm sheet"
-        return f"U-bend: punch of {case.punch_width:g} mm, {case.thickness:g} mm sheet"
+        return self.case.title
 
     @property
     def quantities(self) -> list[Quantity]:

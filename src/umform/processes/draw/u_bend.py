@@ -97,6 +97,11 @@ class UBend(Draw):
             )
 
     @property
+    def title(self) -> str:
+        """Heading of tables and pages."""
+        return f"U-bend: punch of {self.punch_width:g} mm, {self.thickness:g} mm sheet"
+
+    @property
     def clearance(self) -> float:
         """Gap beside the punch in the die."""
         return 0.5 * (self.throat - self.punch_width)

@@ -1,4 +1,4 @@
-"""Derivatives of the results of a run with respect to its parameters. docs/theory, 5.16"""
+"""Derivatives of the results of a run with respect to its parameters. docs/theory, 5.17"""
 
 from __future__ import annotations
 
@@ -93,10 +93,10 @@ def derivatives(
     1.0
     """
     held = dict(hold or {})
-    thing = _subject(subject, by, options, solver)
+    thing = subject_of(subject, by, options, solver)
     known = {one.path: one for one in thing.parameters()}
     names = list(dict.fromkeys([*by, *held.values()]))
-    parameters = [_known(name, known) for name in names]
+    parameters = [known_parameter(name, known) for name in names]
     lead = thing.build()
     shadows, sizes = {}, {}
     for one in parameters:
@@ -128,7 +128,14 @@ def derivatives(
     return whole.holding(held) if held else whole
 
 
-def _subject(subject: Any, by: Any, options: NewtonOptions | None, solver: str | None) -> Subject:
+def subject_of(subject: Any, by: Any, options: NewtonOptions | None = None, solver: str | None = None) -> Subject:
+    """What derivatives are taken of, from what a user gives.
+
+    Raises
+    ------
+    InvalidValue
+        A function without the values of its parameters.
+    """
     if isinstance(subject, Problem):
         return OfProblem(subject)
     if callable(subject) and not hasattr(subject, "__dataclass_fields__"):
@@ -144,7 +151,7 @@ def _subject(subject: Any, by: Any, options: NewtonOptions | None, solver: str |
     return OfCase(subject)
 
 
-def _known(path: str, known: Mapping[str, Scalar]) -> Scalar:
+def known_parameter(path: str, known: Mapping[str, Scalar]) -> Scalar:
     """The number of a path, or of the last parts of one, if that is unique.
 
     Raises

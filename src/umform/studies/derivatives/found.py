@@ -15,6 +15,7 @@ from umform.analysis.run import Result
 from umform.analysis.shadows import Shadowed
 from umform.errors import InvalidValue
 from umform.io.tables import write_csv
+from umform.results.outcome import Annex
 from umform.results.quantity import UNKNOWN, Quantity
 from umform.spec import Scalar
 from umform.studies.derivatives.derivative import Derivative
@@ -24,8 +25,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Floats = NDArray[np.float64]
-#: File of all derivatives.
-TABLE = "derivatives.csv"
+#: Files: all derivatives, those of the columns of the history, the picture of one response.
+TABLE, HISTORY, PICTURE = "derivatives.csv", "derivatives-history.csv", "derivatives.png"
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,8 @@ class Derivatives:
         Change of each parameter in its shadow, by its path.
     held : mapping of str to str
         Responses that stay constant, and the parameters that follow.
+    measured : tuple of Response
+        How each response is taken from a run.
     """
 
     parameters: tuple[Scalar, ...]
@@ -54,6 +57,7 @@ class Derivatives:
     runs: Shadowed
     sizes: Mapping[str, float]
     held: Mapping[str, str]
+    measured: tuple[Response, ...]
 
     @classmethod
     def of(
@@ -65,13 +69,15 @@ class Derivatives:
         rows: Mapping[str, Sequence[float | None]],
         runs: Shadowed,
     ) -> Derivatives:
-        """Differences of the shadows from the reference, over the changes of the parameters."""
+        """Differences of the shadows from the reference, over the changes of the parameters. eq. (5.161)"""
         values = np.full((len(wanted), len(parameters)), np.nan)
         for column, one in enumerate(parameters):
             for row, (before, after) in enumerate(zip(base, rows.get(one.path, ()), strict=False)):
                 if before is not None and after is not None:
                     values[row, column] = (after - before) / sizes[one.path]
-        return cls(tuple(parameters), tuple(one.quantity for one in wanted), values, runs, dict(sizes), {})
+        return cls(
+            tuple(parameters), tuple(one.quantity for one in wanted), values, runs, dict(sizes), {}, tuple(wanted)
+        )
 
     @property
     def run(self) -> Result:
@@ -120,7 +126,7 @@ class Derivatives:
         return found.reshape(-1, 3)
 
     def holding(self, held: Mapping[str, str]) -> Derivatives:
-        """Derivatives at constant values of some responses, each by a parameter that follows. eq. (5.162)
+        """Derivatives at constant values of some responses, each by a parameter that follows. eq. (5.164)
 
         Parameters
         ----------
@@ -151,34 +157,43 @@ class Derivatives:
         added = [
             Quantity(one.path, one.unit, value=float(one.value), digits=6)
             for one in (self.parameters[number] for number in columns)
+            if one.path not in names
         ]
         return replace(
             self,
             parameters=tuple(self.parameters[number] for number in free),
             responses=(*self.responses, *added),
-            values=np.vstack([values, follow]),
+            values=np.vstack([values, follow[[self.parameters[number].path not in names for number in columns]]]),
             held=dict(held),
         )
 
     @property
     def table(self) -> list[list[str]]:
-        """A header and a row for each derivative."""
-        rows = [["response", "value", "parameter", "derivative", "unit", "relative", "one-sided"]]
-        for one in self:
-            number = UNKNOWN if one.value is None else f"{one.value:.5g}"
-            relative = UNKNOWN if one.relative is None else f"{one.relative:.3g}"
-            rows.append(
-                [
-                    one.response.label,
-                    one.response.full_text,
-                    one.parameter.path,
-                    number,
-                    one.unit,
-                    relative,
-                    str(one.switched or ""),
-                ]
-            )
+        """A header, and a row for each response: its value, and its change for 1 % more of each parameter."""
+        rows = [["quantity", "value", *(f"1 % {name}" for name in self._short_names), "unit"]]
+        for response in self.responses:
+            ones = [self[response.name, one.path] for one in self.parameters]
+            if all(one.value in (None, 0.0) for one in ones):
+                continue
+            rows.append([response.label, response.number(response.value), *map(_for_one_percent, ones), response.unit])
         return rows
+
+    @property
+    def _short_names(self) -> list[str]:
+        """Last part of each path, or the whole path where another one ends alike."""
+        last = [one.path.rpartition(".")[2] for one in self.parameters]
+        return [
+            name if last.count(name) == 1 and not name.isdecimal() else one.path
+            for name, one in zip(last, self.parameters, strict=True)
+        ]
+
+    @property
+    def notes(self) -> list[str]:
+        """What is constant, and where derivatives are one-sided."""
+        found = [f"{name} is constant: {path} follows" for name, path in self.held.items()]
+        switched = {one.path: max(self.runs.kept[one.path].switched, default=0) for one in self.parameters}
+        sides = ", ".join(f"{path} {count}" for path, count in switched.items() if count)
+        return [*found, f"points at a kink, where the derivative is one-sided: {sides}"] if sides else found
 
     @property
     def warnings(self) -> list[str]:
@@ -222,17 +237,44 @@ class Derivatives:
                 "residual": [one.residual for one in ones],
             },
         )
-        history = folder / "derivatives-history.csv"
+        history = folder / HISTORY
         columns = {name: self.run[name] for name in self.run.columns()}
         for one in self.parameters:
             for name in self.run.columns():
                 if name not in ("step", "iterations"):
                     columns[f"d {name} / d {one.path}"] = self.column(name, one.path)
         write_csv(history, columns)
-        return [folder / TABLE, history]
+        self.plot(self._main, folder / PICTURE)
+        return [folder / TABLE, history, folder / PICTURE]
+
+    def _weight(self, response: str) -> float:
+        """How much a response depends on the parameters, relative to its value."""
+        found = [self[response, one.path].relative or 0.0 for one in self.parameters]
+        return max(map(abs, found), default=0.0)
+
+    @property
+    def annex(self) -> Annex:
+        """Table and picture for the outcome of a process."""
+        main = self._main
+        label = next(one.label for one in self.responses if one.name == main)
+        caption = f"Change of the {label} for 1 % more of each parameter."
+        table, notes, warnings = self.table, self.notes, self.warnings
+        return Annex("Changes of the results", table, notes, warnings, lambda: self.plot(main), caption)
+
+    @property
+    def _main(self) -> str:
+        """The response that depends most on the parameters, relative to its value."""
+        return max(self.responses, key=lambda one: self._weight(one.name)).name
 
     def plot(self, response: str, path: str | Path | None = None) -> Figure:
         """Bars of the relative derivatives of a response, the largest on top."""
         from umform.studies.derivatives.picture import tornado
 
         return tornado([one for one in self if one.response.name == response], path)
+
+
+def _for_one_percent(one: Derivative) -> str:
+    """Change of the response for 1 % more of the parameter; for 1 of a parameter that is zero."""
+    if one.value is None:
+        return UNKNOWN
+    return f"{one.value * (0.01 * one.parameter.value or 1.0):+.3g}"

@@ -53,6 +53,14 @@ class Built:
 class Subject(Protocol):
     """A thing with parameters that can be built, and whose results are numbers."""
 
+    @property
+    def given(self) -> Any:
+        """The thing itself: a problem, a case, a function."""
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """Options and solver of a run that the thing itself does not have."""
+
     def parameters(self) -> list[Scalar]:
         """All numbers that can be varied."""
 
@@ -71,6 +79,12 @@ class OfProblem:
     """A problem, whose measures are its numbers."""
 
     problem: Problem
+    settings: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def given(self) -> Problem:
+        """The problem."""
+        return self.problem
 
     def parameters(self) -> list[Scalar]:
         """Numbers of the problem."""
@@ -95,6 +109,12 @@ class OfCase:
     """A case of a process, such as `AirBending` with a stroke."""
 
     case: Any
+    settings: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def given(self) -> Any:
+        """The case."""
+        return self.case
 
     def parameters(self) -> list[Scalar]:
         """Numbers of the case."""
@@ -122,6 +142,16 @@ class OfFunction:
     values: Mapping[str, float] = field(default_factory=dict)
     options: NewtonOptions | None = None
     solver: str = "auto"
+
+    @property
+    def given(self) -> Callable[..., tuple[Model, Sequence[Step] | Step]]:
+        """The function."""
+        return self.function
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """Options and solver."""
+        return {"options": self.options, "solver": self.solver}
 
     def parameters(self) -> list[Scalar]:
         """The numbers."""

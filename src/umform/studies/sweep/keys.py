@@ -10,6 +10,7 @@ from umform.problem.contents import Contents
 from umform.problem.element import ElementPart
 from umform.problem.errors import slip
 from umform.problem.settings import Output, Solution
+from umform.spec import parameters
 
 #: Name of the material of a deck, whose values may be sheet metals of the library.
 _MATERIAL = ("material", "material.library")
@@ -17,7 +18,7 @@ _MATERIAL = ("material", "material.library")
 _OPTIONAL = tuple(
     f"{table}.{key}"
     for table, part in (("element", ElementPart), ("solution", Solution), ("output", Output))
-    for key in part.model_fields
+    for key in parameters(part)
 )
 
 
@@ -42,7 +43,7 @@ def find_key(name: str, data: Mapping[str, Any]) -> str:
         There is no such key, or more than one.
     """
     parts = name.split(".")
-    if name in _MATERIAL or (len(parts) > 1 and parts[0] in Contents.model_fields):
+    if name in _MATERIAL or (len(parts) > 1 and parts[0] in parameters(Contents)):
         return name
     keys = dict.fromkeys([*_keys(data), *_OPTIONAL])
     found = [key for key in keys if key.split(".")[-len(parts) :] == parts]

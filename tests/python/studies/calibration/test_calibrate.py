@@ -15,6 +15,7 @@ import umform as uf
 from umform.cli import app
 from umform.errors import InvalidValue
 from umform.problem.material import MaterialPart
+from umform.problem.tagged import deck_type
 from umform.sheet_metals import CURVE_FITS, Directions, fit_chaboche, get
 from umform.studies.calibration import Calibration, Measurements, calibrate, read_cycles, read_tension
 from umform.studies.calibration.code import deck_block, python_code
@@ -47,7 +48,7 @@ LAWS = {
 def test_deck_and_python_make_the_same_law(name):
     law, names = LAWS[name], {}
     exec(python_code(law), names)
-    part = TypeAdapter(MaterialPart).validate_python(tomllib.loads(deck_block(law))["material"])
+    part = TypeAdapter(deck_type(MaterialPart)).validate_python(tomllib.loads(deck_block(law))["material"])
     assert part.law == names["material"]
     strains = np.linspace(0.001, 0.02, 5)
     if isinstance(law, uf.Metal):

@@ -1,4 +1,4 @@
-"""Short work in a process of its own, with limits of time, memory and number: checks of decks, drawings."""
+"""Checks of decks and drawings in separate processes, with limits of time, memory and number."""
 
 from __future__ import annotations
 
@@ -10,26 +10,26 @@ from typing import Any
 
 from umform.errors import InvalidValue, UmformError
 
-#: Such processes at a time.
+#: Largest number of such processes at a time.
 AT_ONCE = 2
 _places = threading.BoundedSemaphore(AT_ONCE)
 
 
 class NoAnswer(UmformError):
-    """A process that has not answered."""
+    """A process without an answer."""
 
     id = "bench.no-answer"
 
 
-def answer_of(arguments: list[str], seconds: float, what: str) -> Any:
-    """What a module of this package prints as JSON.
+def json_of_module(arguments: list[str], seconds: float, what: str) -> Any:
+    """Run a module in a separate process and read the JSON that it prints.
 
     Parameters
     ----------
     arguments : list of str
         The module and its arguments.
     seconds : float
-        Most time.
+        Largest duration.
     what : str
         What it does, for messages.
 
@@ -38,7 +38,7 @@ def answer_of(arguments: list[str], seconds: float, what: str) -> Any:
     InvalidValue
         If too many run already.
     NoAnswer
-        If it takes too long, or dies.
+        If it takes too long, or ends without an answer.
     """
     if not _places.acquire(blocking=False):
         raise InvalidValue(
@@ -53,13 +53,16 @@ def answer_of(arguments: list[str], seconds: float, what: str) -> Any:
         return json.loads(done.stdout)
     except subprocess.TimeoutExpired as error:
         raise NoAnswer(
-            f"{what} has not ended within {seconds:g} s",
+            f"{what} did not end within {seconds:g} s",
             where="check",
             remedy="a smaller file or model, or the command line",
         ) from error
     except ValueError as error:
         raise NoAnswer(
-            f"{what} has died", where="check", cause="it may need more memory than there is", remedy="a smaller one"
+            f"{what} ended without an answer",
+            where="check",
+            cause="it may need more memory than is available",
+            remedy="a smaller one",
         ) from error
     finally:
         _places.release()

@@ -1,8 +1,8 @@
 // @ts-check
-// The values of the form, kept by the browser for the next visit.
+// The values of the form, stored in the browser.
 
-/** What was typed last, if it may be kept. @param {string[]} names @returns {Record<string, any>} */
-export function kept(names) {
+/** The stored values of some fields. @param {string[]} names @returns {Record<string, any>} */
+export function stored(names) {
   try {
     const values = JSON.parse(localStorage.getItem("form") ?? "{}");
     return Object.fromEntries(names.map((name) => [name, values[name]]).filter(([, value]) => value !== undefined));
@@ -12,7 +12,7 @@ export function kept(names) {
 }
 
 /** @param {Record<string, any>} values */
-export function keep(values) {
+export function store(values) {
   try {
     localStorage.setItem("form", JSON.stringify(values));
   } catch { /* it is typed again next time */ }

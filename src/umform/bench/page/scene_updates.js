@@ -1,5 +1,5 @@
 // @ts-check
-// In the frame of the 3D view: takes later states of the run from the page around it, and from nobody else.
+// In the frame of the 3D view: updates from the page around it, and from no other.
 
 addEventListener("message", ({ source, data }) => {
   const { umform } = /** @type {any} */ (window);

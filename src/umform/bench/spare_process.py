@@ -1,4 +1,4 @@
-"""A process that has loaded all it needs and waits for the folder of its job."""
+"""A spare process, which has loaded its modules and waits for the folder of its job."""
 
 from __future__ import annotations
 
@@ -6,25 +6,25 @@ import subprocess
 from pathlib import Path
 
 
-class Ready:
-    """Keeps one process ready; it ends if this one does.
+class SpareProcess:
+    """Keeps one spare process; it ends with this one.
 
     Parameters
     ----------
     command : list of str
-        Starts a process that reads the folder of its job.
+        Command of a process that reads the folder of its job.
     log : Path
-        Takes what such processes print.
+        File of its output.
     """
 
     def __init__(self, command: list[str], log: Path) -> None:
         self.command, self.log = command, log
         self._process: subprocess.Popen[bytes] | None = None
 
-    def keep(self) -> subprocess.Popen[bytes]:
-        """Start the process, unless it is there."""
+    def start_if_needed(self) -> subprocess.Popen[bytes]:
+        """Start the process if there is none."""
         if self._process is None or self._process.poll() is not None:
-            self.let_go()
+            self.end()
             with self.log.open("ab") as text:
                 self._process = subprocess.Popen(
                     self.command, stdin=subprocess.PIPE, stdout=text, stderr=text, start_new_session=True
@@ -32,12 +32,12 @@ class Ready:
         return self._process
 
     def take(self) -> subprocess.Popen[bytes]:
-        """Hand the process on; another one is started when it is next wanted."""
-        process, self._process = self.keep(), None
+        """Return the process; the next call starts another one."""
+        process, self._process = self.start_if_needed(), None
         return process
 
-    def let_go(self) -> None:
-        """End the process that waits."""
+    def end(self) -> None:
+        """End the spare process."""
         if self._process is not None:
             self._process.kill()  # it has no job
             self._process.wait()

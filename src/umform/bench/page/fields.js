@@ -1,0 +1,40 @@
+// @ts-check
+// The fields of the form, as the server reads them off the parameters of the processes.
+
+import { message } from "./messages.js";
+import { t } from "./texts.js";
+
+/**
+ * @typedef {{name: string, label: string, help: string, valid: string, unit: string, group: string, works: string[],
+ *   kind: "number" | "select" | "check" | "bends", integer: boolean, bounds: {gt?: number, ge?: number, lt?: number, le?: number},
+ *   choices: string[], default: any, times: number | null, tool: "" | "punch" | "die", size: string, usual: number[]}} Field
+ */
+
+/** All of them, in their order. @type {Field[]} */
+export let fields = [];
+
+/** @param {Field[]} given */
+export function setFields(given) {
+  fields = given;
+}
+
+/** Those values that the form has; a job of another version may have others. @param {Record<string, any>} values */
+export const known = (values) => Object.fromEntries(fields.filter(({ name }) => name in values).map(({ name }) => [name, values[name]]));
+
+/** The label of a field. @param {string} name */
+export function label(name) {
+  const text = message(fields.find((one) => one.name === name)?.label ?? name).replace(/^(the|der|die|das) |,$/gi, "");
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+/** The sentence of a field, and its valid values. @param {Field} field */
+export function help({ help: sentence, valid }) {
+  return [sentence && message(sentence), valid && t("field.valid", { valid: message(valid) })].filter(Boolean).join(" ");
+}
+
+/** The field of a size of a tool. @param {"punch" | "die"} tool @param {string} size */
+export const sizeField = (tool, size) => fields.find((one) => one.tool === tool && one.size === size)?.name ?? "";
+
+/** Sizes of a tool by their own names, from values of the form. @param {"punch" | "die"} tool @param {Record<string, any>} values */
+export const sizesIn = (tool, values) =>
+  Object.fromEntries(fields.filter((one) => one.tool === tool && one.name in values).map((one) => [one.size, values[one.name]]));

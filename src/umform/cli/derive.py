@@ -1,0 +1,113 @@
+"""``umform derive``, and ``--derive`` of processes: derivatives of results with respect to parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+
+import typer
+
+from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read
+from umform.cli.outcome_screen import show_annex
+from umform.cli.root import Debug, Overwrite, Verbose, app, console
+from umform.cli.warnings import print_warnings_once
+from umform.errors import InvalidValue
+
+if TYPE_CHECKING:
+    from umform.results.outcome import Outcome
+
+_Outcome = TypeVar("_Outcome", bound="Outcome")
+
+Derive = Annotated[
+    list[str] | None,
+    typer.Option(
+        metavar="PATH",
+        help="Derivatives of the results by a parameter, such as thickness; repeatable, see `umform derive`.",
+    ),
+]
+
+
+@app.command()
+def derive(
+    deck: DeckFile,
+    by: Annotated[
+        list[str],
+        typer.Option(
+            metavar="PATH",
+            help="Parameter, such as tools.die.radius (see `umform paths DECK`), or its end; repeatable.",
+        ),
+    ],
+    of: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME",
+            help="A measure of the deck, such as hat.theta1.released, or a column of the history, such as "
+            "punch_force:max (or last, min, peak, sum); repeatable. Default: all measures, else forces.",
+        ),
+    ] = None,
+    hold: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=PATH", help="A result that stays constant, by a parameter that follows; repeatable."
+        ),
+    ] = None,
+    changes: Changes = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="FOLDER", help="Folder for tables and picture; default: results/DECK-derive.")
+    ] = None,
+    trust: Trust = False,
+    overwrite: Overwrite = False,
+    verbose: Verbose = 0,
+    debug: Debug = False,
+) -> None:
+    """Run a deck, and find how its results change with parameters: exact derivatives, not differences of runs.
+
+    Each parameter costs about half of a run. A release ends where its force is zero for the changed parameter, too.
+    """
+    from umform.io.folders import folder_for
+    from umform.studies.derivatives import derivatives
+    from umform.studies.derivatives.found import TABLE
+
+    print_warnings_once()
+    said: list[str] = []
+    with deck_errors():
+        problem = read(deck, changes or (), trust)
+        held = dict(_pair(text) for text in hold or ())
+        place = folder_for(out, Path("results") / f"{deck.stem}-derive", (TABLE,), overwrite=overwrite, say=said.append)
+        found = derivatives(problem, by, of, hold=held)
+    for text in said:  # only of a run that starts
+        typer.echo(f"umform: {text}", err=True)
+    show_annex(found.annex)
+    say_written(found.write(place))
+
+
+def derived(
+    outcome: _Outcome, case: Any, by: Sequence[str] | None, place: Path, hold: Mapping[str, str] | None = None
+) -> tuple[_Outcome, list[Path]]:
+    """The outcome of a process with its derivatives, and the files of these; without any, the outcome itself."""
+    from umform.studies.derivatives import derivatives
+
+    if not by:
+        return outcome, []
+    found = derivatives(case, by, hold=hold)
+    return outcome.with_annex(found.annex), found.write(place)
+
+
+def say_written(files: Sequence[Path]) -> None:
+    """Print the names of files in one folder."""
+    names = ", ".join(file.name for file in files)
+    console().print(f"Written to {files[0].parent}: {names}", soft_wrap=True, markup=False)
+
+
+def _pair(text: str) -> tuple[str, str]:
+    name, sign, path = text.partition("=")
+    if not (sign and name.strip() and path.strip()):
+        raise InvalidValue(
+            "this holds no result",
+            where="--hold",
+            value=text,
+            cause="the sign = is missing, or nothing stands beside it",
+            remedy="write NAME=PATH, as angle=stroke",
+        )
+    return name.strip(), path.strip()

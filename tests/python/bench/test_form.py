@@ -1,0 +1,104 @@
+"""The form is that of the Specs: a new parameter of air bending is there without another line."""
+
+import json
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import umform
+from umform.bench.form import BY_MESH, form_fields
+from umform.bench.wanted import Mistakes, Wanted
+from umform.processes.air_bending import AirBending
+from umform.spec import check_value, parameters
+
+NEW = '''    crown: Length = 0.25
+    """Crown of the die; the middle is higher by it."""
+    die_angle:'''
+PROGRAM = """
+import json, sys
+import umform as uf
+assert uf.__file__.startswith(sys.argv[1]), uf.__file__
+from typer.testing import CliRunner
+from umform.bench.library import library
+from umform.bench.look import look
+from umform.bench.wanted import Wanted
+from umform.cli import app
+from umform.processes.air_bending import AirBending
+
+shown = CliRunner().invoke(app, ["bend", "--help"], env={"COLUMNS": "200", "TERMINAL_WIDTH": "200"}).stdout
+(field,) = [one for one in library()["fields"] if one["name"] == "crown"]
+wanted = Wanted.read({"crown": 0.5})
+(problem,) = look({"crown": -1.0})["problems"]
+crowns = [wanted.case().crown, wanted.values["crown"], AirBending().record()["crown"]]
+print(json.dumps([shown, field, crowns, problem]))
+"""
+
+
+def test_a_new_parameter_of_air_bending_is_one_field(tmp_path):
+    """It is in the help of the command, in the form, in its problems, in the order and in the record."""
+    shutil.copytree(Path(umform.__file__).parent, tmp_path / "umform", ignore=shutil.ignore_patterns("__pycache__"))
+    spec = tmp_path / "umform" / "processes" / "air_bending" / "spec.py"
+    text = spec.read_text()
+    assert text.count("    die_angle:") == 1
+    spec.write_text(text.replace("    die_angle:", NEW))
+    command = [sys.executable, "-c", PROGRAM, str(tmp_path)]
+    where = {"cwd": tmp_path, "env": {"PYTHONPATH": str(tmp_path)}}
+    run = subprocess.run(command, capture_output=True, text=True, check=False, **where)
+    assert run.returncode == 0, run.stderr
+    shown, field, crowns, problem = json.loads(run.stdout)
+    assert re.search(r"--crown\s+<float>\s+Crown of the die in mm; the middle is higher by it\.", shown)
+    assert field["label"] == "the crown of the die" and field["help"] == "Crown of the die; the middle is higher by it."
+    assert (field["unit"], field["default"], field["bounds"]) == ("mm", 0.25, {"gt": 0.0})
+    assert (field["group"], field["kind"]) == ("Tools", "number")
+    assert crowns == [0.5, 0.5, 0.25]
+    assert problem["where"] == "crown" and problem["what"] == "the crown of the die must be positive and finite"
+
+
+def test_the_form_has_the_defaults_and_bounds_of_air_bending():
+    names = [name for name, one in form_fields().items() if one.parameter.spec is AirBending]
+    assert len(names) > 15
+    for name in names:
+        known = parameters(AirBending)[name]
+        assert form_fields()[name].default == (None if name in BY_MESH else known.default)
+        with pytest.raises(Mistakes) as refused:
+            Wanted.read({name: -1e9})
+        with pytest.raises(umform.errors.InvalidValue) as of_spec:
+            check_value(AirBending, name, -1e9)
+        (said,) = refused.value.errors
+        assert (said.where, str(said)) == (name, str(of_spec.value))
+
+
+def test_an_empty_field_of_the_mesh_is_that_of_the_mesh_and_a_given_one_is_not():
+    assert Wanted.read({"mesh": "quick"}).case().layers == 1
+    assert Wanted.read({"mesh": "quick", "layers": 3}).case().layers == 3
+    assert Wanted.read({"mesh": "quick", "layers": 3}).case().increment == 0.02
+
+
+def test_lengths_of_a_hem_follow_the_thickness_where_they_are_empty():
+    tools = {"opening": 24, "die_angle": 30, "die_radius": 3, "punch_angle": 30, "punch_radius": 1.5}
+    wanted = Wanted.read({"work": "hem", "thickness": 3, "base": 100, **tools})
+    hem = wanted.hem(wanted.case())
+    assert (hem.gap, hem.flange, hem.base) == (3.0, 36.0, 100.0)
+
+
+def test_fields_of_other_work_are_neither_checked_nor_kept():
+    wanted = Wanted.read({"gap": -1.0, "bends": "x", "travel": "x"})
+    assert not {"gap", "bends", "travel"} & wanted.values.keys()
+    with pytest.raises(Mistakes):
+        Wanted.read({"work": "hem", "gap": -1.0})
+
+
+def test_all_mistakes_are_said_at_once():
+    form = {
+        "work": "sequence",
+        "thickness": 10**400,
+        "bends": [{"position": -1}, {"position": 5, "angle": "x", "y": 1}, 3],
+    }
+    with pytest.raises(Mistakes) as refused:
+        Wanted.read(form)
+    places = [error.where for error in refused.value.errors]
+    assert places == ["thickness", "bend 1, position", "bend 2, y", "bend 2, angle", "bend 3"]

@@ -1,0 +1,74 @@
+"""`umform derive`, and `--derive` of a bend."""
+
+import csv
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from umform import cli
+from umform.problem.templates import template_file
+
+COARSE = ["--set", "mesh.cells=[14,1]", "--set", "steps.0.to.stroke=1.0", "--set", "steps.0.increments=10"]
+
+
+def run(*words):
+    return CliRunner().invoke(cli.app, list(map(str, words)))
+
+
+@pytest.fixture(scope="module")
+def deck():
+    return template_file("air-bending")
+
+
+def rows(folder: Path):
+    with (folder / "derivatives.csv").open(newline="") as text:
+        return {(row["response"], row["parameter"]): row for row in csv.DictReader(text)}
+
+
+def test_a_deck_has_derivatives_as_table_files_and_picture(deck, tmp_path):
+    words = ["--by", "material.E", "--by", "strength", "--of", "stroke_force:peak", "--of", "springback_is_no_column"]
+    refused = run("derive", deck, *words, *COARSE, "--out", tmp_path / "out")
+    assert refused.exit_code == 1
+    assert "the run has no such quantity or column" in refused.output
+    done = run("derive", deck, *words[:6], *COARSE, "--out", tmp_path / "out")
+    assert done.exit_code == 0, done.output
+    assert "stroke_force:peak" in done.output
+    found = rows(tmp_path / "out")
+    # elastic at 1 mm but for a thin layer: the force follows Young's modulus and the strength
+    parts = [
+        float(found["stroke_force:peak", path]["relative"]) for path in ("material.E", "material.hardening.strength")
+    ]
+    assert sum(parts) == pytest.approx(1.0, abs=0.01)
+    assert {"derivatives.csv", "derivatives-history.csv", "derivatives.png"} == {
+        file.name for file in (tmp_path / "out").iterdir()
+    }
+
+
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [
+        (["--by", "mesh.layers"], "it is a whole number"),
+        (["--by", "solution.residual"], "its effect is an error of the solution"),
+        (["--by", "nowhere"], "there is no number of this path"),
+        (["--by", "material.E", "--hold", "angle"], "this holds no result"),
+        ([], "missing option '--by'"),
+    ],
+)
+def test_what_has_no_derivative_is_refused_by_name(deck, words, text, tmp_path):
+    refused = run("derive", deck, *words, *COARSE, "--out", tmp_path / "out")
+    assert refused.exit_code != 0
+    assert text in refused.output
+    assert "Traceback" not in refused.output
+
+
+def test_a_bend_to_an_angle_has_derivatives_at_that_angle(tmp_path):
+    words = ["--layers", 1, "--elements-per-thickness", 1, "--out", tmp_path, "--derive", "thickness"]
+    done = run("bend", "--angle", 150, *words, "--derive", "material.hardening.strength")
+    assert done.exit_code == 0, done.output
+    assert "angle is constant: stroke follows" in done.output
+    found = rows(tmp_path)
+    assert float(found["angle", "thickness"]["value"]) == 0.0
+    # a stronger sheet springs back farther, so that the stroke must be larger
+    assert float(found["stroke", "material.hardening.strength"]["value"]) > 0.0
+    assert 0.8 < float(found["springback", "material.hardening.strength"]["relative"]) < 1.1
