@@ -70,7 +70,17 @@ def test_three_load_cycles_of_a_bar():
 
 def test_similarity_of_a_bend():
     """Forces are homogeneous of degree one in all stresses, and of degree two in all lengths."""
-    values = {"E": 206e3, "Y": 180.0, "H": 900.0, "penalty": 500.0, "t": 1.0, "R": 20.0, "L": 60.0, "W": 10.0, "stroke": -6.0}
+    values = {
+        "E": 206e3,
+        "Y": 180.0,
+        "H": 900.0,
+        "penalty": 500.0,
+        "t": 1.0,
+        "R": 20.0,
+        "L": 60.0,
+        "W": 10.0,
+        "stroke": -6.0,
+    }
 
     def build(E, Y, H, penalty, t, R, L, W, stroke):
         material = uf.J2(E=E, nu=0.3, hardening=uf.Linear(Y, H))
