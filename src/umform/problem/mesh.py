@@ -78,7 +78,6 @@ class Grid(Part):
     """Grid of lines; with the sets x0, x1, y0, y1, lower, upper, and x0_lower, x0_upper, ... for their edges."""
 
     generator: Literal["grid"]
-    """The word grid."""
     x: Lines
     """Borders of the elements, increasing."""
     y: Lines
@@ -122,7 +121,6 @@ class Disc(Blank):
     """A disc with a square core; with the sets rim and centre, those of parts also x0 and y0."""
 
     generator: Literal["disc"]
-    """The word disc."""
     radius: Positive
     """Of the rim."""
     core: Annotated[float, Field(ge=0.05, le=0.75)] = 0.5
@@ -146,7 +144,6 @@ class Ring(Blank):
     """A ring; with the sets rim and hole, those of parts also x0 and y0."""
 
     generator: Literal["ring"]
-    """The word ring."""
     inner: Positive
     """Radius of the hole."""
     outer: Positive

@@ -25,7 +25,6 @@ class Outlined(Part):
     """
 
     generator: Literal["outline"]
-    """The word outline."""
     outline: ProfilePart
     """Closed curve of lines and arcs in x and y: corners, segments, or a DXF file."""
     holes: list[ProfilePart] = field(default_factory=list)
