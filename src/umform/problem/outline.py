@@ -19,18 +19,14 @@ from umform.surfaces import Tool, ToolSizes, tool_sizes
 _MOST_CELLS = 1_000_000
 
 
-class Outlined(Part):
+class Outlined(Part, of=mesh.blank, leave=("cell",)):
     """Flat blank with an outline of lines and arcs, mid-surface at z = 0: quadrilaterals by gmsh. Sets: rim, edge_0,
     edge_1, ... (segments of the outline), hole_0, ...
     """
 
     generator: Literal["outline"]
     outline: ProfilePart
-    """Closed curve of lines and arcs in x and y: corners, segments, or a DXF file."""
     holes: list[ProfilePart] = field(default_factory=list)
-    """Closed curves inside of it."""
-    thickness: Positive
-    """Along z."""
     size: Positive
     """Length of the sides of elements; with turn that of the largest ones."""
     turn: Annotated[float, Field(gt=0, le=90)] | None = None
@@ -40,14 +36,12 @@ class Outlined(Part):
     """Sliding distance over the tools: places nearer than this to a radius have its sizes too."""
     smallest: NotNegative = 0.0
     """Least size, for tools with sharp edges."""
-    layers: Annotated[int, Field(ge=1, le=100)] = 1
-    """Elements through the thickness."""
 
     def build(self, cell: str, folder: Path, sizes: Callable[[float, float], float] | None = None) -> Mesh:
         """Mesh of cells of a type, of a constant size or with those of a function."""
         outline = profile_of(self.outline, folder)
         holes = [profile_of(hole, folder) for hole in self.holes]
-        cells = outline.area / self.size**2 * self.layers if outline.closed else 0.0
+        cells = outline.area / self.size**2 * self.of_spec()["layers"] if outline.closed else 0.0
         if cells > _MOST_CELLS:
             raise InvalidValue(
                 f"some {cells:.2g} cells are more than {_MOST_CELLS}",
@@ -56,8 +50,8 @@ class Outlined(Part):
                 cause="another unit of length",
                 remedy="larger elements",
             )
-        size = sizes or self.size
-        return mesh.blank(outline, self.thickness, size, holes=holes, cell=cell, layers=self.layers)
+        given = {"outline": outline, "holes": holes, "size": sizes or self.size}
+        return mesh.blank(cell=cell, **self.of_spec() | given)
 
     def sizes(self, below: Sequence[Tool], above: Sequence[Tool], folder: Path) -> ToolSizes:
         """Sizes that follow the radii of the tools, eq. (5.69)."""
@@ -66,7 +60,7 @@ class Outlined(Part):
             below,
             above,
             (corners.min(axis=0), corners.max(axis=0)),
-            thickness=self.thickness,
+            thickness=self.of_spec()["thickness"],
             turn=self.turn or 90.0,
             largest=self.size,
             flow=self.flow,

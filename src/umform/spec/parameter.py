@@ -330,7 +330,9 @@ def sentences(spec: Any) -> dict[str, str]:
     if not isinstance(spec, type):
         section = inspect.cleandoc(spec.__doc__ or "").partition("\nParameters\n----------\n")[2].partition("\n\n")[0]
         for names, text in re.findall(r"^(\w.*?)(?: : .*)?\n((?:    .*\n?)+)", section, re.MULTILINE):
-            found |= dict.fromkeys(names.split(", "), " ".join(text.split()))
+            other = re.match(r"\s*As for :func:`(\w+)`", text)
+            known = sentences(spec.__globals__[other[1]]) if other else {}
+            found |= {name: known.get(name, " ".join(text.split())) for name in names.split(", ")}
         return found
     for base in reversed(spec.__mro__):
         if "__annotations__" not in vars(base):
