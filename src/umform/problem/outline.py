@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import field
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Literal
 
 from umform import mesh
 from umform.errors import InvalidValue
 from umform.mesh import Mesh
-from umform.problem.notes import Field
 from umform.problem.parts import NotNegative, Part, Positive
 from umform.problem.profiles import ProfilePart, profile_of
+from umform.spec.types import ElementTurn
 from umform.surfaces import Tool, ToolSizes, tool_sizes
 
 #: More cells than this are refused: a typing error should not fill the memory.
@@ -29,7 +29,7 @@ class Outlined(Part, of=mesh.blank, leave=("cell",)):
     holes: list[ProfilePart] = field(default_factory=list)
     size: Positive
     """Length of the sides of elements; with turn that of the largest ones."""
-    turn: Annotated[float, Field(gt=0, le=90)] | None = None
+    turn: ElementTurn | None = None
     """Largest angle in degrees that an element turns over the radii of tools that travel along z, those in contact with
     lower under the sheet, those with upper over it."""
     flow: NotNegative = 0.0
