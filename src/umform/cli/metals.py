@@ -154,7 +154,9 @@ def fit(
     ] = False,
     percent: Annotated[bool, typer.Option("--percent", help="Strains in per cent.", rich_help_panel=_MEASURED)] = False,
     yield_function: Annotated[str, _option("hill48 or yld2004, fitted to --angles.", _LAW)] = "hill48",
-    exponent: Annotated[float, _option("Exponent of Yld2004: 6 for steel, 8 for aluminium.", _LAW)] = 8.0,
+    exponent: Annotated[
+        float | None, _option("Exponent of Yld2004: 6 for steel, 8 for aluminium; default: that of the law.", _LAW)
+    ] = None,
     hardening: Annotated[
         str, _option("swift, voce, linear-voce, linear, perfect, table, or auto: the best of the first three.", _LAW)
     ] = "auto",
@@ -197,7 +199,7 @@ def fit(
         young,
         poisson,
         yield_function=yield_function,
-        exponent=exponent,
+        **({} if exponent is None else {"exponent": exponent}),
         hardening=hardening,
         back_stress=back_stress,
         largest_step=largest_step,

@@ -67,7 +67,7 @@ def calibrate(
     poisson: float = 0.3,
     *,
     yield_function: str = "hill48",
-    exponent: float = 8.0,
+    exponent: float = Yld2004.exponent,
     hardening: str = "auto",
     back_stress: str = "chaboche2",
     largest_step: float = 1e-3,
