@@ -15,7 +15,8 @@ from umform.cli.compensate import By, Want, compensated
 from umform.cli.derive import Derive, derived
 from umform.cli.drawn_tools import drawn_tools
 from umform.cli.given import Given, given_by
-from umform.cli.goals import check_goal, check_length, check_no_goal, check_press, strokes_of
+from umform.cli.goals import check_goal, check_length, check_measured, check_no_goal, check_press, strokes_of
+from umform.cli.identify import MOST, Find, Quantities, identify_case
 from umform.cli.metal import law_of
 from umform.cli.options import (
     SHEET,
@@ -86,6 +87,8 @@ def bend(
     want: Want = None,
     by: By = None,
     derive: Derive = None,
+    find: Annotated[list[str] | None, Find] = None,
+    quantity: Annotated[list[str] | None, Quantities] = None,
     deck: PrintDeck = False,
     overwrite: Overwrite = False,
     force: Force = False,
@@ -138,6 +141,10 @@ def bend(
     case = compensated(case, want, by)
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
+    if find or quantity:
+        check_measured(angle, table, force_per_metre, budget, derive)
+        identify_case(case, find or (), None, quantity, out, Path("results/bend-identified"), MOST, overwrite)
+        return
     if deck:
         _print_deck(case, angle, force_per_metre, tolerance)
         return

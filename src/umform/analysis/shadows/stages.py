@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -59,8 +60,7 @@ def solve_stages_with_shadows(
             for key, own in shadows.items()
             if key not in lost
         }
-        run, file = _how(checkpoints, number, stage.name)
-        before = run(lead, reference, others, **file, **options)
+        before = _how(checkpoints, number, stage.name)(lead, reference, others, **options)
         found[stage.name] = replace(before, kept={**before.kept, **lost})
         last = number == len(stages) - 1
         if before.missing and not last:
@@ -84,10 +84,10 @@ def _built(stage: Stage, before: Result | None) -> Built:
     return model, [steps] if isinstance(steps, Step) else list(steps)
 
 
-def _how(folder: str | PathLike[str] | None, number: int, name: str) -> tuple[Callable[..., Shadowed], dict[str, Any]]:
-    """What runs a stage, and its checkpoint."""
+def _how(folder: str | PathLike[str] | None, number: int, name: str) -> Callable[..., Shadowed]:
+    """What runs a stage, or goes on with it from its checkpoint."""
     if folder is None:
-        return solve_with_shadows, {}
+        return solve_with_shadows
     file = Path(folder) / f"{number + 1}-{name}.h5"
     file.parent.mkdir(parents=True, exist_ok=True)
-    return (resume_with_shadows, {"path": file}) if file.exists() else (solve_with_shadows, {"checkpoint": file})
+    return partial(resume_with_shadows, file) if file.exists() else partial(solve_with_shadows, checkpoint=file)

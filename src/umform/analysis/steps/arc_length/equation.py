@@ -86,7 +86,7 @@ class ArcLength(Term):
         self._length, self._start, self._along = length, start, np.empty(0)
 
     def cross(self, point: Floats, fraction: float, along: Floats, slope: float) -> None:
-        """Prescribe the plane across a path at a point, with the tangent of displacement and load. eq. (5.163)"""
+        """Prescribe the plane across a path at a point, with the tangent of displacement and load. eq. (5.166)"""
         self._fraction, self._length, self._start = fraction, slope, point
         self._along = along
 
