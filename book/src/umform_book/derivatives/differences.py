@@ -134,7 +134,7 @@ def sizes(name: str, changes: Sequence[float], *, points: bool) -> list[tuple[fl
     from umform_book.derivatives.steps import BEND, bent
 
     def build(**changed: float) -> tuple[uf.Model, Any]:
-        return bent(**{**BEND, **changed}, points=points)
+        return bent(**{**BEND, **changed}, points=float(points))
 
     value = BEND[name]
     exact = uf.derivatives(build, by={name: value}, of=["punch_force:last"], options=TIGHT, progress=False)

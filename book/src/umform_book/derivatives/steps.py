@@ -39,7 +39,7 @@ def bent(E: float, Y: float, n: float, t: float, R: float, mu: float, stroke: fl
     model.symmetry(lambda x, y, z: (x < 1e-9) & (y < 1e-9) & (z < 0), normal="y")
     punch = model.prescribe("x0_lower", "z", "punch")
     tool = uf.Cylinder((25.0, 0.0, -R - t / 2), "y", R)
-    cells: dict[str, Any] = {} if points else {"cells": 2}
+    cells: dict[str, Any] = {} if points > 0.0 else {"cells": 2}
     model.contact("lower", tool, penalty=500.0, friction=mu, name="tool", **cells)
     return model, [uf.Move(punch, stroke, steps=12)]
 
