@@ -31,7 +31,7 @@ def strip(material: Any, t: float, length: float = 30.0, cells: int = 12) -> uf.
     return model
 
 
-def bent(E: float, Y: float, n: float, t: float, R: float, mu: float, stroke: float, *, points: bool = False) -> Built:
+def bent(E: float, Y: float, n: float, t: float, R: float, mu: float, stroke: float, points: float = 0.0) -> Built:
     """A strip that its middle draws over a cylinder with friction: the free bending example, coarser."""
     material = uf.J2(E=E, nu=0.3, hardening=uf.Swift(Y / 0.004**n, 0.004, n))
     model = uf.Model(uf.mesh.strip(60.0, 10.0, t, (12, 1)), material=material)
