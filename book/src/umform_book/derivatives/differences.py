@@ -127,25 +127,3 @@ def _whole(example: Example, built: tuple[uf.Model, Any], run: uf.Result) -> uf.
             values = step.values((row["time"] - since) / step.time, starts)
             again.take(uf.Move(step.moved(), values, steps=1, time=row["time"] - before))
     return again.close()
-
-
-def sizes(name: str, changes: Sequence[float], *, points: bool) -> list[tuple[float, float]]:
-    """Relative differences of central differences from the derivative of the punch force at the end, by the change."""
-    from umform_book.derivatives.steps import BEND, bent
-
-    def build(**changed: float) -> tuple[uf.Model, Any]:
-        return bent(**{**BEND, **changed}, points=points)
-
-    value = BEND[name]
-    exact = uf.derivatives(build, by={name: value}, of=["punch_force:last"], options=TIGHT, progress=False)
-    wanted = exact["punch_force:last", name].value
-    assert wanted is not None
-    found = []
-    for change in changes:
-        ends = [
-            uf.solve(*build(**{name: value * (1.0 + sign * change)}), options=TIGHT, frames=0, progress=False)
-            for sign in (1.0, -1.0)
-        ]
-        forces = [float(end["punch_force"][-1]) for end in ends]
-        found.append((change, abs((forces[0] - forces[1]) / (2.0 * change * value) / wanted - 1.0)))
-    return found

@@ -31,7 +31,7 @@ def strip(material: Any, t: float, length: float = 30.0, cells: int = 12) -> uf.
     return model
 
 
-def bent(E: float, Y: float, n: float, t: float, R: float, mu: float, stroke: float, *, points: bool = False) -> Built:
+def bent(E: float, Y: float, n: float, t: float, R: float, mu: float, stroke: float, points: float = 0.0) -> Built:
     """A strip that its middle draws over a cylinder with friction: the free bending example, coarser."""
     material = uf.J2(E=E, nu=0.3, hardening=uf.Swift(Y / 0.004**n, 0.004, n))
     model = uf.Model(uf.mesh.strip(60.0, 10.0, t, (12, 1)), material=material)
@@ -39,7 +39,7 @@ def bent(E: float, Y: float, n: float, t: float, R: float, mu: float, stroke: fl
     model.symmetry(lambda x, y, z: (x < 1e-9) & (y < 1e-9) & (z < 0), normal="y")
     punch = model.prescribe("x0_lower", "z", "punch")
     tool = uf.Cylinder((25.0, 0.0, -R - t / 2), "y", R)
-    cells: dict[str, Any] = {} if points else {"cells": 2}
+    cells: dict[str, Any] = {} if points > 0.0 else {"cells": 2}
     model.contact("lower", tool, penalty=500.0, friction=mu, name="tool", **cells)
     return model, [uf.Move(punch, stroke, steps=12)]
 

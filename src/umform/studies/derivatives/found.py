@@ -49,6 +49,19 @@ class Derivatives:
         Responses that stay constant, and the parameters that follow.
     measured : tuple of Response
         How each response is taken from a run.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> def build(E, way):
+    ...     model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=E, nu=0.3))
+    ...     model.fix("x0")
+    ...     return model, uf.Move(model.prescribe("x1_lower", "z", name="tip"), to=-way, steps=2)
+    >>> found = uf.derivatives(build, by={"E": 210e3, "way": 0.1}, of=["tip_force"])
+    >>> [one.parameter.path for one in found]
+    ['E', 'way']
+    >>> round(found.holding({"tip_force": "way"})["way", "E"].relative, 3)
+    -1.0
     """
 
     parameters: tuple[Scalar, ...]

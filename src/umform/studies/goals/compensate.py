@@ -51,6 +51,12 @@ class Wanted:
         The value.
     tolerance : float
         Largest deviation.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> uf.Wanted(90.0, 0.05).tolerance
+    0.05
     """
 
     value: float
@@ -103,6 +109,17 @@ class Compensated:
         All runs.
     reached : bool
         Whether all results are within their tolerances.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> def build(way):
+    ...     model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=210e3, nu=0.3))
+    ...     model.fix("x0")
+    ...     return model, uf.Move(model.prescribe("x1_lower", "z", name="tip"), to=-way, steps=2)
+    >>> found = uf.compensate(build, {"tip_force": uf.Wanted(-1.0, 1e-6)}, by={"way": 0.5}, progress=False)
+    >>> found.table[0]
+    ['run', 'way', 'tip_force', 'derivatives']
     """
 
     subject: Any
