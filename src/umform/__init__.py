@@ -49,6 +49,17 @@ if TYPE_CHECKING:
     from umform.results import fields as fields
     from umform.studies.derivatives import Derivatives as Derivatives
     from umform.studies.derivatives import derivatives as derivatives
+    from umform.studies.goals import Compensated as Compensated
+    from umform.studies.goals import Wanted as Wanted
+    from umform.studies.goals import compensate as compensate
+    from umform.studies.identification import Identified as Identified
+    from umform.studies.identification import MeasuredCurve as MeasuredCurve
+    from umform.studies.identification import MeasuredNumber as MeasuredNumber
+    from umform.studies.identification import Sought as Sought
+    from umform.studies.identification import identify as identify
+    from umform.studies.scatter import Scatter as Scatter
+    from umform.studies.scatter import Scattered as Scattered
+    from umform.studies.scatter import scatter as scatter
     from umform.studies.sweep import Sweep as Sweep
     from umform.studies.sweep import sweep as sweep
     from umform.surfaces import Box as Box
@@ -109,6 +120,9 @@ _HOME = {
         "write_tool",
     ),
     "umform.studies.derivatives": ("Derivatives", "derivatives"),
+    "umform.studies.goals": ("Compensated", "Wanted", "compensate"),
+    "umform.studies.scatter": ("Scatter", "Scattered", "scatter"),
+    "umform.studies.identification": ("Identified", "MeasuredCurve", "MeasuredNumber", "Sought", "identify"),
     "umform.studies.sweep": ("Sweep", "sweep"),
 }
 _MODULES = {

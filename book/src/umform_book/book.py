@@ -42,6 +42,8 @@ _FOLDERS = (
     "free_bending",
     "sharp_bends",
     "air_bending",
+    "scatter",
+    "derivatives",
 )
 
 

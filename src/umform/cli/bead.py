@@ -10,6 +10,8 @@ from typing import Annotated
 
 import typer
 
+from umform.cli.compensate import By, Want, compensated
+from umform.cli.derive import Derive, derived
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
 from umform.cli.options import (
@@ -56,6 +58,9 @@ def bead(
             "--extrapolate/--no-extrapolate",
         ),
     ] = True,
+    want: Want = None,
+    by: By = None,
+    derive: Derive = None,
     deck: PrintDeck = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
@@ -74,7 +79,7 @@ def bead(
 
     print_warnings_once()
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
-    case = DrawBead(**given, material=law)
+    case = compensated(DrawBead(**given, material=law), want, by)
     if deck:
         print_deck(case)
         return
@@ -83,12 +88,14 @@ def bead(
     with staging(place, FILES):
         with _what_was_reached(place):
             drawn = extrapolated(case) if extrapolate else drawn_through(case)
+        more: list[Path] = []
         try:
+            drawn, more = derived(drawn, case, derive, place)
             with printing(f"the files of the bead are in {place}"):
                 show_outcome(drawn, f"equivalent: {in_python(drawn)}", note)
         finally:  # even if the table cannot be printed
             with drawn.result.timing.files:
-                files = write_files(place, drawn, note)
+                files = [*write_files(place, drawn, note), *more]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(drawn.result.timing)

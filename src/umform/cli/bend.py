@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from umform.cli.check import Force
-from umform.cli.derive import Derive, derive_case
+from umform.cli.compensate import By, Want, compensated
+from umform.cli.derive import Derive, derived
 from umform.cli.drawn_tools import drawn_tools
 from umform.cli.given import Given, given_by
-from umform.cli.goals import check_goal, check_length, check_no_goal, check_press, strokes_of
+from umform.cli.goals import check_goal, check_length, check_measured, check_no_goal, check_press, strokes_of
+from umform.cli.identify import MOST, Find, Quantities, identify_case
 from umform.cli.metal import law_of
 from umform.cli.options import (
     SHEET,
@@ -32,6 +34,7 @@ from umform.cli.options import (
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.scattering import Wishes, scattering
 from umform.cli.sequence import run_sequence
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
@@ -53,6 +56,7 @@ _GOAL, _TOOLS = "What to do", "Tools"
 
 @app.command()
 @given_by(Goal, AirBending, omit=("material", "punch_section", "die_section"))
+@scattering
 def bend(
     context: typer.Context,
     given: Given,
@@ -80,13 +84,19 @@ def bend(
     curve: Curve = None,
     flow_curve: FlowCurve = None,
     processes: Annotated[int | None, option("Runs of the budget at a time.", SOLUTION)] = None,
+    want: Want = None,
+    by: By = None,
     derive: Derive = None,
+    find: Annotated[list[str] | None, Find] = None,
+    quantity: Annotated[list[str] | None, Quantities] = None,
     deck: PrintDeck = False,
     overwrite: Overwrite = False,
     force: Force = False,
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
+    *,
+    wishes: Wishes,
 ) -> None:
     """Air-bend a sheet in a V-die, and unload it.
 
@@ -118,6 +128,8 @@ def bend(
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     tools = drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer)
     case = AirBending(**{**given, "stroke": stroke}, **tools, material=law)
+    if wishes:  # refuse what is wrong before the run
+        wishes.check(replace(case, stroke=stroke or 0.5 * case.largest_stroke))
     if sequence is not None:
         check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, deck)
         run_sequence(sequence, case, note, out, length, tolerance=tolerance, overwrite=overwrite)
@@ -126,8 +138,13 @@ def bend(
         check_press(angle, table, budget, stroke, force_per_metre, travel)
         case = case if travel is None else with_travel(case, travel)
         check_value(Goal, "force_per_metre", force_per_metre)
+    case = compensated(case, want, by)
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
+    if find or quantity:
+        check_measured(angle, table, force_per_metre, budget, derive)
+        identify_case(case, find or (), None, quantity, out, Path("results/bend-identified"), MOST, overwrite)
+        return
     if deck:
         _print_deck(case, angle, force_per_metre, tolerance)
         return
@@ -144,11 +161,15 @@ def bend(
         with _what_was_reached(place) as rows:
             rows += bending_table(case, strokes, brake=brake) if strokes else []
             done = replace(_bent(brake, case, angle, force_per_metre, tolerance), table=tuple(rows))
+        more: list[Path] = []
+        scatter: list[Path] = []
         try:
             if budget:
                 from umform.processes.air_bending.budget import error_budget
 
                 done = replace(done, budget=error_budget(done.case, done.measures, processes=processes))
+            done, more = derived(done, done.case, derive, place, None if angle is None else {"angle": "stroke"})
+            done, scatter = wishes.added_to(done, done.case, place)
             with printing(f"the files of the bend are in {place}"):
                 total = "" if length is None else total_force(done.measures.largest_force, length)
                 show_outcome(done, total, note)
@@ -157,10 +178,8 @@ def bend(
             raise
         finally:  # even if the table cannot be printed
             with done.result.timing.files:
-                files = write_files(place, done, note)
+                files = [*write_files(place, done, note), *more, *scatter]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
-    if derive:
-        derive_case(done.case, derive, place, None if angle is None else {"angle": "stroke"})
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
 

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
 from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read
-from umform.cli.outcome_screen import print_table
+from umform.cli.outcome_screen import show_annex
 from umform.cli.root import Debug, Overwrite, Verbose, app, console
-from umform.cli.warnings import echo_warnings, print_warnings_once
+from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
+
+if TYPE_CHECKING:
+    from umform.results.outcome import Outcome
+
+_Outcome = TypeVar("_Outcome", bound="Outcome")
 
 Derive = Annotated[
     list[str] | None,
@@ -73,24 +78,26 @@ def derive(
         found = derivatives(problem, by, of, hold=held)
     for text in said:  # only of a run that starts
         typer.echo(f"umform: {text}", err=True)
-    show(found, place)
+    show_annex(found.annex)
+    say_written(found.write(place))
 
 
-def derive_case(case: Any, by: Sequence[str], place: Path, hold: Mapping[str, str] | None = None) -> None:
-    """Print and write the derivatives of a case of a process by some of its parameters."""
+def derived(
+    outcome: _Outcome, case: Any, by: Sequence[str] | None, place: Path, hold: Mapping[str, str] | None = None
+) -> tuple[_Outcome, list[Path]]:
+    """The outcome of a process with its derivatives, and the files of these; without any, the outcome itself."""
     from umform.studies.derivatives import derivatives
 
-    show(derivatives(case, by, hold=hold), place)
+    if not by:
+        return outcome, []
+    found = derivatives(case, by, hold=hold)
+    return outcome.with_annex(found.annex), found.write(place)
 
 
-def show(found: Any, place: Path) -> None:
-    """Print the table, and write the files."""
-    print_table(found.table, "Changes of the results")
-    for note in found.notes:
-        console().print(note, soft_wrap=True, markup=False)
-    echo_warnings(found.warnings)
-    files = found.write(place)
-    console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True, markup=False)
+def say_written(files: Sequence[Path]) -> None:
+    """Print the names of files in one folder."""
+    names = ", ".join(file.name for file in files)
+    console().print(f"Written to {files[0].parent}: {names}", soft_wrap=True, markup=False)
 
 
 def _pair(text: str) -> tuple[str, str]:

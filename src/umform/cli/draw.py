@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from umform.cli.derive import Derive, derive_case
+from umform.cli.compensate import By, Want, compensated
+from umform.cli.derive import Derive, derived
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
 from umform.cli.options import (
@@ -29,6 +30,7 @@ from umform.cli.options import (
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.scattering import Wishes, scattering
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
@@ -87,6 +89,7 @@ def _halves() -> Iterator[None]:
 @group.command()
 @given_by(Cup, omit=(*_NOT_TYPED, *Cup.diameters), **ESAFORM | _varied(Cup))
 @_halves()
+@scattering
 def cup(
     given: Given,
     out: Out = None,
@@ -106,12 +109,16 @@ def cup(
     curve: Curve = None,
     flow_curve: FlowCurve = None,
     limit_curve: LimitCurve = None,
+    want: Want = None,
+    by: By = None,
     derive: Derive = None,
     deck: PrintDeck = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
+    *,
+    wishes: Wishes,
 ) -> None:
     """Draw a round cup from a disc: forces, ears, thickness, strains and limits, springback.
 
@@ -127,11 +134,12 @@ def cup(
     if deck:
         print_deck(case)
         return
-    _run(case, draw, out, "cup", note, limit_curve, derive, overwrite=overwrite, timing=timing)
+    _run(case, draw, out, "cup", note, limit_curve, derive, wishes, overwrite=overwrite, timing=timing)
 
 
 @group.command()
 @given_by(UBend, omit=_NOT_TYPED, called={"punch_width": "--punch"}, **NUMISHEET | _varied(UBend))
+@scattering
 def u(
     given: Given,
     out: Out = None,
@@ -153,12 +161,16 @@ def u(
             "--extrapolate/--no-extrapolate",
         ),
     ] = None,
+    want: Want = None,
+    by: By = None,
     derive: Derive = None,
     deck: PrintDeck = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
+    *,
+    wishes: Wishes,
 ) -> None:
     """Draw a U-bend from a strip in plane strain: forces, springback angles, strains and limits.
 
@@ -169,13 +181,13 @@ def u(
 
     given = _on_mesh(UBend, given, coarse, fine)
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
-    case = UBend(**given, material=law)
+    case = compensated(UBend(**given, material=law), want, by)
     if deck:
         print_deck(case)
         return
     three = not coarse if extrapolate is None else extrapolate
     how = extrapolated if three else draw
-    _run(case, how, out, "u-bend", note, limit_curve, derive, overwrite=overwrite, timing=timing)
+    _run(case, how, out, "u-bend", note, limit_curve, derive, wishes, overwrite=overwrite, timing=timing)
 
 
 def _on_mesh(spec: type[Cup | UBend], given: Given, coarse: bool, fine: bool) -> Given:
@@ -224,6 +236,7 @@ def _run(
     note: str,
     limit: Path | None,
     derive: list[str] | None,
+    wishes: Wishes,
     *,
     overwrite: bool,
     timing: bool,
@@ -235,6 +248,8 @@ def _run(
     from umform.processes.draw.words import before_the_run
 
     print_warnings_once()
+    if wishes:  # refuse what is wrong before the run
+        wishes.check(case)
     curve = _limit(limit)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results") / name, FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
@@ -243,15 +258,18 @@ def _run(
         picture, blank = draw_blank(place, case)
         say(f"umform: the mesh of the blank is drawn in {picture}")
         drawn = how(case, limit=curve)
+        more: list[Path] = []
+        scatter: list[Path] = []
         try:
+            drawn, more = derived(drawn, case, derive if drawn.released else None, place)
+            if drawn.released:
+                drawn, scatter = wishes.added_to(drawn, case, place)
             with printing(f"the files of the part are in {place}"):
                 show_outcome(drawn, note)
         finally:  # even if the table cannot be printed
             with drawn.result.timing.files:
-                files = write_files(place, drawn, note, blank)
+                files = [*write_files(place, drawn, note, blank), *more, *scatter]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
-    if derive and drawn.released is not None:
-        derive_case(case, derive, place)
     if timing:
         show_timing(drawn.result.timing)
     if drawn.released is None:

@@ -37,18 +37,25 @@ def given_by(
     **defaults : object
         Defaults of this command where they differ; None for an option that need not be given.
     """
+    options = [one for spec in specs for one in _options(spec, omit, called, otherwise, defaults)]
+    return in_place_of("given", options, dict)
+
+
+def in_place_of(
+    name: str, options: Sequence[inspect.Parameter], made_of: Callable[[dict[str, Any]], Any]
+) -> Callable[[Callable[..., Any]], Any]:
+    """Give a command some options in place of one of its parameters, which gets what is made of their values."""
 
     def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
         own = inspect.signature(command)
-        options = [one for spec in specs for one in _options(spec, omit, called, otherwise, defaults)]
         names = [one.name for one in options]
 
         def run(**values: Any) -> Any:
-            return command(given={name: values.pop(name) for name in names}, **values)
+            return command(**{name: made_of({one: values.pop(one) for one in names})}, **values)
 
         hints = get_type_hints(command, include_extras=True)
-        before = [one.replace(annotation=hints[one.name]) for one in own.parameters.values() if one.name != "given"]
-        at = list(own.parameters).index("given")
+        before = [one.replace(annotation=hints[one.name]) for one in own.parameters.values() if one.name != name]
+        at = list(own.parameters).index(name)
         run.__name__, run.__doc__, run.__module__ = command.__name__, command.__doc__, command.__module__
         shown = [*before[:at], *options, *before[at:]]
         run.__signature__ = inspect.Signature(shown, return_annotation=None)  # type: ignore[attr-defined]

@@ -10,7 +10,7 @@ from umform.cli.run_checks import show_checks
 from umform.cli.warnings import echo_warnings
 
 if TYPE_CHECKING:
-    from umform.results.outcome import Outcome
+    from umform.results.outcome import Annex, Outcome
 
 #: Columns of text: all others are numbers.
 _TEXT = ("quantity", "outcome", "unit")
@@ -35,6 +35,16 @@ def show_outcome(outcome: Outcome, *more: str, without: Iterable[str] = ()) -> N
         screen.print(note, soft_wrap=True, markup=False)
     show_checks(screen, outcome.stages)
     echo_warnings(text for text in outcome.warnings if text not in without)
+    for annex in outcome.annexes:
+        show_annex(annex)
+
+
+def show_annex(annex: Annex) -> None:
+    """Print a study of the results."""
+    print_table(annex.table, annex.title)
+    for note in annex.notes:
+        console().print(note, soft_wrap=True, markup=False)
+    echo_warnings(annex.warnings)
 
 
 def print_table(rows: Sequence[Sequence[str]], title: str | None = None) -> None:

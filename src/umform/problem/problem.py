@@ -191,7 +191,8 @@ class Problem:
             A value that was made by a program has no notation in TOML, or the files of the start have no name.
         """
         if self.start is None:
-            return self.source.written
+            source = self.source
+            return deck_text(source.data, source.remarks) if source.changes else source.written
         if before is None:
             raise InvalidValue(
                 "a deck names the files of the operation before",

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from umform.results.history import History
-    from umform.results.outcome import Outcome
+    from umform.results.outcome import Annex, Outcome
 
 _ENERGIES = {
     "external work": "external_work",
@@ -136,11 +136,25 @@ def outcome_parts(
         yield parts.table(header, rows)
     yield from map(parts.note, outcome.all_notes)
     yield from middle
+    for annex in outcome.annexes:
+        yield from annex_parts(annex)
     yield from parameter_parts(parameters, note)
     main = list(outcome.stages.values())[-1]
     yield parts.heading(model)
     yield parts.pairs(settings(main))
     yield from closing(outcome.stages, main)
+
+
+def annex_parts(annex: Annex) -> Iterator[str]:
+    """A study of the results of a process."""
+    yield parts.heading(annex.title)
+    for message in annex.warnings:
+        yield parts.note(message, bad=True)
+    header, *rows = annex.table
+    yield parts.table(header, rows)
+    yield from map(parts.note, annex.notes)
+    if annex.picture is not None:
+        yield parts.figure(annex.picture(), annex.caption)
 
 
 def parameter_parts(values: Mapping[str, object], note: str) -> Iterator[str]:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
+from copy import copy
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Self
 
 from umform.errors import InvalidValue
 from umform.io.tables import write_csv
@@ -16,12 +17,50 @@ from umform.results.penetration import stage_penetrations
 from umform.results.quantity import Quantity, list_columns, prefixed, table, values
 from umform.results.run_record import run_record
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 #: File of the quantities of an outcome.
 QUANTITIES = "quantities.csv"
 
 
+@dataclass(frozen=True)
+class Annex:
+    """A study of an outcome, such as its derivatives: what terminal and page show of it behind the outcome.
+
+    Attributes
+    ----------
+    title : str
+        Heading.
+    table : list of list of str
+        A header, then rows of cells.
+    notes, warnings : sequence of str
+        What belongs beside the numbers, and what makes them doubtful.
+    picture : callable, optional
+        Makes its figure.
+    caption : str
+        Text below the figure.
+    """
+
+    title: str
+    table: list[list[str]]
+    notes: Sequence[str] = ()
+    warnings: Sequence[str] = ()
+    picture: Callable[[], Figure] | None = None
+    caption: str = ""
+
+
 class Outcome(ABC):
     """Base of the results of processes: quantities, runs, warnings, notes."""
+
+    #: Studies of the results.
+    annexes: Sequence[Annex] = ()
+
+    def with_annex(self, annex: Annex) -> Self:
+        """The outcome with one more study."""
+        other = copy(self)
+        object.__setattr__(other, "annexes", (*self.annexes, annex))  # outcomes are frozen
+        return other
 
     @property
     @abstractmethod

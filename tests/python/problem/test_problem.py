@@ -6,7 +6,8 @@ import pytest
 import umform as uf
 from umform import sheet_metals
 from umform.materials import J2, Swift
-from umform.problem import Problem
+from umform.problem import Problem, load
+from umform.problem.templates import template_file
 
 TOOLS = {
     "Plane": ('point = [0, 0, -3]\nnormal = "z"', uf.Plane((0, 0, -3), "z"), None),
@@ -267,3 +268,10 @@ def test_a_deck_solves_as_the_same_lines_of_python(strip):
     pull = model.prescribe("x1", "x", "pull")
     same = uf.solve(model, uf.Move(pull, 0.1, steps=2))
     assert np.array_equal(result["pull_force"], same["pull_force"])
+
+
+def test_the_text_of_a_changed_problem_has_the_change():
+    problem = load(template_file("air-bending"), {"steps.0.to.stroke": 1.25})
+    again = Problem.read(problem.toml())
+    assert again.contents.steps[0].to == {"stroke": 1.25}
+    assert [one.value for one in again.paths()] == [one.value for one in problem.paths()]

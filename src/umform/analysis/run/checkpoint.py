@@ -91,7 +91,9 @@ class Checkpoints:
     def write(self, run: Run) -> None:
         """Write the state of a run between two increments; after a failure the run continues with a warning."""
         start = clock.perf_counter()
-        tree = {"fingerprint": self.fingerprint, "note": self.note, **_tree(run)}
+        tree = {"fingerprint": self.fingerprint, "note": self.note, **memory_of(run)}
+        if run.follower is not None:
+            tree["follower"] = run.follower.memory()
         try:
             if self._writes:
                 write_tree(self.path, tree, _KIND)
@@ -165,6 +167,14 @@ def take_up(run: Run, checkpoints: Checkpoints) -> dict[str, Any] | None:
 
     tree = run.model.system.whole.own_state(read)
     checkpoints.note = tree["note"]
+    memory = recall(run, tree)
+    if run.follower is not None:
+        run.follower.recall(run, tree["follower"])
+    return memory
+
+
+def recall(run: Run, tree: Mapping[str, Any]) -> dict[str, Any] | None:
+    """Restore a run that has not begun from what :func:`memory_of` gave; the state of its loop."""
     run.model.system.restore(Snapshot(**tree["model"]))
     run.evaluation = run.model.system.repeat(tree["before"])
     run.number, run.statistics = tree["number"], StrategyStatistics(**tree["statistics"])
@@ -177,7 +187,8 @@ def take_up(run: Run, checkpoints: Checkpoints) -> dict[str, Any] | None:
     return memory
 
 
-def _tree(run: Run) -> dict[str, Any]:
+def memory_of(run: Run) -> dict[str, Any]:
+    """Complete state of a run between two increments."""
     model, solver = run.model, run.newton.ready_solver().solver.solver
     return model.system.whole.state(
         {
@@ -197,7 +208,7 @@ def _tree(run: Run) -> dict[str, Any]:
 
 
 def _refuse_another_run(path: str | PathLike[str], there: dict[str, str], here: dict[str, str]) -> None:
-    different = [part for part in here if there.get(part) != here[part]]
+    different = [part for part in {**here, **there} if there.get(part) != here.get(part)]
     if different == ["solver"] and "petsc" in (there.get("solver"), here["solver"]):
         return  # with another number of ranks: the same up to round-off
     if not different:
@@ -207,7 +218,7 @@ def _refuse_another_run(path: str | PathLike[str], there: dict[str, str], here: 
         "the checkpoint belongs to another run",
         where=str(path),
         value="different: " + ", ".join(different),
-        cause=f"{part}: {_around(there.get(part, ''), here[part])}",
+        cause=f"{part}: {_around(there.get(part, ''), here.get(part, ''))}",
         remedy="resume with the same deck, model and files as at the start, or start again without the checkpoint",
     )
 

@@ -19,13 +19,14 @@ def ended_early(run: Run, checkpoints: Checkpoints | None, error: BaseException)
     """Write the checkpoint and keep the frame of the last converged state, whatever has ended the run.
 
     The frame is not in the checkpoint: a run that is continued has the frames of an uninterrupted one. A state after
-    the last row, whose row has failed, is in neither.
+    the last row, whose row has failed, is in neither; nor is one that the runs that follow have not reached.
     """
     ranks, result = run.model.system.ranks, run.result
     if not (ranks.size == 1 or isinstance(error, NoConvergence | Stopped)) or not _at_last_row(run):
         return  # what keeps states needs all ranks
     try:
-        if checkpoints is not None and not isinstance(error, Stopped):
+        level = run.follower is None or run.follower.level
+        if checkpoints is not None and level and not isinstance(error, Stopped):
             checkpoints.write(run)
         old = not result.frames or result.frames[-1].number < len(result) - 1
         if ranks.any(run.frames > 0 and ranks.rank == 0 and old):  # the first rank has the frames

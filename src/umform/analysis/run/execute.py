@@ -125,10 +125,10 @@ def solve_followed(
         with timing.run:
             result = Result(model, timing)
             run = ready(result, solver, options, frames, steps)
+            run.follower = None if follower is None else follower(run)
             checkpoints = checkpoints_of(run, steps, checkpoint, every, note)
             tell_of_cells(model, result)
             result.add(run.evaluation, [], frame=frames > 0)
-            run.follower = None if follower is None else follower(run)
             go_on(run, steps, progress, checkpoints)
             return result
 
@@ -183,6 +183,24 @@ def resume(
     >>> result = uf.solve(model, steps, checkpoint="run.h5")  # doctest: +SKIP
     >>> result = uf.resume("run.h5", model, steps)  # doctest: +SKIP
     """
+    return resume_followed(
+        path, model, steps, None, solver=solver, options=options, frames=frames, progress=progress, every=every
+    )
+
+
+def resume_followed(
+    path: str | PathLike[str],
+    model: Model | None,
+    steps: Sequence[Step] | Step,
+    follower: Callable[[Run], Follower] | None,
+    *,
+    solver: str = "auto",
+    options: NewtonOptions | None = None,
+    frames: int = 60,
+    progress: Show = None,
+    every: float = 60.0,
+) -> Result:
+    """Continue a run and those that follow it; parameters of :func:`resume`, and a function that makes these."""
     from umform.analysis.run.checkpoint import take_up  # imported late: few runs need it
 
     def work(model: Model, steps: Sequence[Step]) -> Result:
@@ -190,6 +208,7 @@ def resume(
         with timing.run:
             result = Result(model, timing)
             run = ready(result, solver, options, frames, steps)
+            run.follower = None if follower is None else follower(run)
             checkpoints = checkpoints_of(run, steps, path, every)
             assert checkpoints is not None
             memory = take_up(run, checkpoints)

@@ -74,6 +74,8 @@ def checkpoints_of(
 
     whole = run.model.system.whole.described  # the first rank writes and compares
     marks = {} if whole is None else fingerprint(whole, steps, run.newton, run.frames)
+    if run.follower is not None:
+        marks["shadows"] = run.follower.mark()
     return Checkpoints(path, every, marks, note, run.model.system.ranks)
 
 

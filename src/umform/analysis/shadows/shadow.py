@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from umform.analysis.newton.bordered import Bordered
+from umform.analysis.newton.criteria import EPS
+from umform.analysis.run.checkpoint import memory_of, recall
 from umform.analysis.run.going import loop_for
 from umform.analysis.steps import Step
 from umform.analysis.steps.loop import Run
-from umform.errors import NotFinite, SingularMatrix
-from umform.model import Evaluation, State
-from umform.model.terms.control import Control
+from umform.errors import NotFinite, SingularMatrix, UmformError
+from umform.model import Evaluation, Model, State
+from umform.model.terms.control import Control, OnDofs
+from umform.model.tools.tool_controls import ToolWay
 from umform.results.records import Failed
 
 Floats = NDArray[np.float64]
@@ -24,6 +28,9 @@ Floats = NDArray[np.float64]
 TOLERANCE = 1e-6
 #: Largest residual of a shadow relative to the forces.
 _SMALL = 1e-9
+#: Residual relative to the difference of driving forces from those of the reference; and the residual relative to the
+#: forces below which it is not asked for.
+_OF_DIFFERENCE, _ENOUGH = 1e-6, 1e-12
 #: Residual relative to the forces that is round-off; below another one, a residual that hardly falls is.
 _EXACT, _ROUND_OFF, _STAYS = 1e-13, 1e-9, 0.3
 #: Corrections with the factors of the reference; all corrections.
@@ -41,20 +48,26 @@ class Factors:
     solver: Bordered
     x: Floats
     residual: float
+    forces: Floats
 
-    def suffice(self, norms: Sequence[float], x: Floats, du: Floats) -> bool:
-        """Whether the next correction of a shadow would be a small part of its distance from the reference.
+    def suffice(self, norms: Sequence[float], x: Floats, du: Floats, forces: Floats, scale: float) -> bool:
+        """Whether residual and next correction of a shadow are small parts of its distance from the reference.
 
         Parameters
         ----------
         norms : sequence of float
-            Residuals so far; each correction reduces the next one like the residual.
+            Residuals so far, relative to the scale; each correction reduces the next one like the residual.
         x, du : ndarray, shape (3 n + k,)
             Unknowns, and the last correction.
+        forces : ndarray
+            Forces that drive supports and tools: a residual changes them by its own size.
+        scale : float
+            Scale of the forces.
         """
         if norms[-1] <= 2.0 * self.residual:
             return True
-        if len(norms) < 2 or norms[-1] > min(norms[-2], _SMALL):
+        difference = float(np.abs(forces - self.forces).max(initial=0.0)) / scale
+        if len(norms) < 2 or norms[-1] > min(norms[-2], _SMALL, max(_OF_DIFFERENCE * difference, _ENOUGH)):
             return False
         following = float(np.abs(du).max()) * norms[-1] / norms[-2]
         return following <= TOLERANCE * float(np.abs(x - self.x).max())
@@ -62,10 +75,15 @@ class Factors:
 
 @dataclass(frozen=True)
 class Guess:
-    """Predicted increment: unknowns, and enhanced parameters of each body."""
+    """Predicted increment: displacement, scalar unknowns by name, and enhanced parameters of each body."""
 
-    x: Floats
+    u: Floats
+    scalars: dict[str, float]
     enhanced: list[Floats]
+
+    def x(self, model: Model) -> Floats:
+        """The increment of the present unknowns of a model; zero for those that were none before."""
+        return np.concatenate([self.u, [self.scalars.get(one.name, 0.0) for one in model.system.unknowns]])
 
 
 @dataclass
@@ -112,11 +130,30 @@ class Shadow:
     def __init__(self, run: Run, steps: Sequence[Step]) -> None:
         self.run, self.steps, self.kept = run, steps, Kept()
         run.number, run.loop = 0, None
-        self._penalties = {contact: contact.penalty for contact in run.model.contacts}
         self.evaluation, self.residual = run.evaluation, 0.0
         #: Its last increment less that of the reference.
         self.ahead: Guess | None = None
-        run.model.evaluate(run.model.state)  # blocks for the recovery of enhanced parameters
+        system = run.model.system
+        first = system.evaluate(system.state)  # with blocks for the recovery of enhanced parameters
+        round_off = EPS * system.largest_entry(first.values) * system.extent * math.sqrt(system.pattern.n)
+        #: Largest forces so far, or those whose smallest part is the round-off of positions.
+        self.scale = max(round_off / _ROUND_OFF, first.force_scale)
+
+    def memory(self) -> dict[str, Any]:
+        """Its state, for checkpoints."""
+        ahead = None if self.ahead is None else vars(self.ahead)
+        return {"run": memory_of(self.run), "kept": vars(self.kept), "ahead": ahead, "scale": self.scale}
+
+    def recall(self, memory: Mapping[str, Any]) -> None:
+        """Restore its state."""
+        kept, run = memory["kept"], self.run
+        loop, self.scale = recall(run, memory["run"]), memory["scale"]
+        self.kept = Kept(**{**kept, "switched": [int(count) for count in kept["switched"]]})
+        self.ahead = None if memory["ahead"] is None else Guess(**memory["ahead"])
+        self.evaluation = run.evaluation = run.evaluation.without_tangent()
+        if loop is not None and not self.kept.lost:
+            step = self.steps[run.number - 1]
+            run.loop = loop_for(step).recall(run, step, loop)
 
     def at_step(self, number: int) -> Step:
         """Begin the steps up to the present one."""
@@ -128,8 +165,12 @@ class Shadow:
 
     def stiffen_like(self, growth: Sequence[float]) -> None:
         """Penalties that have grown like those of the leading run."""
-        for (contact, first), factor in zip(self._penalties.items(), growth, strict=True):
-            contact.use_penalty(factor * first)
+        for contact, factor in zip(self.run.model.contacts, growth, strict=True):
+            contact.use_penalty(factor * contact.initial_penalty)
+
+    def lose(self, why: str, row: int) -> None:
+        """Its numbers are unknown from a row of the history on."""
+        self.kept.lost, self.kept.from_row = why, row
 
     def increment(
         self,
@@ -162,7 +203,7 @@ class Shadow:
         targets = {control.name: float(value) for control, value in zip(controls, values, strict=True)}
         goal = system.state.toward(targets, time)
         u = goal.x.copy()
-        du = run.newton.prescribed_increment(goal, u) + system.extend(system.coefficients(guess.x))
+        du = run.newton.prescribed_increment(goal, u) + system.extend(system.coefficients(guess.x(run.model)))
         try:
             evaluation = self._solved(goal, u, du, factors, guess)
             done = 0
@@ -219,8 +260,12 @@ class Shadow:
                 system.follow()
             run.newton.check_domain(evaluation, [])
             r = system.restrict(evaluation.residual)
-            norms.append(math.sqrt(system.ranks.dot(r, r)) / (evaluation.force_scale or 1.0))
-            if _exact(norms) or (given is not None and given.suffice(norms, evaluation.x, du)):
+            scale = max(self.scale, evaluation.force_scale)
+            norms.append(math.sqrt(system.ranks.dot(r, r)) / scale)
+            if _exact(norms) or (
+                given is not None and given.suffice(norms, evaluation.x, du, forces_of(run.model, evaluation), scale)
+            ):
+                self.scale = scale
                 self.residual = norms[-1]
                 self.kept.residual = max(self.kept.residual, norms[-1])
                 return evaluation
@@ -233,6 +278,17 @@ class Shadow:
                 solver = run.newton.ready_solver()
                 solver.factor(evaluation)
             u, du = evaluation.x, system.extend(solver.solve(-r))
+
+
+def reason(failure: Failed | UmformError) -> str:
+    """Why an increment failed, in one line."""
+    return failure.reason if isinstance(failure, Failed) else str(failure).splitlines()[0]
+
+
+def forces_of(model: Model, evaluation: Evaluation) -> Floats:
+    """Forces that drive supports and tools."""
+    driven = (control for control in model.controls if isinstance(control, OnDofs | ToolWay))
+    return np.array([control.force(evaluation, model.system.ranks) for control in driven])
 
 
 def _exact(norms: Sequence[float]) -> bool:

@@ -51,8 +51,21 @@ Take = Callable[[Sequence[float], Sequence[Control], float], None]
 class Follower(Protocol):
     """Runs that follow another one, increment by increment."""
 
+    @property
+    def level(self) -> bool:
+        """Whether they have repeated the last increment of the leading run to its end."""
+
     def follow(self, lead: Run, *, frame: bool) -> None:
         """Repeat the increment that the leading run has accepted."""
+
+    def mark(self) -> str:
+        """Text that identifies their input."""
+
+    def memory(self) -> dict[str, Any]:
+        """Their state, for checkpoints."""
+
+    def recall(self, lead: Run, memory: dict[str, Any]) -> None:
+        """Restore their state, beside a leading run that is restored already."""
 
 
 @dataclass

@@ -21,10 +21,11 @@ from umform.spec.types import Duration, Positive
 _PART = 0.1
 #: An increment shorter than this part of the distance to the bound is round-off.
 _SHORT = 1.0 - 1e-9
-#: Error of the force at which a following run ends, relative to the force at the beginning, and the solutions for it.
-_CLOSE, _CLOSER = 1e-13, 5
-#: Following runs end with this part of the force at least: beyond, nothing may hold the sheet.
-_LEFT = 1e-4
+#: Following runs have the force of the leading one, up to this part of the force at the beginning, once it is below the
+#: second part; the most solutions for it.
+_CLOSE, _NEAR_END, _CLOSER = 1e-13, 1e-2, 5
+#: Below this part of the force at the beginning it says nothing of where contact is lost.
+_LEFT = 1e-6
 
 
 @dataclass(frozen=True)
@@ -175,30 +176,32 @@ class Releasing:
             run.result.note(f"step {run.number}: {how} at {control.name} = {control.value:.6g}")
 
     def follow(self, run: Run, step: Release, lead: Run, take: Take) -> None:
-        """Repeat the last accepted increment of the loop of a leading run; where it ends is an equation. eq. (5.163)"""
+        """Repeat the last accepted increment of the loop of a leading run, to the same force. eq. (5.163)
+
+        Near the end the force is an equation. Where contact is about to be lost it determines no value any more: the
+        distance from the leading run then stays.
+        """
         assert isinstance(lead.loop, Releasing)
         model, control, led = run.model, _retracted(run, step), lead.loop
-        value, led_to = control.value, lead.model.controls.named(control.name).value
+        ranks, led_to, wanted = model.system.ranks, lead.model.controls.named(control.name).value, led.force
         assert led.before is not None
-        slope = (led.force - led.before[1]) / (led_to - led.before[0])
-        target = led_to  # moved, so that the force remains that of the leading run
-        if slope != 0.0:
-            target += value - led.before[0] + (led.before[1] - self.force) / slope
-        ends = led.done and led_to != 0.0
-        wanted = max(led.force, math.copysign(_LEFT * self.scale, self.force), key=abs)
-        before, saved = (value, self.force), Saved.of(model, run.evaluation)
-        if ends and self.before is not None:  # beyond, nothing may hold the sheet
-            target = _secant((self.before[0], self.before[1]), before, wanted, target)
-        for left in reversed(range(_CLOSER if ends else 1)):
+        before, saved = (control.value, self.force), Saved.of(model, run.evaluation)
+        target, slope = led_to + before[0] - led.before[0], (wanted - led.before[1]) / (led_to - led.before[0])
+        held = abs(wanted) > _LEFT * led.scale or not run.evaluation.touching(ranks)
+        held = (held or (led.done and lead.evaluation.touching(ranks))) and slope != 0.0 and led_to != 0.0
+        if held:
+            target += (led.before[1] - self.force) / slope
+        near = held and (led.done or abs(wanted) < _NEAR_END * led.scale)
+        for left in reversed(range(_CLOSER if near else 1)):
             take([target], [control], self.start_time + step.time * (1.0 - target / self.start_value))
-            force = control.force(run.evaluation, model.system.ranks)
+            force = control.force(run.evaluation, ranks)
             closer = _secant(before, (target, force), wanted, target)
             if left == 0 or abs(force - wanted) <= _CLOSE * self.scale or closer == target:
                 break
             before, target = (target, force), closer
             saved.restore(run)
             model.evaluate(model.state)  # the blocks for the recovery of enhanced parameters
-        self.before, self.force, self.done = (value, self.force), force, led.done
+        self.before, self.force, self.done = before, force, led.done
         if isinstance(step.control, ToolForce):
             step.control.value = model.tools.press_of(step.control).takes(target, -force)[0]
 

@@ -16,10 +16,18 @@ from umform.results.quantity import Quantity
 from umform.spec import Scalar
 from umform.studies.derivatives.found import Derivatives
 from umform.studies.derivatives.responses import Response, responses
-from umform.studies.derivatives.subjects import Built, OfCase, OfFunction, OfProblem, Subject, refuse_other_structure
+from umform.studies.derivatives.subjects import (
+    Built,
+    OfCase,
+    OfFunction,
+    OfProblem,
+    Subject,
+    refuse_other_structure,
+    refuse_same_model,
+)
 
-#: Change of a parameter relative to its value; that of one without a unit, whose effect is often small.
-STEP, STEP_WITHOUT_UNIT = 3e-5, 1e-4
+#: Change of a parameter relative to its value.
+STEP = 3e-5
 #: Tables of a problem whose numbers are no parameters of the part: their effect is an error of the solution.
 _OF_THE_SOLUTION = ("solution.", "output.")
 
@@ -85,15 +93,16 @@ def derivatives(
     1.0
     """
     held = dict(hold or {})
-    thing = _subject(subject, by, options, solver)
+    thing = subject_of(subject, by, options, solver)
     known = {one.path: one for one in thing.parameters()}
     names = list(dict.fromkeys([*by, *held.values()]))
-    parameters = [_known(name, known) for name in names]
+    parameters = [known_parameter(name, known) for name in names]
     lead = thing.build()
     shadows, sizes = {}, {}
     for one in parameters:
         shadows[one.path], sizes[one.path] = _shadow(thing, one, lead)
     again = thing.build()
+    refuse_same_model([lead, again, *(built for _, built in shadows.values())])
     found = solve_with_shadows(
         (lead.model, lead.steps),
         (again.model, again.steps),
@@ -109,17 +118,26 @@ def derivatives(
         numbers = {one.name: one.value for one in other.quantities(built, result)}
         return [one.value(numbers, result) for one in wanted]
 
-    base = measured(thing, lead, found.reference)
     rows = {
         path: measured(other, built, found.shadows[path])
         for path, (other, built) in shadows.items()
         if not found.kept[path].lost
     }
+    base = measured(thing, lead, found.reference) if rows else []
     whole = Derivatives.of(parameters, sizes, wanted, base, rows, found)
     return whole.holding(held) if held else whole
 
 
-def _subject(subject: Any, by: Any, options: NewtonOptions | None, solver: str | None) -> Subject:
+def subject_of(subject: Any, by: Any, options: NewtonOptions | None = None, solver: str | None = None) -> Subject:
+    """What derivatives are taken of, from what a user gives; one that is made already stays as it is.
+
+    Raises
+    ------
+    InvalidValue
+        A function without the values of its parameters.
+    """
+    if isinstance(subject, OfProblem | OfCase | OfFunction):
+        return subject
     if isinstance(subject, Problem):
         return OfProblem(subject)
     if callable(subject) and not hasattr(subject, "__dataclass_fields__"):
@@ -135,7 +153,7 @@ def _subject(subject: Any, by: Any, options: NewtonOptions | None, solver: str |
     return OfCase(subject)
 
 
-def _known(path: str, known: Mapping[str, Scalar]) -> Scalar:
+def known_parameter(path: str, known: Mapping[str, Scalar]) -> Scalar:
     """The number of a path, or of the last parts of one, if that is unique.
 
     Raises
@@ -154,15 +172,13 @@ def _known(path: str, known: Mapping[str, Scalar]) -> Scalar:
             remedy="one of the paths that umform paths lists" if not found else f"write more of it, as {found[0]}",
         )
     one = known[found[0]]
-    why = ""
+    why, remedy = "", "umform sweep varies it"
     if found[0].startswith(_OF_THE_SOLUTION):
         why = "its effect is an error of the solution, not a change of the part"
     elif isinstance(one.value, int):
-        why = "it is a whole number"
+        why, remedy = "it is a whole number", f"{one.value}.0, if it is none; else {remedy}"
     if why:
-        raise InvalidValue(
-            "this number has no derivative", where=found[0], value=one.value, cause=why, remedy="umform sweep varies it"
-        )
+        raise InvalidValue("this number has no derivative", where=found[0], value=one.value, cause=why, remedy=remedy)
     return one
 
 
@@ -174,7 +190,7 @@ def _shadow(thing: Subject, one: Scalar, lead: Built) -> tuple[tuple[Subject, Bu
     InvalidValue
         Both are refused.
     """
-    size = (STEP if one.unit else STEP_WITHOUT_UNIT) * (abs(one.value) or 1.0)
+    size = STEP * (abs(one.value) or 1.0)
     refusal: UmformError | None = None
     for change in (size, -size):
         try:

@@ -15,6 +15,7 @@ from umform.analysis.run import Result
 from umform.analysis.shadows import Shadowed
 from umform.errors import InvalidValue
 from umform.io.tables import write_csv
+from umform.results.outcome import Annex
 from umform.results.quantity import UNKNOWN, Quantity
 from umform.spec import Scalar
 from umform.studies.derivatives.derivative import Derivative
@@ -46,6 +47,21 @@ class Derivatives:
         Change of each parameter in its shadow, by its path.
     held : mapping of str to str
         Responses that stay constant, and the parameters that follow.
+    measured : tuple of Response
+        How each response is taken from a run.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> def build(E, way):
+    ...     model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=E, nu=0.3))
+    ...     model.fix("x0")
+    ...     return model, uf.Move(model.prescribe("x1_lower", "z", name="tip"), to=-way, steps=2)
+    >>> found = uf.derivatives(build, by={"E": 210e3, "way": 0.1}, of=["tip_force"])
+    >>> [one.parameter.path for one in found]
+    ['E', 'way']
+    >>> round(found.holding({"tip_force": "way"})["way", "E"].relative, 3)
+    -1.0
     """
 
     parameters: tuple[Scalar, ...]
@@ -54,6 +70,7 @@ class Derivatives:
     runs: Shadowed
     sizes: Mapping[str, float]
     held: Mapping[str, str]
+    measured: tuple[Response, ...]
 
     @classmethod
     def of(
@@ -71,7 +88,9 @@ class Derivatives:
             for row, (before, after) in enumerate(zip(base, rows.get(one.path, ()), strict=False)):
                 if before is not None and after is not None:
                     values[row, column] = (after - before) / sizes[one.path]
-        return cls(tuple(parameters), tuple(one.quantity for one in wanted), values, runs, dict(sizes), {})
+        return cls(
+            tuple(parameters), tuple(one.quantity for one in wanted), values, runs, dict(sizes), {}, tuple(wanted)
+        )
 
     @property
     def run(self) -> Result:
@@ -107,13 +126,15 @@ class Derivatives:
         """Derivative of a column of the history, a value for each row; NaN from where it is unknown."""
         self._index([one.path for one in self.parameters], path, "parameter")
         base, other = self.runs.reference[name], self.runs.shadows[path][name]
-        found = np.full(len(base), np.nan)
+        found = np.full(len(self.run), np.nan)
         found[: len(other)] = (other - base[: len(other)]) / self.sizes[path]
         return found
 
     def displacement(self, path: str) -> Floats:
-        """Derivative of the displacement of the nodes at the end, shape (n, 3)."""
+        """Derivative of the displacement of the nodes at the end, shape (n, 3); NaN if it is unknown."""
         self._index([one.path for one in self.parameters], path, "parameter")
+        if self.runs.kept[path].lost:
+            return np.full((self.run.model.u.size // 3, 3), np.nan)
         found: Floats = (self.runs.shadows[path].model.u - self.runs.reference.model.u) / self.sizes[path]
         return found.reshape(-1, 3)
 
@@ -162,7 +183,7 @@ class Derivatives:
     @property
     def table(self) -> list[list[str]]:
         """A header, and a row for each response: its value, and its change for 1 % more of each parameter."""
-        rows = [["quantity", "value", *(f"1 % {name}" for name in self._short_names), "unit"]]
+        rows = [["quantity", "value", *self._short_names, "unit"]]
         for response in self.responses:
             ones = [self[response.name, one.path] for one in self.parameters]
             if all(one.value in (None, 0.0) for one in ones):
@@ -230,21 +251,33 @@ class Derivatives:
             },
         )
         history = folder / HISTORY
-        base = self.runs.reference
-        columns = {name: base[name] for name in base.columns()}
+        columns = {name: self.run[name] for name in self.run.columns()}
         for one in self.parameters:
-            for name in base.columns():
+            for name in self.run.columns():
                 if name not in ("step", "iterations"):
                     columns[f"d {name} / d {one.path}"] = self.column(name, one.path)
         write_csv(history, columns)
-        main = max(self.responses, key=lambda one: self._weight(one.name))
-        self.plot(main.name, folder / PICTURE)
+        self.plot(self._main, folder / PICTURE)
         return [folder / TABLE, history, folder / PICTURE]
 
     def _weight(self, response: str) -> float:
         """How much a response depends on the parameters, relative to its value."""
         found = [self[response, one.path].relative or 0.0 for one in self.parameters]
         return max(map(abs, found), default=0.0)
+
+    @property
+    def annex(self) -> Annex:
+        """Table and picture for the outcome of a process."""
+        main = self._main
+        label = next(one.label for one in self.responses if one.name == main)
+        caption = f"Change of the {label} for 1 % more of each parameter."
+        table, notes, warnings = self.table, self.notes, self.warnings
+        return Annex("Changes for 1 % more of", table, notes, warnings, lambda: self.plot(main), caption)
+
+    @property
+    def _main(self) -> str:
+        """The response that depends most on the parameters, relative to its value."""
+        return max(self.responses, key=lambda one: self._weight(one.name)).name
 
     def plot(self, response: str, path: str | Path | None = None) -> Figure:
         """Bars of the relative derivatives of a response, the largest on top."""

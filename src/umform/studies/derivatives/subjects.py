@@ -6,10 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol, Self
 
-import numpy as np
-
 from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.run import Result
+from umform.analysis.shadows.structure import other_structure
 from umform.analysis.steps import Step
 from umform.errors import InvalidValue
 from umform.model import Model
@@ -54,6 +53,14 @@ class Built:
 class Subject(Protocol):
     """A thing with parameters that can be built, and whose results are numbers."""
 
+    @property
+    def given(self) -> Any:
+        """The thing itself: a problem, a case, a function."""
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """Options and solver of a run that the thing itself does not have."""
+
     def parameters(self) -> list[Scalar]:
         """All numbers that can be varied."""
 
@@ -72,6 +79,12 @@ class OfProblem:
     """A problem, whose measures are its numbers."""
 
     problem: Problem
+    settings: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def given(self) -> Problem:
+        """The problem."""
+        return self.problem
 
     def parameters(self) -> list[Scalar]:
         """Numbers of the problem."""
@@ -96,6 +109,12 @@ class OfCase:
     """A case of a process, such as `AirBending` with a stroke."""
 
     case: Any
+    settings: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def given(self) -> Any:
+        """The case."""
+        return self.case
 
     def parameters(self) -> list[Scalar]:
         """Numbers of the case."""
@@ -124,6 +143,16 @@ class OfFunction:
     options: NewtonOptions | None = None
     solver: str = "auto"
 
+    @property
+    def given(self) -> Callable[..., tuple[Model, Sequence[Step] | Step]]:
+        """The function."""
+        return self.function
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """Options and solver."""
+        return {"options": self.options, "solver": self.solver}
+
     def parameters(self) -> list[Scalar]:
         """The numbers."""
         return [Scalar(name, value) for name, value in self.values.items()]
@@ -144,19 +173,14 @@ class OfFunction:
 
 
 def refuse_other_structure(path: str, one: Built, other: Built) -> None:
-    """Refuse a parameter that changes the topology of the mesh, or the kinds of steps.
+    """Refuse a parameter that changes the topology of the mesh, controls, contacts, or the kinds of steps.
 
     Raises
     ------
     InvalidValue
-        The number of nodes, the elements, or the steps differ.
+        They differ.
     """
-    mesh, changed = one.model.mesh, other.model.mesh
-    cause = ""
-    if not np.array_equal(mesh.connectivity, changed.connectivity) or len(mesh.points) != len(changed.points):
-        cause = f"{len(changed.connectivity)} elements in place of {len(mesh.connectivity)}"
-    elif [type(step) for step in one.steps] != [type(step) for step in other.steps]:
-        cause = f"{len(other.steps)} steps in place of {len(one.steps)}"
+    cause = other_structure(one.model, one.steps, other.model, other.steps)
     if cause:
         raise InvalidValue(
             "elements and steps change with a slightly different value",
@@ -164,4 +188,22 @@ def refuse_other_structure(path: str, one: Built, other: Built) -> None:
             value=cause,
             cause="their number follows from it",
             remedy="give the numbers of elements and steps, or a value a little off",
+        )
+
+
+def refuse_same_model(builds: Sequence[Built]) -> None:
+    """Refuse models that are built once for several runs: each run has its own state.
+
+    Raises
+    ------
+    InvalidValue
+        Two of them are one object.
+    """
+    if len({id(one.model) for one in builds}) < len(builds):
+        raise InvalidValue(
+            "a function returns the same model twice",
+            where="the function of the parameters",
+            value=builds[0].model,
+            cause="it keeps the model, or was given it",
+            remedy="build the mesh, the model and its steps anew in each call",
         )

@@ -8,7 +8,7 @@ from __future__ import annotations
 import logging
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal, Self
 
 import numpy as np
@@ -188,11 +188,19 @@ class Following:
         self.length = min(adapted, step.grow * path.first)
 
     def follow(self, run: Run, step: Arc, lead: Run, take: Take) -> None:
-        """Repeat the last accepted increment of the loop of a leading run, at the same part of the load."""
+        """Repeat the last accepted increment of the loop of a leading run: on the plane across its path, at its end at
+        the same load.
+        """
         assert isinstance(lead.loop, Following)
-        fraction, self.done = lead.loop.path.state.fraction, lead.loop.done
-        values = self.path.line.at(fraction)
-        take(list(values.values()), list(values), lead.model.system.time)
+        state, path = lead.loop.path.state, self.path
+        self.done, self.count = lead.loop.done, lead.loop.count
+        if state.fraction == 1.0:
+            path.equation.hold(1.0)
+        else:
+            path.equation.cross(lead.model.u, state.fraction, state.tangent, state.slope)
+        with run.model.system.with_term(path.equation):
+            take([], [], lead.model.system.time)
+        path.state = replace(state, fraction=path.line.value)
 
     def _cut(self, run: Run, step: Arc, failure: Failed, tried: float) -> None:
         """Halve an arc length that failed, or end the run."""

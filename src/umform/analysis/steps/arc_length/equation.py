@@ -79,17 +79,29 @@ class ArcLength(Term):
 
     def hold(self, fraction: float) -> None:
         """Prescribe a load parameter."""
-        self._fraction, self._length, self._start = fraction, 0.0, np.empty(0)
+        self._fraction, self._length, self._start, self._along = fraction, 0.0, np.empty(0), np.empty(0)
 
     def ask(self, length: float, start: Floats) -> None:
         """Prescribe an arc length from the converged state, whose displacement (3 n,) is given."""
-        self._length, self._start = length, start
+        self._length, self._start, self._along = length, start, np.empty(0)
+
+    def cross(self, point: Floats, fraction: float, along: Floats, slope: float) -> None:
+        """Prescribe the plane across a path at a point, with the tangent of displacement and load. eq. (5.166)"""
+        self._fraction, self._length, self._start = fraction, slope, point
+        self._along = along
 
     def evaluate(self, at: At, into: Into) -> Found:
         """Add the relative excess of the length times the force scale: a force, as in the other equations."""
         border, k, fraction = into.border, into.border.number(self.line), at.scalars[self.line]
         scale = math.sqrt(sum(found.force_scale_squared for found in into.found.values())) or 1.0
-        if self._length:
+        if self._along.size:
+            gone = fraction - self._fraction
+            border.residual[k] = scale * (
+                float(self._along @ (at.u - self._start)) + self.load_weight * self._length * gone
+            )
+            border.rows[k] = scale * self._along
+            border.corner[k, k] = scale * self.load_weight * self._length
+        elif self._length:
             scale /= self._length**2
             since, gone = at.u - self._start, fraction - self.line.value
             border.residual[k] = 0.5 * scale * (float(since @ since) + self.load_weight * gone**2 - self._length**2)

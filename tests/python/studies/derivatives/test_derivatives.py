@@ -1,0 +1,239 @@
+"""Derivatives of problems, cases and functions: what they are, and what is refused by name."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import umform as uf
+from umform.errors import InvalidValue
+from umform.problem import Problem
+
+EXAMPLES = Path(__file__).resolve().parents[4] / "examples" / "umat"
+COMPILER = shutil.which("gcc") or shutil.which("cc")
+
+
+def cantilever(E, thickness):
+    """Elastic, with a load of 1e-3 at its end: the force for a small deflection is that of a beam."""
+    model = uf.Model(uf.mesh.strip(10.0, 1.0, thickness, (8, 1)), material=uf.SVK(E=E, nu=0.0))
+    model.fix("x0")
+    return model, uf.Move(model.prescribe("x1_lower", "z", name="tip"), to=-1e-3, steps=2)
+
+
+BEAM = {"E": 210e3, "thickness": 0.2}
+
+
+@pytest.fixture(scope="module")
+def beam():
+    return uf.derivatives(cantilever, by=BEAM, of=["tip_force:last"], progress=False)
+
+
+def test_a_beam(beam):
+    """The force goes with E and with the cube of the thickness."""
+    assert beam["tip_force:last", "E"].relative == pytest.approx(1.0, rel=1e-7)
+    assert beam["tip_force:last", "thickness"].relative == pytest.approx(3.0, rel=2e-3)
+    one = beam["tip_force:last", "E"]
+    assert (one.switched, one.why) == (0, "")
+    column = beam.column("tip_force", "thickness")
+    assert column[0] == 0.0
+    assert column[-1] == beam["tip_force:last", "thickness"].value
+    assert column[1] == pytest.approx(0.5 * column[2], rel=1e-3)
+    shape = beam.displacement("E")
+    assert shape.shape == (36, 3)
+    assert np.abs(shape).max() < 1e-12  # the deflection is given
+
+
+def test_a_held_response(beam):
+    """At the same force a thicker beam has less E: -3 of its percentage."""
+    held = uf.derivatives(cantilever, by={**BEAM}, of=["tip_force:last"], hold={"tip_force:last": "E"}, progress=False)
+    assert [one.path for one in held.parameters] == ["thickness"]
+    assert held["tip_force:last", "thickness"].value == 0.0
+    assert held["E", "thickness"].relative == pytest.approx(-beam["tip_force:last", "thickness"].relative, rel=1e-4)
+    with pytest.raises(InvalidValue, match="cannot be held"):
+        uf.derivatives(cantilever, by=BEAM, of=["tip:last"], hold={"tip:last": "E"}, progress=False)
+
+
+@pytest.mark.parametrize("of", [["tip_strength"], ["tip_force:mean"]])
+def test_unknown_responses_are_refused(of):
+    with pytest.raises(InvalidValue) as caught:
+        uf.derivatives(cantilever, by=BEAM, of=of, progress=False)
+    assert of[0].partition(":")[0] in str(caught.value) or "mean" in str(caught.value)
+
+
+# What cannot be varied --------------------------------------------------------------------------------------------
+
+
+def test_a_function_needs_values():
+    with pytest.raises(InvalidValue, match="a function needs the values of its parameters"):
+        uf.derivatives(cantilever, by=["E"])
+
+
+def test_whole_numbers_of_a_function_are_refused_by_name():
+    with pytest.raises(InvalidValue, match="it is a whole number") as caught:
+        uf.derivatives(cantilever, by={"E": 210000, "thickness": 0.2})
+    assert caught.value.where == "E"
+    assert "210000.0" in str(caught.value)
+
+
+def test_a_number_of_elements_is_refused_by_name():
+    """One that follows from a size: varied downwards, and refused if both ways change it."""
+
+    def build(size, shift):
+        cells = round(2.0 / size + shift)
+        model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (cells, 1)), material=uf.SVK(E=1e5, nu=0.0))
+        model.fix("x0")
+        return model, uf.Move(model.prescribe("x1_lower", "z", name="tip"), to=-1e-3, steps=1)
+
+    upwards = 2.0 / 8.5 * (1.0 + 1e-6)  # eight elements; nine for a slightly smaller size
+    found = uf.derivatives(build, by={"size": upwards, "shift": 0.0}, of=["tip_force:last"], progress=False)
+    assert found.sizes["size"] > 0.0 and found["tip_force:last", "size"].value == 0.0
+    assert "size has no effect on this run" in found.warnings
+
+    def jumping(size):
+        return build(0.25, 0.0) if size == 1.0 else build(0.2, 0.0)
+
+    with pytest.raises(InvalidValue, match="cannot be varied") as caught:
+        uf.derivatives(jumping, by={"size": 1.0})
+    assert caught.value.where == "size"
+
+
+def test_a_bound_is_left_downwards():
+    """A value at its largest one is made smaller."""
+
+    def build(nu, E):
+        model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (4, 1)), material=uf.SVK(E=E, nu=nu))
+        model.fix("x0")
+        model.contact("upper", uf.Plane((0, 0, 5.0), (0, 0, -1)), friction=2.0 * nu / 0.3, penalty=1.0, name="far")
+        return model, uf.Move(model.prescribe("x1_lower", "z", name="tip"), to=-1e-3, steps=1)
+
+    found = uf.derivatives(build, by={"nu": 0.3, "E": 1e5}, of=["tip_force:last"], progress=False)
+    assert found.sizes["nu"] < 0.0 < found.sizes["E"]
+    assert found["tip_force:last", "nu"].value != 0.0
+
+
+def test_the_same_model_twice_is_refused():
+    kept = cantilever(**BEAM)
+    with pytest.raises(InvalidValue, match="returns the same model twice"):
+        uf.derivatives(lambda E: kept, by={"E": 1.0})
+
+
+@pytest.fixture(scope="module")
+def problem(strip):
+    return Problem.read(strip)
+
+
+def test_a_problem(problem):
+    """The last part of a path will do; the derivative has its unit, and is that of whole runs."""
+    found = uf.derivatives(problem, by=["E", "material.nu"], of=["pull_force:last"], progress=False)
+    assert [one.path for one in found.parameters] == ["material.E", "material.nu"]
+    assert found["pull_force:last", "material.E"].relative == pytest.approx(1.0, rel=1e-6)
+    ends = [runs(problem.with_({"material.nu": value})) for value in (0.3003, 0.2997)]
+    assert found["pull_force:last", "material.nu"].value == pytest.approx((ends[0] - ends[1]) / 6e-4, rel=1e-4)
+
+
+def runs(problem):
+    made = problem.build()
+    return uf.solve(made.model, made.steps, options=uf.NewtonOptions(residual=1e-12))["pull_force"][-1]
+
+
+@pytest.mark.parametrize(
+    ("path", "cause"),
+    [
+        ("solution.residual", "an error of the solution"),
+        ("mesh.cells.0", "whole number"),
+        ("steps.0.increments", "whole number"),
+        ("material.mu", "did you mean material.nu"),
+        ("material.nothing", "no number of this path"),
+    ],
+)
+def test_numbers_of_a_problem_that_cannot_be_varied(problem, path, cause):
+    with pytest.raises(InvalidValue) as caught:
+        uf.derivatives(problem, by=[path])
+    assert cause in str(caught.value)
+
+
+# Laws of users ----------------------------------------------------------------------------------------------------
+
+
+def bar(law):
+    model = uf.Model(uf.mesh.strip(1.0, 0.5, 0.4, (1, 1)), "EAS3DEAS", material=law)
+    for face, normal in (("x0", "x"), ("y0", "y"), ("lower", "z")):
+        model.symmetry(face, normal=normal)
+    pull = model.prescribe("x1", "x", "pull")
+    return model, [uf.Move(pull, 0.02, steps=4), uf.Move(pull, -0.01, steps=6)]
+
+
+def relatives(build, values):
+    found = uf.derivatives(build, by=values, of=["pull_force:last", "pull_force:max"], progress=False)
+    return np.array([[found[one.name, name].relative for name in values] for one in found.responses])
+
+
+def test_a_law_of_a_user():
+    """Softening with the largest strain so far, a history: the derivative is that of whole runs."""
+
+    def build(stiffness, decay):
+        def law(E, state):
+            worst = np.maximum(state[:, 0], np.linalg.norm(E, axis=1))
+            part = stiffness * np.exp(-decay * worst)
+            grows = np.linalg.norm(E, axis=1) > state[:, 0]
+            S = part[:, None] * E
+            C = part[:, None, None] * np.eye(6)
+            size = np.maximum(np.linalg.norm(E, axis=1), 1e-300)
+            C = C - np.where(grows, decay * part / size, 0.0)[:, None, None] * E[:, :, None] * E[:, None, :]
+            return S, C, worst[:, None]
+
+        return bar(uf.UserLaw(law, initial=(0.0,)))
+
+    values = {"stiffness": 1e4, "decay": 8.0}
+    found = uf.derivatives(build, by=values, of=["pull_force:last"], progress=False)
+    assert found["pull_force:last", "stiffness"].relative == pytest.approx(1.0, rel=1e-7)
+    ends = []
+    for sign in (1.0, -1.0):
+        model, steps = build(1e4, 8.0 * (1.0 + sign * 1e-4))
+        options = uf.NewtonOptions(residual=1e-12)
+        ends.append(uf.solve(model, steps, options=options, frames=0)["pull_force"])
+    column, wanted = found.column("pull_force", "decay"), (ends[0] - ends[1]) / 1.6e-3
+    assert np.abs(column - wanted).max() < 1e-5 * np.abs(wanted).max()
+
+
+@pytest.mark.skipif(COMPILER is None or not EXAMPLES.is_dir(), reason="no C compiler, or no examples")
+def test_a_umat_has_the_derivatives_of_the_metal(tmp_path):
+    library = tmp_path / "kinematic.so"
+    subprocess.run([COMPILER, "-O1", "-shared", "-fPIC", "-o", library, EXAMPLES / "kinematic.c", "-lm"], check=True)
+
+    def foreign(E, Y, H, C):
+        state = {"back_stress": 6, "eqps": 1}
+        return bar(uf.Umat(library, state=state, properties=[E, 0.3, Y, H, C], energies=True, directional=False))
+
+    def own(E, Y, H, C):
+        back = uf.Chaboche(((C, 0.0),))
+        return bar(uf.Metal(E, 0.3, hardening=uf.Linear(Y, H), back_stress=back))
+
+    values = {"E": 210e3, "Y": 200.0, "H": 500.0, "C": 3000.0}
+    np.testing.assert_allclose(relatives(foreign, values), relatives(own, values), rtol=1e-5, atol=1e-7)
+
+
+# Tables and files -------------------------------------------------------------------------------------------------
+
+
+def test_table_files_and_picture(beam, tmp_path):
+    assert len(beam.table) == 2
+    assert [path.name for path in beam.write(tmp_path)] == [
+        "derivatives.csv",
+        "derivatives-history.csv",
+        "derivatives.png",
+    ]
+    lines = (tmp_path / "derivatives.csv").read_text().splitlines()
+    assert len(lines) == 3 and "E" in lines[1]
+    history = (tmp_path / "derivatives-history.csv").read_text().splitlines()
+    assert "d tip_force / d E" in history[0] and len(history) == 4
+    beam.plot("tip_force:last", tmp_path / "bars.png")
+    assert (tmp_path / "bars.png").stat().st_size > 1000
+    with pytest.raises(InvalidValue, match="no such response"):
+        beam["tip_force", "E"]
+    with pytest.raises(InvalidValue, match="no such parameter"):
+        beam.column("tip_force", "nu")

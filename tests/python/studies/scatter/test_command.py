@@ -1,0 +1,120 @@
+"""`umform sigma`, and the options of scatter of processes."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import umform as uf
+from umform.cli.commands import application
+from umform.problem.templates import write_template
+from umform.processes.air_bending import AirBending
+from umform.processes.draw import draw
+from umform.processes.draw.u_bend import NUMISHEET, UBend
+from umform.processes.problems import outcome_of, problem_of
+
+#: A bend in less than a second.
+COARSE = ["--stroke", "3", "--layers", "1", "--thickness-points", "5", "--increment", "0.05"]
+COARSE += ["--elements-per-thickness", "1.5"]
+
+
+def call(*words):
+    return CliRunner().invoke(application(), list(words), env={"COLUMNS": "160"})
+
+
+@pytest.fixture
+def deck(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    write_template("cantilever", tmp_path / "deck.toml")
+    return "deck.toml"
+
+
+def table(file):
+    with Path(file).open(newline="") as text:
+        return {row["name"]: row for row in csv.DictReader(text)}
+
+
+def test_a_deck(deck):
+    few = ["--set", "steps.0.increments=2", "--set", "mesh.cells=[4,1]", "--set", "steps.0.to.force=0.01"]
+    words = ["--scatter", "material.E=3%", "--tolerance", "thickness=±0.004", "--measure", "force_force"]
+    done = call("sigma", deck, *few, *words, "--correlate", "E,thickness=0.5", "--limit", "external_work=0:1")
+    assert done.exit_code == 0, done.output
+    assert "Shares of the variance" in done.output
+    found = table("results/deck-sigma/scatter.csv")
+    # the work of a small force is its square over the stiffness, (p t)^2 / (E t^3)
+    sizes = np.array([-3.0, -0.4 / 3.0 / 0.1])
+    variance = sizes @ np.array([[1.0, 0.5], [0.5, 1.0]]) @ sizes
+    relative = float(found["external_work.deviation"]["value"]) / float(found["external_work.mean"]["value"])
+    assert 100.0 * relative == pytest.approx(np.sqrt(variance), rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        (["--scatter", "nu=1%"], ["where:  material.nu", "a part of zero is no scatter"]),
+        (["--scatter", "mu=1%"], ["where:  --scatter", "material.E"]),
+        (["--scatter", "E"], ["where:  --scatter", "the sign = is missing", "PATH=SIZE"]),
+        (["--scatter", "E=1%", "--scatter", "E=2%"], ["where:  --scatter", "a name has two values"]),
+        (["--tolerance", "E=±x"], ["where:  E", "a scatter is a number"]),
+        (["--scatter", "E=1%", "--correlate", "E,nu=a"], ["where:  --correlate"]),
+        (["--scatter", "E=1%", "--limit", "force_force=4"], ["where:  --limit", "low:high"]),
+        (["--scatter", "E=1%", "--hold", "force_force=mu"], ["where:  --hold"]),
+        (["--limit", "force_force=1:4"], ["where:  --scatter", "no parameter scatters"]),
+    ],
+)
+def test_refusals(deck, words, expected):
+    done = call("sigma", deck, *words)
+    assert done.exit_code == 1
+    for text in (*expected, "remedy:"):
+        assert text in done.output
+    assert "Traceback" not in done.output
+
+
+def test_an_unknown_result_is_refused(deck):
+    done = call("sigma", deck, "--set", "steps.0.increments=1", "--scatter", "E=1%", "--limit", "angle=1:4")
+    assert done.exit_code == 1
+    assert "where:  --limit" in done.output
+    assert "force_force" in done.output
+
+
+def test_a_bend_at_a_held_angle(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    words = [
+        "--scatter",
+        "thickness=1%",
+        "--scatter",
+        "strength=4%",
+        "--hold",
+        "angle=stroke",
+        "--limit",
+        "stroke=2.9:",
+    ]
+    done = call("bend", *COARSE, *words)
+    assert done.exit_code == 0, done.output
+    found = table("results/bend/scatter.csv")
+    case = AirBending(stroke=3.0, layers=1, thickness_points=5, increment=0.05, elements_per_thickness=1.5)
+    by = ["thickness", "material.hardening.strength"]
+    follow = uf.derivatives(case, by, ["angle"], hold={"angle": "stroke"}, progress=False)
+    sizes = [0.02, 0.04 * 520.0]
+    expected = np.hypot(*(follow["stroke", path].value * size for path, size in zip(by, sizes)))
+    assert float(found["stroke.deviation"]["value"]) == pytest.approx(expected)
+    cpk = float(found["stroke.cpk"]["value"])
+    assert cpk == pytest.approx(0.1 / (3.0 * expected))
+
+
+def test_a_bend_refuses_before_it_runs(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    done = call("bend", "--angle", "90", "--scatter", "die-radius=1%")
+    assert done.exit_code == 1
+    assert "did you mean die_radius?" in done.output
+    assert not (tmp_path / "results").exists()
+
+
+def test_a_drawn_part_is_that_of_a_run_of_its_problem():
+    sizes = {"length": 110.0, "stroke": 12.0, "turn": 30.0}
+    case = UBend(**NUMISHEET | UBend.meshes["coarse"] | sizes, material=AirBending().material)
+    problem = problem_of(case).build()
+    run = uf.solve(problem.model, problem.steps, options=problem.options, frames=1, progress=False)
+    assert outcome_of(case, run).values == draw(case, progress=False).values
