@@ -32,7 +32,7 @@ export OMP_WAIT_POLICY ?= passive
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
-.PHONY: help env book dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification mutants lint lint-python lint-imports lint-types lint-page lint-stubs lint-format lint-cpp stubs \
+.PHONY: help env book dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification mutants lint lint-python lint-once lint-imports lint-types lint-page lint-stubs lint-format lint-cpp stubs \
         format docs wheel bench dome robust robust-draws balances ubend cup draws s-rail compare peers clean
 
 help:  ## show this help
@@ -248,12 +248,16 @@ wheel: env $(VENV)/.wheel  ## wheels of umform and of the book in dist, tested i
 
 # ---- style ----
 
-lint: lint-python lint-imports lint-types lint-page lint-stubs lint-format lint-cpp  ## style, types and names, in Python and in C++
+lint: lint-python lint-once lint-imports lint-types lint-page lint-stubs lint-format lint-cpp  ## style, types and names, in Python and in C++
 
 lint-python: $(VENV)/.dev
 	$(SAY) 'ruff'
 	@$(BIN)/ruff check -q .
 	@$(BIN)/ruff format -q --check . || { echo "run 'make format' on the files that 'ruff format --check .' names"; exit 1; }
+
+lint-once: $(VENV)/.dev
+	$(SAY) 'defaults and bounds that are stated twice'
+	@$(BIN)/python tools/said_once.py
 
 lint-imports: $(VENV)/.dev
 	$(SAY) 'direction of imports'

@@ -44,7 +44,10 @@ autosummary_ignore_module_all = False
 autodoc_typehints = "signature"
 autodoc_typehints_format = "short"
 autodoc_preserve_defaults = False  # signatures name the fields of a Spec that stand in no source
-ALIASES = "AnyFriction ArrayLike Cells Direction Floats FrictionFunction GapFunction Material Rolling Selector"
+ALIASES = (
+    "AnyFriction ArrayLike Cells Direction Floats FrictionFunction Gap GapFunction Layers Material Positive Rolling "
+    "Selector Stiffness Vector"
+)
 autodoc_type_aliases = {name: name for name in ALIASES.split(" ")}
 python_use_unqualified_type_names = True
 python_maximum_signature_line_length = 90

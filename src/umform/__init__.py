@@ -52,6 +52,11 @@ if TYPE_CHECKING:
     from umform.studies.goals import Compensated as Compensated
     from umform.studies.goals import Wanted as Wanted
     from umform.studies.goals import compensate as compensate
+    from umform.studies.identification import Identified as Identified
+    from umform.studies.identification import MeasuredCurve as MeasuredCurve
+    from umform.studies.identification import MeasuredNumber as MeasuredNumber
+    from umform.studies.identification import Sought as Sought
+    from umform.studies.identification import identify as identify
     from umform.studies.scatter import Scatter as Scatter
     from umform.studies.scatter import Scattered as Scattered
     from umform.studies.scatter import scatter as scatter
@@ -117,6 +122,7 @@ _HOME = {
     "umform.studies.derivatives": ("Derivatives", "derivatives"),
     "umform.studies.goals": ("Compensated", "Wanted", "compensate"),
     "umform.studies.scatter": ("Scatter", "Scattered", "scatter"),
+    "umform.studies.identification": ("Identified", "MeasuredCurve", "MeasuredNumber", "Sought", "identify"),
     "umform.studies.sweep": ("Sweep", "sweep"),
 }
 _MODULES = {

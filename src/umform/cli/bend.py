@@ -15,7 +15,8 @@ from umform.cli.compensate import By, Want, compensated
 from umform.cli.derive import Derive, derived
 from umform.cli.drawn_tools import drawn_tools
 from umform.cli.given import Given, given_by
-from umform.cli.goals import check_goal, check_length, check_no_goal, check_press, strokes_of
+from umform.cli.goals import check_goal, check_length, check_measured, check_no_goal, check_press, strokes_of
+from umform.cli.identify import MOST, Find, Quantities, identify_case
 from umform.cli.metal import law_of
 from umform.cli.options import (
     SHEET,
@@ -33,7 +34,7 @@ from umform.cli.options import (
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
-from umform.cli.scattering import Wishes, scattering, show_scatter
+from umform.cli.scattering import Wishes, scattering
 from umform.cli.sequence import run_sequence
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
@@ -86,6 +87,8 @@ def bend(
     want: Want = None,
     by: By = None,
     derive: Derive = None,
+    find: Annotated[list[str] | None, Find] = None,
+    quantity: Annotated[list[str] | None, Quantities] = None,
     deck: PrintDeck = False,
     overwrite: Overwrite = False,
     force: Force = False,
@@ -138,6 +141,10 @@ def bend(
     case = compensated(case, want, by)
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
+    if find or quantity:
+        check_measured(angle, table, force_per_metre, budget, derive)
+        identify_case(case, find or (), None, quantity, out, Path("results/bend-identified"), MOST, overwrite)
+        return
     if deck:
         _print_deck(case, angle, force_per_metre, tolerance)
         return
@@ -155,12 +162,14 @@ def bend(
             rows += bending_table(case, strokes, brake=brake) if strokes else []
             done = replace(_bent(brake, case, angle, force_per_metre, tolerance), table=tuple(rows))
         more: list[Path] = []
+        scatter: list[Path] = []
         try:
             if budget:
                 from umform.processes.air_bending.budget import error_budget
 
                 done = replace(done, budget=error_budget(done.case, done.measures, processes=processes))
             done, more = derived(done, done.case, derive, place, None if angle is None else {"angle": "stroke"})
+            done, scatter = wishes.added_to(done, done.case, place)
             with printing(f"the files of the bend are in {place}"):
                 total = "" if length is None else total_force(done.measures.largest_force, length)
                 show_outcome(done, total, note)
@@ -169,10 +178,8 @@ def bend(
             raise
         finally:  # even if the table cannot be printed
             with done.result.timing.files:
-                files = [*write_files(place, done, note), *more]
+                files = [*write_files(place, done, note), *more, *scatter]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
-    if wishes:
-        show_scatter(wishes.run(done.case), place, done.warnings)
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
 

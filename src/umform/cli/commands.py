@@ -23,6 +23,7 @@ FILES = {
     "draw": "draw",
     "elements": "elements",
     "hem": "hem",
+    "identify": "identify",
     "metal": "metals",
     "new": "new",
     "paths": "paths",

@@ -30,7 +30,7 @@ from umform.cli.options import (
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
-from umform.cli.scattering import Wishes, scattering, show_scatter
+from umform.cli.scattering import Wishes, scattering
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
@@ -259,16 +259,17 @@ def _run(
         say(f"umform: the mesh of the blank is drawn in {picture}")
         drawn = how(case, limit=curve)
         more: list[Path] = []
+        scatter: list[Path] = []
         try:
             drawn, more = derived(drawn, case, derive if drawn.released else None, place)
+            if drawn.released:
+                drawn, scatter = wishes.added_to(drawn, case, place)
             with printing(f"the files of the part are in {place}"):
                 show_outcome(drawn, note)
         finally:  # even if the table cannot be printed
             with drawn.result.timing.files:
-                files = [*write_files(place, drawn, note, blank), *more]
+                files = [*write_files(place, drawn, note, blank), *more, *scatter]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
-    if wishes and drawn.released is not None:
-        show_scatter(wishes.run(case), place, drawn.warnings)
     if timing:
         show_timing(drawn.result.timing)
     if drawn.released is None:

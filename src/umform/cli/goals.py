@@ -54,6 +54,18 @@ def check_no_goal(option: str, *goals: object) -> None:
         )
 
 
+def check_measured(*goals: object) -> None:
+    """Refuse goals beside what was measured at a stroke."""
+    if any(goal is not None and goal is not False for goal in goals):
+        raise InvalidValue(
+            "a measured bend has a stroke",
+            where="--find",
+            cause="--angle, --table, --force-per-metre, --budget or --derive beside it",
+            remedy="--stroke 6.1 --find strength=400:700 --quantity angle=91.6+-.1; find the stroke of the next bend "
+            "with the corrected metal",
+        )
+
+
 def check_press(
     angle: float | None,
     table: str | None,

@@ -10,6 +10,7 @@ import typer
 
 from umform.cli.metal import by_name
 from umform.cli.root import Debug, Overwrite, app, console, printing
+from umform.errors import InvalidValue
 
 if TYPE_CHECKING:
     from umform.sheet_metals import SheetMetal
@@ -24,6 +25,8 @@ def metal() -> None:
     """Sheet metals with sources, and laws from measurements."""
 
 
+#: Columns of measurements.
+_COLUMNS = ("angle", "stress", "r", "strain", "plastic_strain", "modulus")
 _MEASURED, _LAW, _FILES = "Measurements (CSV)", "Law", "Files"
 
 
@@ -135,12 +138,25 @@ def fit(
         Path | None, _option("Columns strain (or plastic_strain) and stress, up to the largest force.", _MEASURED)
     ] = None,
     cycles: Annotated[Path | None, _option("Columns strain and stress, in the order of time.", _MEASURED)] = None,
+    unloading: Annotated[
+        Path | None, _option("Columns plastic_strain and modulus: slopes of unloading in MPa.", _MEASURED)
+    ] = None,
+    column: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=OTHER",
+            help="Another name of a column in the files, such as stress=sigma; repeatable.",
+            rich_help_panel=_MEASURED,
+        ),
+    ] = None,
     engineering: Annotated[
         bool, typer.Option("--engineering", help="Engineering strain and stress.", rich_help_panel=_MEASURED)
     ] = False,
     percent: Annotated[bool, typer.Option("--percent", help="Strains in per cent.", rich_help_panel=_MEASURED)] = False,
     yield_function: Annotated[str, _option("hill48 or yld2004, fitted to --angles.", _LAW)] = "hill48",
-    exponent: Annotated[float, _option("Exponent of Yld2004: 6 for steel, 8 for aluminium.", _LAW)] = 8.0,
+    exponent: Annotated[
+        float | None, _option("Exponent of Yld2004: 6 for steel, 8 for aluminium; default: that of the law.", _LAW)
+    ] = None,
     hardening: Annotated[
         str, _option("swift, voce, linear-voce, linear, perfect, table, or auto: the best of the first three.", _LAW)
     ] = "auto",
@@ -159,20 +175,31 @@ def fit(
     The files and the law are described in docs/materials.md.
     """
     from umform.io.folders import folder_for
-    from umform.studies.calibration import Measurements, calibrate, read_cycles, read_directions, read_tension
+    from umform.studies.calibration import (
+        Measurements,
+        calibrate,
+        read_cycles,
+        read_directions,
+        read_tension,
+        read_unloading,
+    )
     from umform.studies.calibration.files import FILES, write_files
 
+    names = dict(_renamed(text) for text in column or ())
     measured = Measurements(
-        None if angles is None else read_directions(angles),
-        None if tension is None else read_tension(tension, young, engineering=engineering, percent=percent),
-        None if cycles is None else read_cycles(cycles, young, engineering=engineering, percent=percent),
+        None if angles is None else read_directions(angles, names),
+        None
+        if tension is None
+        else read_tension(tension, young, engineering=engineering, percent=percent, names=names),
+        None if cycles is None else read_cycles(cycles, young, engineering=engineering, percent=percent, names=names),
+        None if unloading is None else read_unloading(unloading, young, percent=percent, names=names),
     )
     found = calibrate(
         measured,
         young,
         poisson,
         yield_function=yield_function,
-        exponent=exponent,
+        **({} if exponent is None else {"exponent": exponent}),
         hardening=hardening,
         back_stress=back_stress,
         largest_step=largest_step,
@@ -185,6 +212,20 @@ def fit(
     finally:  # even if the table cannot be printed
         files = write_files(place, found)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+
+
+def _renamed(text: str) -> tuple[str, str]:
+    """One of our columns, and its name in the files."""
+    name, sign, other = (part.strip() for part in text.partition("="))
+    if name not in _COLUMNS or not other:
+        raise InvalidValue(
+            "this renames no column",
+            where="--column",
+            value=text,
+            cause="the sign = is missing" if not sign else "another name before the sign, or nothing behind it",
+            remedy=f"NAME=OTHER, where NAME is one of {', '.join(_COLUMNS)}",
+        )
+    return name, other
 
 
 def _show(found: Calibration) -> None:

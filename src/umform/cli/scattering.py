@@ -3,38 +3,38 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
 from umform.cli.given import in_place_of
-from umform.cli.outcome_screen import print_table
-from umform.cli.root import console, say_of
-from umform.cli.warnings import echo_warnings
+from umform.cli.root import say_of
 from umform.errors import InvalidValue
 
 if TYPE_CHECKING:
+    from umform.results.outcome import Outcome
     from umform.studies.scatter import Scattered
     from umform.studies.scatter.study import Plan
 
+_Outcome = TypeVar("_Outcome", bound="Outcome")
 _PANEL = "Scatter of the results"
 
 
 #: Option, its values and its help, by the names of `uf.scatter`.
 _OPTIONS = {
-    "sources": ("--scatter", "PATH=SIZE", "Standard deviation of a parameter, such as thickness=2% or 0.02"),
+    "sources": ("--scatter", "PATH=SIZE", "Standard deviation of a parameter, such as `thickness=2%` or `0.02`"),
     "tolerances": (
         "--tolerance",
         "PATH=SIZE",
         "Tolerance of a parameter, such as `die_radius=±0.05`: three standard deviations",
     ),
     "correlations": ("--correlate", "A,B=NUMBER", "Correlation of two parameters, from -1 to 1"),
-    "limits": ("--limit", "NAME=LOW:HIGH", "Limits of a result, such as angle=89:91; for Cp and Cpk"),
-    "hold": ("--hold", "NAME=PATH", "Result that a parameter keeps constant, such as angle=stroke"),
+    "limits": ("--limit", "NAME=LOW:HIGH", "Limits of a result, such as `angle=89:91`; for Cp and Cpk"),
+    "hold": ("--hold", "NAME=PATH", "Result that a parameter keeps constant, such as `angle=stroke`"),
     "of": ("--measure", "NAME", "Result; default: those with limits, or all"),
 }
 
@@ -63,6 +63,15 @@ class Wishes:
         """The scatter of a problem or a case."""
         with self._refusals():
             return self._plan(subject).run()
+
+    def added_to(self, outcome: _Outcome, case: Any, place: Path) -> tuple[_Outcome, list[Path]]:
+        """The outcome of a process with the scatter of its results, and the files; without any, the outcome itself."""
+        if not self:
+            return outcome, []
+        found = self.run(case)
+        for annex in found.annexes:
+            outcome = outcome.with_annex(annex)
+        return outcome, found.write(place)
 
     @staticmethod
     @contextmanager
@@ -145,22 +154,3 @@ def scattering(command: Callable[..., Any]) -> Callable[..., Any]:
 def _repeatable(name: str, metavar: str, text: str) -> Any:
     info = typer.Option(name, metavar=metavar, help=f"{text}; repeatable.", rich_help_panel=_PANEL)
     return Annotated[list[str] | None, info]
-
-
-def show_scatter(found: Scattered, folder: Path, said: Sequence[str] = ()) -> None:
-    """Print the tables, write the files, and print the warnings.
-
-    Parameters
-    ----------
-    found : Scattered
-        The scatter.
-    folder : Path
-        Where the files go.
-    said : sequence of str
-        Warnings that have been printed.
-    """
-    for title, rows in found.tables.items():
-        print_table(rows, title)
-    files = ", ".join(file.name for file in found.write(folder))
-    console().print(f"Written to {folder}: {files}", soft_wrap=True, markup=False)
-    echo_warnings(text for text in found.warnings if text not in said)

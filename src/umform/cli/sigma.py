@@ -8,8 +8,10 @@ from typing import Annotated
 import typer
 
 from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read
+from umform.cli.derive import say_written
+from umform.cli.outcome_screen import show_annex
 from umform.cli.root import Debug, Overwrite, Verbose, app
-from umform.cli.scattering import Wishes, scattering, show_scatter
+from umform.cli.scattering import Wishes, scattering
 from umform.cli.warnings import print_warnings_once
 
 
@@ -46,4 +48,7 @@ def sigma(
         out, default, FILES, overwrite=overwrite, say=lambda text: typer.echo(f"umform: {text}", err=True)
     )
     with staging(place, FILES):
-        show_scatter(wishes.run(loaded), place)
+        found = wishes.run(loaded)
+        for annex in found.annexes:
+            show_annex(annex)
+        say_written(found.write(place))

@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
+from umform.spec import check_arguments
+from umform.spec.types import ElementTurn
 
 Floats = NDArray[np.float64]
 
@@ -60,7 +62,7 @@ class Sizes:
 
 
 def bending_sizes(
-    start: float, end: float, bent: Sequence[Bent], *, turn: float, largest: float, growth: float = 1.5
+    start: float, end: float, bent: Sequence[Bent], *, turn: ElementTurn, largest: float, growth: float = 1.5
 ) -> Sizes:
     """Ends of elements along a line that turn by at most an angle over the radii of tools. eq. (5.69)
 
@@ -86,13 +88,14 @@ def bending_sizes(
     InvalidValue
         If a number is out of range.
     """
-    if not (start < end and 0.0 < turn <= 90.0 and largest > 0.0 and growth > 1.0):
+    check_arguments(bending_sizes, turn=turn)
+    if not (start < end and largest > 0.0 and growth > 1.0):
         raise InvalidValue(
-            "sizes need a line, an angle of up to 90 degrees, a largest size, and a growth of more than one",
+            "sizes need a line, a largest size, and a growth of more than one",
             where="bending_sizes",
-            value=f"{start:g} to {end:g}, turn {turn:g}, largest {largest:g}, growth {growth:g}",
-            cause="a sign, radians in place of degrees, or the ends exchanged",
-            remedy="turn=15, growth=1.5",
+            value=f"{start:g} to {end:g}, largest {largest:g}, growth {growth:g}",
+            cause="a sign, or the ends exchanged",
+            remedy="growth=1.5",
         )
     at = np.linspace(start, end, 2001)
     size = np.full(at.shape, largest)

@@ -4,53 +4,60 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import Annotated, Literal
 
 import numpy as np
+from annotated_types import Ge, Le
 from numpy.typing import NDArray
 
 from umform.errors import InvalidValue, WrongCellType
-from umform.mesh.generators import graded
+from umform.mesh.generators import Divisions, Layers, Lines, graded
 from umform.mesh.mesh import FACE_NODES, Floats, Mesh
 from umform.mesh.neighbours import Whole, outer_faces
+from umform.spec import About, check_arguments
+from umform.spec.types import Positive
 
-#: Half-width of the core of a disc, and how far its sides bulge from straight lines towards a circle.
-_CORE, _BULGE = 0.5, 0.6
-_PARTS = ("whole", "half", "quarter")
+#: How far the sides of the core of a disc bulge from straight lines towards a circle.
+_BULGE = 0.6
+Portion = Literal["whole", "half", "quarter"]
 
 
 def disc(
-    radius: float,
-    thickness: float,
-    cells: tuple[int, int],
+    radius: Positive,
+    thickness: Positive,
+    cells: tuple[Divisions, Divisions],
     *,
-    part: str = "whole",
+    part: Portion = "whole",
     cell: str = "hex8",
-    layers: int = 1,
-    grading: float = 1.0,
-    core: float = _CORE,
-    radii: Sequence[float] | None = None,
+    layers: Layers = 1,
+    grading: Positive = 1.0,
+    core: Annotated[float, Ge(0.05), Le(0.75), About(cause="a length in place of a part of the radius")] = 0.5,
+    radii: Lines | None = None,
 ) -> Mesh:
     """Flat disc about the z-axis, mid-surface at z = 0: a square core in the middle, rings of elements around it.
 
     Parameters
     ----------
-    radius, thickness : float
-        Dimensions.
+    radius : float
+        Radius of the rim.
+    thickness : float
+        Along z.
     cells : tuple of int
-        Elements along an edge of the core of a quarter (half of those on a quarter of the rim), and from the core to
+        Elements along a side of the core of a quarter (half of those on a quarter of the rim), and from the core to
         the rim.
     part : {"whole", "half", "quarter"}
         A half has x >= 0, a quarter y >= 0 as well.
     cell : {"hex8", "hex18"}
         Cell type.
     layers : int
-        Elements stacked through the thickness.
+        Elements through the thickness.
     grading : float
         Ratio of the last to the first element size, from the core to the rim.
     core : float
         Half-width of the core, relative to the radius.
     radii : sequence of float, optional
-        Radii of the rings in place of the second number of cells and the grading: from ``core * radius`` to ``radius``.
+        Radii of the rings, from ``core * radius`` to ``radius``, in place of the second number of cells and the
+        grading.
 
     Returns
     -------
@@ -63,9 +70,8 @@ def disc(
     InvalidValue
         If a number is out of range.
     """
-    _check(part, cells, layers, radius=radius, thickness=thickness)
-    if not 0.05 <= core <= 0.75:
-        raise InvalidValue("the core of a disc takes 0.05 to 0.75 of its radius", value=core, remedy="0.5 is usual")
+    _check_cells(cells)
+    check_arguments(disc, radius=radius, thickness=thickness, part=part, layers=layers, core=core)
     sides, rings = cells
     order = order_of(cell)
     square = np.linspace(0.0, 1.0, sides * order + 1)
@@ -85,26 +91,32 @@ def disc(
 
 
 def ring(
-    inner: float,
-    outer: float,
-    thickness: float,
-    cells: tuple[int, int],
+    inner: Positive,
+    outer: Positive,
+    thickness: Positive,
+    cells: tuple[Divisions, Divisions],
     *,
-    part: str = "whole",
+    part: Portion = "whole",
     cell: str = "hex8",
-    layers: int = 1,
-    grading: float = 1.0,
+    layers: Layers = 1,
+    grading: Positive = 1.0,
 ) -> Mesh:
     """Flat ring about the z-axis, mid-surface at z = 0.
 
     Parameters
     ----------
-    inner, outer, thickness : float
-        Radii and thickness.
+    inner : float
+        Radius of the hole.
+    outer : float
+        Radius of the rim.
+    thickness : float
+        Along z.
     cells : tuple of int
         Elements on a quarter of the circle, and from the hole to the rim.
-    part, cell, layers, grading
-        As for :func:`disc`; the grading goes from the hole to the rim.
+    part, cell, layers
+        As for :func:`disc`.
+    grading : float
+        Ratio of the last to the first element size, from the hole to the rim.
 
     Returns
     -------
@@ -116,7 +128,8 @@ def ring(
     InvalidValue
         If a number is out of range.
     """
-    _check(part, cells, layers, inner=inner, outer=outer, thickness=thickness)
+    _check_cells(cells)
+    check_arguments(ring, inner=inner, outer=outer, thickness=thickness, part=part, layers=layers)
     if not inner < outer:
         raise InvalidValue("the outer radius of a ring is larger than the inner one", value=f"{inner:g}, {outer:g}")
     around, rings = cells
@@ -136,7 +149,7 @@ def _along(length: float, cells: int, grading: float, order: int) -> Floats:
     return ends if order == 1 else np.sort(np.concatenate([ends, 0.5 * (ends[1:] + ends[:-1])]))
 
 
-def _parts_of(radii: Sequence[float], first: float, last: float, order: int) -> Floats:
+def _parts_of(radii: Lines, first: float, last: float, order: int) -> Floats:
     """Radii of rings as parts of the way from the core to the rim, with middle nodes half-way."""
     given = np.asarray(radii, dtype=float)
     ends = np.ptp(given) if given.ndim == 1 and len(given) > 1 else 0.0
@@ -203,11 +216,6 @@ def order_of(cell: str) -> int:
     return 1 if cell == "hex8" else 2
 
 
-def _check(part: str, cells: tuple[int, int], layers: int, **lengths: float) -> None:
-    if part not in _PARTS:
-        raise InvalidValue("unknown part of a blank", value=part, remedy=f"choose one of {', '.join(_PARTS)}")
-    if not isinstance(cells, tuple | list) or len(cells) != 2 or min(cells) < 1 or layers < 1:
-        raise InvalidValue("cells are two numbers, layers one, all at least 1", value=f"cells {cells}, layers {layers}")
-    for name, value in lengths.items():
-        if not (math.isfinite(value) and value > 0):
-            raise InvalidValue(f"the {name} of a blank must be positive", value=value)
+def _check_cells(cells: tuple[int, int]) -> None:
+    if not isinstance(cells, tuple | list) or len(cells) != 2 or min(cells) < 1:
+        raise InvalidValue("cells are two numbers, both at least 1", value=cells)

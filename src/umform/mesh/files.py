@@ -13,6 +13,7 @@ from umform.mesh.mesh import Floats, Mesh
 from umform.mesh.neighbours import Whole, outer_faces
 from umform.mesh.orient import orient
 from umform.mesh.thicken import thicken
+from umform.spec import takes
 
 
 def read(path: str | Path, through: str | ArrayLike | None = None) -> Mesh:
@@ -26,8 +27,8 @@ def read(path: str | Path, through: str | ArrayLike | None = None) -> Mesh:
     path : str or Path
         The file.
     through : str or array_like, optional
-        Direction through the thickness, as for :func:`orient`: ``"thinnest"``, an axis, a vector, or the name of a set
-        of nodes. Without it the first four nodes of each cell are those of its lower face.
+        Direction through the thickness, to the upper face: ``thinnest``, an axis, a vector, or the name of a set with
+        all nodes of the lower face. Without it the first nodes of each cell are those of its lower face.
 
     Returns
     -------
@@ -62,13 +63,8 @@ def read(path: str | Path, through: str | ArrayLike | None = None) -> Mesh:
     return orient(raw.points, hexahedra, _sets(raw, 3), through=through)
 
 
-def read_shell(
-    path: str | Path,
-    thickness: float | ArrayLike,
-    *,
-    surface: str = "middle",
-    kink: float = 100.0,
-) -> Mesh:
+@takes(thicken, "points", "quads", "thickness", "sets")
+def read_shell(path: str | Path, thickness: float | ArrayLike, **how: Any) -> Mesh:
     """Read a surface of quadrilaterals from any file that meshio reads, and thicken it along its normals.
 
     Named groups of nodes, of quadrilaterals and of lines become node sets of both faces.
@@ -77,8 +73,10 @@ def read_shell(
     ----------
     path : str or Path
         The file.
-    thickness, surface, kink
+    thickness : float or array_like, shape (n,)
         As for :func:`thicken`.
+    **how
+        Surface and kink, as for :func:`thicken`.
 
     Returns
     -------
@@ -96,7 +94,7 @@ def read_shell(
 
     raw = meshes.read_by_meshio(Path(path))
     quads = _cells(raw, path, ("quad", "quad8", "quad9"), 2, "quadrilaterals with 4, 8 or 9 nodes")
-    return thicken(_three(raw.points), quads, thickness, _sets(raw, 2), surface=surface, kink=kink)
+    return thicken(_three(raw.points), quads, thickness, _sets(raw, 2), **how)
 
 
 def _cells(raw: Any, path: str | Path, known: tuple[str, ...], dimension: int, wanted: str) -> Whole:

@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
+from annotated_types import Ge, Le, MaxLen, MinLen
 from numpy.typing import ArrayLike
 
 from umform.errors import InvalidValue, WrongCellType
 from umform.mesh.mesh import FACE_NODES, Floats, Mesh
 from umform.mesh.numbers import common
+from umform.spec import About, InDeck, check_arguments
+from umform.spec.types import Positive
+
+#: Number of elements along a line, and through the thickness.
+Divisions = Annotated[int, Ge(1), Le(100_000), About(cause="a fraction, or a sign")]
+Layers = Annotated[int, Ge(1), Le(100), About(cause="a fraction, or a sign")]
+#: Positions of grid lines.
+Lines = Annotated[ArrayLike, InDeck(Annotated[list[float], MinLen(2), MaxLen(100_001)])]
 
 
-def graded(length: float, cells: int, ratio: float = 1.0) -> Floats:
+def graded(length: Positive, cells: Divisions, ratio: Positive = 1.0) -> Floats:
     """Grid lines from 0 to a length.
 
     Parameters
@@ -27,22 +38,20 @@ def graded(length: float, cells: int, ratio: float = 1.0) -> Floats:
     ndarray, shape (cells + 1,)
         Positions of the lines.
     """
-    if not isinstance(cells, int) or cells < 1 or not 0 < length < np.inf or not 0 < ratio < np.inf:
-        raise InvalidValue(
-            "a grid needs a positive length, a whole number of cells and a positive ratio of sizes",
-            value=f"length {length}, cells {cells}, ratio {ratio}",
-        )
+    check_arguments(graded, length=length, cells=cells, ratio=ratio)
     steps = ratio ** (np.arange(cells) / max(cells - 1, 1))
     return np.concatenate([[0.0], np.cumsum(steps) / steps.sum()]) * length
 
 
-def grid(x: ArrayLike, y: ArrayLike, z: ArrayLike, cell: str = "hex8") -> Mesh:
+def grid(x: Lines, y: Lines, z: Lines, cell: str = "hex8") -> Mesh:
     """Structured mesh from grid lines.
 
     Parameters
     ----------
-    x, y, z : array_like
-        Increasing positions of the element borders; z through the thickness, one element a layer.
+    x, y : array_like
+        Borders of the elements, increasing.
+    z : array_like
+        Borders of the layers, increasing.
     cell : {"hex8", "hex18"}
         Cell type.
 
@@ -102,32 +111,37 @@ def grid(x: ArrayLike, y: ArrayLike, z: ArrayLike, cell: str = "hex8") -> Mesh:
 
 
 def strip(
-    length: float,
-    width: float,
-    thickness: float,
-    cells: tuple[int, int],
+    length: Positive,
+    width: Positive,
+    thickness: Positive,
+    cells: tuple[Divisions, Divisions],
     *,
     cell: str = "hex8",
-    layers: int = 1,
+    layers: Layers = 1,
     grading: tuple[float, float] = (1.0, 1.0),
 ) -> Mesh:
     """Flat strip or plate: x from 0 to length, y from 0 to width, mid-surface at z = 0.
 
     Parameters
     ----------
-    length, width, thickness : float
-        Dimensions.
+    length : float
+        Along x.
+    width : float
+        Along y.
+    thickness : float
+        Along z.
     cells : tuple of int
-        Number of elements along x and y.
+        Elements along x and y.
     cell : {"hex8", "hex18"}
         Cell type.
     layers : int
-        Elements stacked through the thickness.
+        Elements through the thickness.
     grading : tuple of float
         Ratio of the last to the first element size, along x and y.
     """
     if not isinstance(cells, tuple | list) or len(cells) != 2:
         raise InvalidValue("cells are two numbers, along x and y", value=cells, remedy="cells=(24, 1)")
+    check_arguments(strip, layers=layers)
     return grid(
         graded(length, cells[0], grading[0]),
         graded(width, cells[1], grading[1]),

@@ -15,8 +15,11 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue, MeshError
 from umform.mesh.blanks import order_of, stacked
+from umform.mesh.generators import Layers
 from umform.mesh.mesh import Floats, Mesh
 from umform.mesh.neighbours import Whole
+from umform.spec import check_arguments
+from umform.spec.types import Positive
 
 #: Types of quadrilaterals and of triangles in gmsh, by the order of the nodes.
 _QUADS, _TRIANGLES = {1: 3, 2: 10}, (2, 9)
@@ -53,12 +56,12 @@ class Refinable(Protocol):
 
 def blank(
     outline: Closed,
-    thickness: float,
-    size: float | Callable[[float, float], float],
+    thickness: Positive,
+    size: Positive | Callable[[float, float], float],
     *,
     holes: Sequence[Closed] = (),
     cell: str = "hex8",
-    layers: int = 1,
+    layers: Layers = 1,
 ) -> Mesh:
     """Flat blank of any outline, mid-surface at z = 0.
 
@@ -67,7 +70,7 @@ def blank(
     outline : Profile
         Closed curve of lines and arcs in x and y.
     thickness : float
-        Of the sheet.
+        Along z.
     size : float or callable
         Length of the sides of elements, or a function (x, y) -> length. Near arcs it is smaller where an element would
         span more than 30 degrees. gmsh misses sizes by a factor of up to 1.5 (it recombines triangles, then halves the
@@ -77,7 +80,7 @@ def blank(
     cell : {"hex8", "hex18"}
         Cell type.
     layers : int
-        Elements stacked through the thickness.
+        Elements through the thickness.
 
     Returns
     -------
@@ -92,10 +95,7 @@ def blank(
     MeshError
         If gmsh finds no mesh of quadrilaterals.
     """
-    if not (math.isfinite(thickness) and thickness > 0 and layers >= 1):
-        raise InvalidValue("a blank has a positive thickness and a layer at least", value=f"{thickness}, {layers}")
-    if not callable(size) and not (math.isfinite(size) and size > 0):
-        raise InvalidValue("the size of elements must be positive", where="blank, size", value=size)
+    check_arguments(blank, thickness=thickness, size=size, layers=layers)
     for curve in (outline, *holes):
         if not curve.closed:
             raise InvalidValue("the outline of a blank is closed", where="blank", remedy="Profile(..., closed=True)")

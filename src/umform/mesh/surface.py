@@ -133,8 +133,6 @@ def directors(points: Floats, quads: Whole, kink: float) -> Floats:
 
 def _check_kinks(points: Floats, quads: Whole, cosine: Floats, kink: float) -> None:
     """Reject a kink that is too sharp for a mitre."""
-    if not 0 < kink < 180:
-        raise InvalidValue("the largest kink lies between 0 and 180 degrees", value=kink)
     sharpest = np.unravel_index(np.argmin(cosine), cosine.shape)
     angle = 2.0 * np.degrees(np.arccos(np.clip(cosine[sharpest], -1.0, 1.0)))
     if angle > kink:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Annotated, Literal
 
 import numpy as np
+from annotated_types import Gt, Lt
 from numpy.typing import ArrayLike
 
 from umform.errors import FoldedElement, InvalidValue, WrongCellType
@@ -12,6 +14,7 @@ from umform.mesh.mesh import Floats, Mesh
 from umform.mesh.neighbours import Whole, outer_faces, place, used_only, with_centres
 from umform.mesh.quality import jacobians
 from umform.mesh.surface import alike, directors
+from umform.spec import About, check_arguments
 
 #: Position of the given surface: parts of the thickness to the lower and to the upper face.
 _SURFACES = {"middle": (-0.5, 0.5), "lower": (0.0, 1.0), "upper": (-1.0, 0.0)}
@@ -23,8 +26,8 @@ def thicken(
     thickness: float | ArrayLike,
     sets: Mapping[str, ArrayLike] | None = None,
     *,
-    surface: str = "middle",
-    kink: float = 100.0,
+    surface: Literal["middle", "lower", "upper"] = "middle",
+    kink: Annotated[float, Gt(0.0), Lt(180.0), About(cause="radians, or a sign")] = 100.0,
 ) -> Mesh:
     """Give a surface of quadrilaterals its thickness, along its normals.
 
@@ -66,8 +69,7 @@ def thicken(
         If the thickness reaches beyond the centre of curvature.
     """
     X, corners, t, named = _checked(points, quads, thickness, sets or {})
-    if surface not in _SURFACES:
-        raise InvalidValue("unknown surface", value=surface, remedy=f"choose one of {', '.join(_SURFACES)}")
+    check_arguments(thicken, surface=surface, kink=kink)
     if corners.shape[1] == 8:
         X, corners, named = with_centres(np.column_stack([X, t]), corners, named)
         X, t = X[:, :3], X[:, 3]

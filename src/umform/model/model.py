@@ -18,7 +18,7 @@ from umform.model.beads import Beads
 from umform.model.bodies.bodies import Bodies
 from umform.model.bodies.body import Body
 from umform.model.changes import removal
-from umform.model.changes.kept_gap import stop_at_gap
+from umform.model.changes.kept_gap import Gap, stop_at_gap
 from umform.model.changes.opening import put_tool_back
 from umform.model.contact import Contact
 from umform.model.contact.contacts import Contacts
@@ -33,10 +33,10 @@ from umform.model.system import System
 from umform.model.terms.dead_load import Load
 from umform.model.terms.loads import Loads
 from umform.model.terms.state import Snapshot, State
-from umform.model.tools.press import check_stiffness
+from umform.model.tools.press import Stiffness
 from umform.model.tools.tool import Tool
 from umform.model.tools.tool_controls import ToolForce
-from umform.spec import takes
+from umform.spec import check_arguments, takes
 
 Floats = NDArray[np.float64]
 _P = ParamSpec("_P")
@@ -252,7 +252,7 @@ class Model:
         name : str, optional
             Name of the support.
         instead_of : Support or sequence of Support, optional
-            Supports that the same step Free removes; their nodes may be held.
+            Supports that the same step frees; their nodes may be held.
 
         Raises
         ------
@@ -265,7 +265,7 @@ class Model:
         dofs = gauge_dofs(self.system, ids, gone)
         return self.supports.wait(unique(dofs // 3).astype(np.int32), dofs, name)
 
-    def rest(self, stiffness: float | None = None, name: str = "rest", *, motions: str = "") -> Rest:
+    def rest(self, stiffness: Stiffness | None = None, name: str = "rest", *, motions: str = "") -> Rest:
         """Support a loose sheet by weak springs, removed for good once tools hold it.
 
         A run does so automatically, with the default stiffness, if tools that its steps move will hold the sheet. Set
@@ -283,12 +283,12 @@ class Model:
         """
         if stiffness is None:
             stiffness = 1e-12 * self.system.largest_entry(self.evaluate(self.state).values)
-        check_stiffness(stiffness, 0.0, f"rest {name}", "displacement")
+        check_arguments(Model.rest, f"rest {name}", stiffness=stiffness)
         term = Rest(name, self.u, stiffness, motions)
         self.system.add(term)
         return term
 
-    def keep_gap(self, force: ToolForce, to: Contact | Tool, gap: float) -> None:
+    def keep_gap(self, force: ToolForce, to: Contact | Tool, gap: Gap) -> None:
         """Keep a gap between a pressed tool and another one: rigid distance blocks take the excess of its force.
 
         The force of the blocks is the column ``<name>_stop``: with the force of the sheet on the tool it balances the
@@ -310,6 +310,7 @@ class Model:
         """
         other = to if isinstance(to, Tool) else to.tool
         press = self.tools.press_of(force)
+        check_arguments(Model.keep_gap, gap=gap)
         at, below = stop_at_gap(self.system, press, other, gap)
         self.tools.stop(force, at, below=below)
         press.gaps.append(other)

@@ -84,4 +84,18 @@ def json_schema() -> str:
         "description": schema.pop("description"),
     }
     schema.pop("title")
-    return json.dumps(head | schema, indent=1) + "\n"
+    return json.dumps(head | _with_whole_bounds(schema), indent=1) + "\n"
+
+
+def _with_whole_bounds(schema: Any) -> Any:
+    """The schema with bounds as 0, not 0.0: they are equal, and typing keeps the type that it has met before."""
+    if isinstance(schema, list):
+        return [_with_whole_bounds(one) for one in schema]
+    if not isinstance(schema, dict):
+        return schema
+    return {
+        key: int(one)
+        if key.lower().endswith("imum") and isinstance(one, float) and one.is_integer()
+        else _with_whole_bounds(one)
+        for key, one in schema.items()
+    }

@@ -8,97 +8,85 @@ from typing import Annotated, Literal
 
 from umform.model import Model
 from umform.model.contact import Contact
+from umform.model.contact.tools import Tools
+from umform.model.supports.supports import Supports
 from umform.model.terms.control import Control
+from umform.model.terms.loads import Loads
 from umform.model.tools.tool_controls import ToolForce, ToolWay
 from umform.problem.notes import Field
-from umform.problem.parts import Axis, Name, Part, Positive, Vector, Way
+from umform.problem.parts import Axis, Name, Part
 from umform.problem.selection import Selection, faces_of, nodes_of
 
 Contacts = Mapping[str, Contact]
 
 
-class Displacement(Part):
+class Displacement(Part, of=Supports.prescribe, leave=("nodes", "name", "axes")):
     """Displacement of nodes; its force is the sum of the reactions."""
 
     kind: Literal["displacement"]
-    """The word displacement."""
     nodes: Selection
     """Which nodes."""
     direction: Axis
-    """Direction."""
 
     def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
         """The control."""
-        return model.prescribe(nodes_of(model.mesh, self.nodes), self.direction, name)
+        return model.prescribe(nodes_of(model.mesh, self.nodes), name=name, **self.of_spec())
 
 
-class MidLine(Part):
+class MidLine(Part, of=Supports.prescribe_midline, leave=("nodes", "name", "axes")):
     """Displacement of the mid-line of an edge; the section may rotate about it."""
 
     kind: Literal["midline"]
-    """The word midline."""
     nodes: Selection
     """Lower and upper nodes of the edge."""
     direction: Axis
-    """Direction."""
 
     def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
         """The control."""
-        return model.prescribe_midline(nodes_of(model.mesh, self.nodes), self.direction, name)
+        return model.prescribe_midline(nodes_of(model.mesh, self.nodes), name=name, **self.of_spec())
 
 
-class Force(Part):
+class Force(Part, of=Loads.force, leave=("nodes", "name")):
     """The same dead force on each node of a set."""
 
     kind: Literal["force"]
-    """The word force."""
     nodes: Selection
     """Which nodes."""
-    force: Vector
-    """Force on each node for the value 1."""
 
     def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
         """The control."""
-        return model.force(nodes_of(model.mesh, self.nodes), self.force, name)
+        return model.force(nodes_of(model.mesh, self.nodes), name=name, **self.of_spec())
 
 
-class Traction(Part):
+class Traction(Part, of=Loads.traction, leave=("faces", "name")):
     """Dead traction on faces, lateral ones too."""
 
     kind: Literal["traction"]
-    """The word traction."""
     faces: Selection
     """Which faces."""
-    traction: Vector
-    """Force per reference area for the value 1."""
 
     def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
         """The control."""
-        return model.traction(faces_of(model.mesh, self.faces), self.traction, name)
+        return model.traction(faces_of(model.mesh, self.faces), name=name, **self.of_spec())
 
 
-class LineLoad(Part):
+class LineLoad(Part, of=Loads.line_load, leave=("faces", "name")):
     """Dead load on the lower or upper edge of lateral faces."""
 
     kind: Literal["line_load"]
-    """The word line_load."""
     faces: Selection
     """Which lateral faces."""
     side: Literal["lower", "upper"]
-    """Which of their edges."""
-    load: Vector
-    """Force per reference length for the value 1."""
 
     def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
         """The control."""
-        return model.line_load(faces_of(model.mesh, self.faces), self.side, self.load, name)
+        return model.line_load(faces_of(model.mesh, self.faces), name=name, **self.of_spec())
 
 
 class Pressure(Part):
     """Follower pressure on lower or upper faces; its value is the pressure."""
 
     kind: Literal["pressure"]
-    """The word pressure."""
     faces: Selection
     """Which faces."""
 
@@ -107,17 +95,14 @@ class Pressure(Part):
         return model.pressure(faces_of(model.mesh, self.faces), name)
 
 
-class BodyForce(Part):
+class BodyForce(Part, of=Loads.body_force, leave=("name",)):
     """Dead force in the volume."""
 
     kind: Literal["body_force"]
-    """The word body_force."""
-    force: Vector
-    """Force per reference volume for the value 1."""
 
     def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
         """The control."""
-        return model.loads.body_force(self.force, name)
+        return model.loads.body_force(name=name, **self.of_spec())
 
 
 class _OfTool(Part):
@@ -134,52 +119,35 @@ class _OfTool(Part):
         return way
 
 
-class Drive(_OfTool):
+class Drive(_OfTool, of=Tools.drive, leave=("tool", "name")):
     """Translation of the tool of a contact; its force is that of the tool on the sheet, along the direction."""
 
     kind: Literal["tool"]
-    """The word tool."""
-    direction: Way
-    """Direction."""
 
     def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
         """The control."""
-        return self._followed(model, model.drive(contacts[self.contact], self.direction, name), contacts)
+        return self._followed(model, model.drive(contacts[self.contact], name=name, **self.of_spec()), contacts)
 
 
-class Turn(_OfTool):
+class Turn(_OfTool, of=Tools.turn, leave=("tool", "name")):
     """Rotation of the tool of a contact about an axis, in radians; its force is the moment of the tool on the sheet."""
 
     kind: Literal["turn"]
-    """The word turn."""
-    axis: Way
-    """Axis."""
-    about: Vector = (0.0, 0.0, 0.0)
-    """Point of the axis."""
 
     def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
         """The control."""
-        return self._followed(model, model.turn(contacts[self.contact], self.axis, self.about, name), contacts)
+        return self._followed(model, model.turn(contacts[self.contact], name=name, **self.of_spec()), contacts)
 
 
-class StopPart(Part):
+class StopPart(Part, of=Tools.stop, leave=("force",)):
     """A stop of a pressed tool: distance blocks, the end of a spring."""
 
-    at: float
-    """Displacement at which the tool meets it."""
-    stiffness: Positive | None = None
-    """Force per length beyond; by default it is rigid."""
-    below: bool = False
-    """Whether it is a lower bound of the displacement; by default an upper bound."""
 
-
-class GapPart(Part):
+class GapPart(Part, of=Model.keep_gap, leave=("force", "to"), called={"gap": "least"}):
     """Gap between a pressed tool and another one: rigid distance blocks between both."""
 
     to: Name
     """Contact of the other tool."""
-    least: Positive
-    """Smallest distance of both tools."""
 
 
 class _Pressed(Part):
@@ -192,59 +160,43 @@ class _Pressed(Part):
 
     def _stopped(self, model: Model, force: ToolForce) -> ToolForce:
         for stop in self.stops:
-            model.stop(force, stop.at, stop.stiffness, below=stop.below)
+            model.stop(force, **stop.of_spec())
         return force
 
 
-class Press(_Pressed):
+class Press(_Pressed, of=Tools.press, leave=("tool", "name")):
     """Force on the tool of a contact along a direction; the displacement is an unknown."""
 
     kind: Literal["press"]
-    """The word press."""
-    direction: Way
-    """Direction."""
     gap: GapPart | None = None
     """Gap between the tool and another one; the force is then an upper bound."""
 
     def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
         """The control."""
-        force = self._stopped(model, model.press(contacts[self.contact], self.direction, name))
+        force = self._stopped(model, model.press(contacts[self.contact], name=name, **self.of_spec()))
         if self.gap is not None:
-            model.keep_gap(force, contacts[self.gap.to], self.gap.least)
+            model.keep_gap(force, contacts[self.gap.to], **self.gap.of_spec())
         return force
 
 
-class Spring(_Pressed):
+class Spring(_Pressed, of=Tools.spring, leave=("tool", "name")):
     """A spring that holds the tool of a contact, and an additional force; the displacement is an unknown."""
 
     kind: Literal["spring"]
-    """The word spring."""
-    direction: Way
-    """Direction in which the spring pushes the tool."""
-    stiffness: Positive
-    """Force per length."""
-    preload: float = 0.0
-    """Force of the spring at the initial position of the tool."""
 
     def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
         """The control."""
-        contact = contacts[self.contact]
-        return self._stopped(model, model.spring(contact, self.direction, self.stiffness, self.preload, name))
+        return self._stopped(model, model.spring(contacts[self.contact], name=name, **self.of_spec()))
 
 
-class Moment(_Pressed):
+class Moment(_Pressed, of=Tools.press_turn, leave=("tool", "name")):
     """Moment on the tool of a contact about an axis; the angle is an unknown."""
 
     kind: Literal["moment"]
-    """The word moment."""
-    axis: Way
-    """Axis."""
-    about: Vector = (0.0, 0.0, 0.0)
-    """Point of the axis."""
 
     def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
         """The control."""
-        return self._stopped(model, model.press_turn(contacts[self.contact], self.axis, self.about, name))
+        return self._stopped(model, model.press_turn(contacts[self.contact], name=name, **self.of_spec()))
 
 
 ControlPart = Annotated[

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from itertools import pairwise
+from math import prod
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -14,32 +15,17 @@ from umform.errors import InvertedElement, MeshError, WrongNodeOrder
 from umform.mesh import Floats, Mesh
 from umform.problem.notes import Discriminator, Field, Refusal, Tag
 from umform.problem.outline import Outlined
-from umform.problem.parts import Pair, Part, Positive, Vector, tagged_by, word_or_array
-
-Divisions = Annotated[int, Field(ge=1, le=100_000)]
-Lines = Annotated[list[float], Field(min_length=2, max_length=100_001)]
+from umform.problem.parts import Part, Positive, Vector, tagged_by, word_or_array
 
 #: More cells than this are refused: a typing error should not fill the memory.
 _MOST_CELLS = 1_000_000
 
 
-class Strip(Part):
+class Strip(Part, of=mesh.strip, leave=("cell",)):
     """Strip or plate: x from 0 to length, y from 0 to width, mid-surface at z = 0; with the sets of a grid."""
 
     generator: Literal["strip", "plate"]
     """A plate is a wide strip."""
-    length: Positive
-    """Along x."""
-    width: Positive
-    """Along y."""
-    thickness: Positive
-    """Along z."""
-    cells: tuple[Divisions, Divisions]
-    """Elements along x and y."""
-    layers: Annotated[int, Field(ge=1, le=100)] = 1
-    """Elements through the thickness."""
-    grading: Pair = (1.0, 1.0)
-    """Ratio of the last to the first element size, along x and y."""
     shift: Vector = (0.0, 0.0, 0.0)
     """Translation of the mesh."""
     rolled: Positive | None = None
@@ -47,20 +33,19 @@ class Strip(Part):
 
     def __post_init__(self) -> None:
         """Refuse too many cells, and a strip that cannot be rolled."""
-        _refuse_too_many(self.cells[0] * self.cells[1] * self.layers)
-        if min(self.grading) <= 0:
+        flat = self.of_spec()
+        _refuse_too_many(prod(flat["cells"]) * flat["layers"])
+        if min(flat["grading"]) <= 0:
             raise Refusal("grading", "the ratios of a grading must be positive")
-        if self.rolled is not None and self.rolled <= 0.5 * self.thickness:
+        if self.rolled is not None and self.rolled <= 0.5 * flat["thickness"]:
             raise Refusal("rolled", "the radius of a rolled strip must be more than half of its thickness")
-        if self.rolled is not None and self.length >= 2 * np.pi * self.rolled:
+        if self.rolled is not None and flat["length"] >= 2 * np.pi * self.rolled:
             raise Refusal("rolled", "a rolled strip must be shorter than the full circle")
 
     def build(self, cell: str, folder: Path) -> Mesh:
         """Mesh of cells of a type."""
         del folder
-        flat = mesh.strip(
-            self.length, self.width, self.thickness, self.cells, cell=cell, layers=self.layers, grading=self.grading
-        )
+        flat = mesh.strip(cell=cell, **self.of_spec())
         if self.rolled is not None:
             flat = flat.transformed(_roll(self.rolled))
         return flat.transformed(lambda X: X + np.array(self.shift)) if any(self.shift) else flat
@@ -74,95 +59,57 @@ def _roll(radius: float) -> Any:
     return rolled
 
 
-class Grid(Part):
+class Grid(Part, of=mesh.grid, leave=("cell",)):
     """Grid of lines; with the sets x0, x1, y0, y1, lower, upper, and x0_lower, x0_upper, ... for their edges."""
 
     generator: Literal["grid"]
-    """The word grid."""
-    x: Lines
-    """Borders of the elements, increasing."""
-    y: Lines
-    """Borders of the elements, increasing."""
-    z: Lines
-    """Borders of the layers, increasing."""
 
     def __post_init__(self) -> None:
         """Refuse lines that do not increase, and too many cells."""
-        for name in ("x", "y", "z"):
-            lines = getattr(self, name)
+        for name, lines in self.of_spec().items():
             if any(b <= a for a, b in pairwise(lines)):
                 raise Refusal("lines", f"the lines of a grid must increase, those of {name} do not")
-        _refuse_too_many((len(self.x) - 1) * (len(self.y) - 1) * (len(self.z) - 1))
+        _refuse_too_many(prod(len(lines) - 1 for lines in self.of_spec().values()))
 
     def build(self, cell: str, folder: Path) -> Mesh:
         """Mesh of cells of a type."""
         del folder
-        return mesh.grid(self.x, self.y, self.z, cell)
+        return mesh.grid(cell=cell, **self.of_spec())
 
 
-Portion = Literal["whole", "half", "quarter"]
-
-
-class Blank(Part):
-    """Common keys of discs and rings: they lie about the z-axis, with the mid-surface at z = 0."""
-
-    thickness: Positive
-    """Along z."""
-    cells: tuple[Divisions, Divisions]
-    """Elements along a side of the core (of a ring: on a quarter of the circle), and towards the rim."""
-    part: Portion = "whole"
-    """A half has x >= 0, a quarter y >= 0 as well."""
-    layers: Annotated[int, Field(ge=1, le=100)] = 1
-    """Elements through the thickness."""
-    grading: Positive = 1.0
-    """Ratio of the last to the first element size, towards the rim."""
-
-
-class Disc(Blank):
+class Disc(Part, of=mesh.disc, leave=("cell",)):
     """A disc with a square core; with the sets rim and centre, those of parts also x0 and y0."""
 
     generator: Literal["disc"]
-    """The word disc."""
-    radius: Positive
-    """Of the rim."""
-    core: Annotated[float, Field(ge=0.05, le=0.75)] = 0.5
-    """Half-width of the core, relative to the radius."""
-    radii: Lines | None = None
-    """Radii of the rings, from the core to the rim, in place of the second number of cells and the grading."""
 
     def __post_init__(self) -> None:
         """Refuse too many cells."""
-        _refuse_too_many(4 * self.cells[0] * (self.cells[0] + 2 * self.cells[1]) * self.layers)
+        flat = self.of_spec()
+        sides, rings = flat["cells"]
+        _refuse_too_many(4 * sides * (sides + 2 * rings) * flat["layers"])
 
     def build(self, cell: str, folder: Path) -> Mesh:
         """Mesh of cells of a type."""
         del folder
-        how = {"part": self.part, "cell": cell, "layers": self.layers, "grading": self.grading}
-        rings = {"core": self.core, "radii": self.radii}
-        return mesh.disc(self.radius, self.thickness, self.cells, **how, **rings)  # type: ignore[arg-type]
+        return mesh.disc(cell=cell, **self.of_spec())
 
 
-class Ring(Blank):
+class Ring(Part, of=mesh.ring, leave=("cell",)):
     """A ring; with the sets rim and hole, those of parts also x0 and y0."""
 
     generator: Literal["ring"]
-    """The word ring."""
-    inner: Positive
-    """Radius of the hole."""
-    outer: Positive
-    """Radius of the rim."""
 
     def __post_init__(self) -> None:
         """Refuse a rim within the hole, and too many cells."""
-        if self.inner >= self.outer:
+        flat = self.of_spec()
+        if flat["inner"] >= flat["outer"]:
             raise Refusal("ring", "the outer radius of a ring must be larger than the inner one")
-        _refuse_too_many(4 * self.cells[0] * self.cells[1] * self.layers)
+        _refuse_too_many(4 * prod(flat["cells"]) * flat["layers"])
 
     def build(self, cell: str, folder: Path) -> Mesh:
         """Mesh of cells of a type."""
         del folder
-        how = {"part": self.part, "cell": cell, "layers": self.layers, "grading": self.grading}
-        return mesh.ring(self.inner, self.outer, self.thickness, self.cells, **how)  # type: ignore[arg-type]
+        return mesh.ring(cell=cell, **self.of_spec())
 
 
 Through = Annotated[
@@ -175,14 +122,12 @@ Through = Annotated[
 ]
 
 
-class File(Part):
+class File(Part, of=mesh.read, leave=("path",)):
     """Hexahedra of a file; its groups of nodes and cells are sets of nodes, its faces have the sets lower and upper."""
 
     file: Annotated[str, Field(min_length=1)]
     """Path, from the folder of the deck."""
-    through: Through | None = None
-    """Direction through the thickness, to the upper face: thinnest, an axis, a vector, or the name of a set with all
-    nodes of the lower face. Without it the first nodes of each cell are those of its lower face."""
+    through: Through | None
 
     def build(self, cell: str, folder: Path) -> Mesh:
         """The mesh; the model checks whether it suits the element."""
@@ -202,7 +147,7 @@ class File(Part):
         )
 
 
-class Shell(Part):
+class Shell(Part, of=mesh.thicken, leave=("points", "quads", "thickness", "sets")):
     """Quadrilaterals of a file, thickened along their normals; the set NAME contains the nodes of both faces,
     NAME_lower and NAME_upper those of one face.
     """
@@ -211,15 +156,11 @@ class Shell(Part):
     """Path, from the folder of the deck."""
     thickness: Positive
     """Thickness."""
-    surface: Literal["middle", "lower", "upper"] = "middle"
-    """The given surface: mid-surface, lower or upper face."""
-    kink: Annotated[float, Field(gt=0, lt=180)] = 100.0
-    """Largest angle in degrees between the quadrilaterals at a node."""
 
     def build(self, cell: str, folder: Path) -> Mesh:
         """The mesh; the model checks whether it suits the element."""
         del cell
-        return mesh.read_shell(folder / self.file, self.thickness, surface=self.surface, kink=self.kink)
+        return mesh.read_shell(folder / self.file, self.thickness, **self.of_spec())
 
 
 def _refuse_too_many(cells: int) -> None:

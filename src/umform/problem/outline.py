@@ -5,50 +5,43 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import field
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Literal
 
 from umform import mesh
 from umform.errors import InvalidValue
 from umform.mesh import Mesh
-from umform.problem.notes import Field
 from umform.problem.parts import NotNegative, Part, Positive
 from umform.problem.profiles import ProfilePart, profile_of
+from umform.spec.types import ElementTurn
 from umform.surfaces import Tool, ToolSizes, tool_sizes
 
 #: More cells than this are refused: a typing error should not fill the memory.
 _MOST_CELLS = 1_000_000
 
 
-class Outlined(Part):
+class Outlined(Part, of=mesh.blank, leave=("cell",)):
     """Flat blank with an outline of lines and arcs, mid-surface at z = 0: quadrilaterals by gmsh. Sets: rim, edge_0,
     edge_1, ... (segments of the outline), hole_0, ...
     """
 
     generator: Literal["outline"]
-    """The word outline."""
     outline: ProfilePart
-    """Closed curve of lines and arcs in x and y: corners, segments, or a DXF file."""
     holes: list[ProfilePart] = field(default_factory=list)
-    """Closed curves inside of it."""
-    thickness: Positive
-    """Along z."""
     size: Positive
     """Length of the sides of elements; with turn that of the largest ones."""
-    turn: Annotated[float, Field(gt=0, le=90)] | None = None
+    turn: ElementTurn | None = None
     """Largest angle in degrees that an element turns over the radii of tools that travel along z, those in contact with
     lower under the sheet, those with upper over it."""
     flow: NotNegative = 0.0
     """Sliding distance over the tools: places nearer than this to a radius have its sizes too."""
     smallest: NotNegative = 0.0
     """Least size, for tools with sharp edges."""
-    layers: Annotated[int, Field(ge=1, le=100)] = 1
-    """Elements through the thickness."""
 
     def build(self, cell: str, folder: Path, sizes: Callable[[float, float], float] | None = None) -> Mesh:
         """Mesh of cells of a type, of a constant size or with those of a function."""
         outline = profile_of(self.outline, folder)
         holes = [profile_of(hole, folder) for hole in self.holes]
-        cells = outline.area / self.size**2 * self.layers if outline.closed else 0.0
+        cells = outline.area / self.size**2 * self.of_spec()["layers"] if outline.closed else 0.0
         if cells > _MOST_CELLS:
             raise InvalidValue(
                 f"some {cells:.2g} cells are more than {_MOST_CELLS}",
@@ -57,8 +50,8 @@ class Outlined(Part):
                 cause="another unit of length",
                 remedy="larger elements",
             )
-        size = sizes or self.size
-        return mesh.blank(outline, self.thickness, size, holes=holes, cell=cell, layers=self.layers)
+        given = {"outline": outline, "holes": holes, "size": sizes or self.size}
+        return mesh.blank(cell=cell, **self.of_spec() | given)
 
     def sizes(self, below: Sequence[Tool], above: Sequence[Tool], folder: Path) -> ToolSizes:
         """Sizes that follow the radii of the tools, eq. (5.69)."""
@@ -67,7 +60,7 @@ class Outlined(Part):
             below,
             above,
             (corners.min(axis=0), corners.max(axis=0)),
-            thickness=self.thickness,
+            thickness=self.of_spec()["thickness"],
             turn=self.turn or 90.0,
             largest=self.size,
             flow=self.flow,

@@ -10,7 +10,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self, dataclass_transform
 from umform.errors import InvalidValue
 from umform.problem.notes import Discriminator, Field, Tag
 from umform.problem.reading import Unfit, read
-from umform.spec import FieldOf, parameters
+from umform.spec import FieldOf, declared, parameters
 
 
 @dataclass_transform(kw_only_default=True, frozen_default=True, field_specifiers=(field,))
@@ -30,18 +30,23 @@ class Part:
 
         Parameters
         ----------
-        of : type, optional
-            A dataclass whose fields are further keys of the table; `of_spec` returns their values.
+        of : type or function, optional
+            A dataclass whose fields are further keys of the table, or a function whose parameters are; `of_spec`
+            returns their values. A key that the class itself annotates has that type; a default and a sentence that it
+            has not are those of the field.
         leave : collection of str
-            Its fields that the table writes in a way of its own.
+            Its fields that are no keys, or keys of which nothing is the same.
         called : mapping of str to str
             Keys that have other names than their fields.
         """
         super().__init_subclass__()
-        chosen = [one for one in fields(of) if one.init and one.name not in leave] if of else []
-        cls.spec_keys = {called.get(one.name, one.name): FieldOf(of, one.name) for one in chosen} or cls.spec_keys
-        for key, one in zip(cls.spec_keys, chosen, strict=False):
-            cls.__annotations__[key] = cls.spec_keys[key]
+        chosen = {called.get(one.name, one.name): one for one in declared(of) if one.name not in leave} if of else {}
+        here = cls.__annotations__
+        cls.spec_keys = {key: FieldOf(of, one.name, here.get(key)) for key, one in chosen.items()} or cls.spec_keys
+        for key, one in chosen.items():
+            here[key] = cls.spec_keys[key]
+            if key in vars(cls):
+                continue
             if one.default is not MISSING:
                 setattr(cls, key, one.default)
             elif one.default_factory is not MISSING:
@@ -103,8 +108,8 @@ class Part:
         return {one.name: getattr(self, key) for key, one in self.spec_keys.items()}
 
 
-Positive = Annotated[float, Field(gt=0)]
-NotNegative = Annotated[float, Field(ge=0)]
+Positive = Annotated[float, Field(gt=0.0)]
+NotNegative = Annotated[float, Field(ge=0.0)]
 Count = Annotated[int, Field(ge=1)]
 #: Names become columns of tables and labels of figures.
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=60)]

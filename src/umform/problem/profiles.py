@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 
 from umform import surfaces
 from umform.problem.notes import Built, Discriminator, Field, Tag
-from umform.problem.parts import NotNegative, Pair, Part, Positive, number_or_array
+from umform.problem.parts import NotNegative, Pair, Part, number_or_array
 from umform.problem.reading import read
 from umform.spec import OneOf, Scalar, scalars
 from umform.surfaces import Profile
@@ -50,33 +50,19 @@ class BySegments(Part):
         return Profile(self.segments, self.closed)
 
 
-class FromDxf(Part):
+class FromDxf(Part, of=Profile.from_dxf, leave=("path",)):
     """The lines and arcs of a DXF drawing."""
 
     file: Annotated[str, Field(min_length=1)]
     """Path, from the folder of the deck."""
-    layer: str | None = None
-    """The layer with the section; by default all of the drawing is the section."""
-    solid: Literal["inside", "outside", "below", "above", "left", "right"] | None = None
-    """Where the solid is: inside or outside of a closed section, by default inside; below, above, left or right of an
-    open one, by default below."""
-    origin: Pair = (0.0, 0.0)
-    """Point of the drawing that becomes the origin of the section."""
-    unit: Literal["mm", "cm", "m", "um", "in", "ft"] = "mm"
-    """Unit of the model."""
-    tolerance: Positive = 1e-3
-    """Ends nearer than this are one point; arcs deviate by at most this from ellipses and splines."""
+    layer: str | None
+    solid: Literal["inside", "outside", "below", "above", "left", "right"] | None
+    origin: Pair
+    unit: Literal["mm", "cm", "m", "um", "in", "ft"]
 
     def build(self, folder: File = File()) -> Profile:
         """The profile."""
-        return Profile.from_dxf(
-            folder / self.file,
-            self.layer,
-            solid=self.solid,
-            origin=self.origin,
-            unit=self.unit,
-            tolerance=self.tolerance,
-        )
+        return Profile.from_dxf(folder / self.file, **self.of_spec())
 
 
 _KEYS: dict[str, type[ByCorners | BySegments | FromDxf]] = {
@@ -109,7 +95,7 @@ ProfilePart = Annotated[
 
 def profile_of(part: ProfilePart, folder: File) -> Profile:
     """The profile; a name alone means a drawing that contains only the section."""
-    return (FromDxf(file=part) if isinstance(part, str) else part).build(folder)
+    return (FromDxf.of_values(file=part) if isinstance(part, str) else part).build(folder)
 
 
 #: A section that is read at once.

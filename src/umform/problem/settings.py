@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from umform.analysis.newton.options import NewtonOptions
 from umform.problem.notes import Field, Refusal
 from umform.problem.parts import Pair, Part, Positive
+from umform.results.history import FRAMES
 
 
 class Solution(Part, of=NewtonOptions):
@@ -36,7 +37,7 @@ class Output(Part):
 
     folder: Annotated[str, Field(min_length=1)] | None = None
     """Folder, relative to the working directory; by default results/ and the name of the deck."""
-    frames: Annotated[int, Field(ge=1, le=100_000)] = 60
+    frames: Annotated[int, Field(ge=1, le=100_000)] = FRAMES
     """Approximate number of states that each step keeps for pictures and fields."""
     csv: bool = True
     """History as history.csv."""

@@ -43,7 +43,6 @@ class Move(Part, of=steps.Move, leave=("control", "to", "steps", "follow")):
     """Move one or more controls along straight lines."""
 
     kind: Literal["move"]
-    """The word move."""
     to: Targets
     """End value of each control."""
     increments: Increments | None = None
@@ -85,7 +84,6 @@ class Release(_Controlled, of=steps.Release, leave=("control",)):
     """Move a control back until its force is zero or contact is lost."""
 
     kind: Literal["release"]
-    """The word release."""
 
     def build(self, named: Named) -> steps.Step:
         """The step."""
@@ -101,7 +99,6 @@ class Arc(Part, of=steps.Arc, leave=("control", "to", "until"), called={"kind": 
     """Follow the equilibrium path through limit points while controls move along straight lines."""
 
     kind: Literal["arc"]
-    """The word arc."""
     to: Targets
     """End value of each control."""
 
@@ -120,7 +117,6 @@ class Free(Part, of=steps.Free, leave=("support", "on"), called={"steps": "incre
     """Remove a support, or open tools, gradually: their forces become loads that decrease to zero."""
 
     kind: Literal["free"]
-    """The word free."""
     support: Name | None = None
     """Name of the support."""
     contacts: list[Name] = field(default_factory=list)
@@ -152,7 +148,6 @@ class Close(_Controlled, of=steps.Close, leave=("control",)):
     """Close a pressed tool under displacement control until a force is reached, then hold the force."""
 
     kind: Literal["close"]
-    """The word close."""
 
     def build(self, named: Named) -> steps.Step:
         """The step."""

@@ -10,32 +10,27 @@ from umform.errors import InvalidValue
 from umform.model import Model
 from umform.model.supports.axes import Axes, cylindrical
 from umform.model.supports.support import Support as Held
+from umform.model.supports.supports import Supports
 from umform.problem.notes import Field
-from umform.problem.parts import Axis, Name, Part, Vector, Way
+from umform.problem.parts import Axis, Name, Part
 from umform.problem.selection import Selection, nodes_of
 
 
-class Around(Part):
+class Around(Part, of=cylindrical):
     """Cylindrical axes r, t, a around a line."""
-
-    origin: Vector
-    """A point of the axis."""
-    axis: Way
-    """Direction of the axis."""
 
     def build(self) -> Axes:
         """The axes."""
-        return cylindrical(self.origin, self.axis)
+        return cylindrical(**self.of_spec())
 
 
-class _Supporting(Part):
+class _Supporting(Part, of=Supports.fix, leave=("nodes", "normals", "here", "name")):
     """Common keys of supports with local axes."""
 
     nodes: Selection
     """Which nodes; for a mid-line or a director the lower and upper nodes of the edge."""
-    directions: Annotated[str, Field(pattern=r"^[xyzrta]{1,3}$")] | None = None
-    """Letters of the directions: x, y, z, or r, t, a of the axes; by default all three."""
-    axes: Around | None = None
+    directions: Annotated[str, Field(pattern=r"^[xyzrta]{1,3}$")] | None
+    axes: Around | None
     """Cylindrical axes instead of x, y, z."""
     name: Name | None = None
     """Name, for a step that frees it."""
@@ -50,22 +45,19 @@ class Fix(_Supporting):
     """Held nodes."""
 
     kind: Literal["fix"]
-    """The word fix."""
 
     def add_to(self, model: Model, *, here: bool = False) -> Held:
         """Hold the nodes."""
         return self._hold(model.fix, model, here)
 
 
-class Symmetry(Part):
+class Symmetry(Part, of=Supports.symmetry, leave=("nodes",)):
     """Nodes that stay in a plane."""
 
     kind: Literal["symmetry"]
-    """The word symmetry."""
     nodes: Selection
     """Which nodes."""
     normal: Axis
-    """Normal of the plane."""
 
     def add_to(self, model: Model, *, here: bool = False) -> Held:
         """Hold the nodes in the plane."""
@@ -76,7 +68,6 @@ class Hinge(_Supporting):
     """Held mid-line of an edge; the section may rotate about it."""
 
     kind: Literal["hinge"]
-    """The word hinge."""
 
     def add_to(self, model: Model, *, here: bool = False) -> Held:
         """Hold the mid-line."""
@@ -87,24 +78,20 @@ class Director(_Supporting):
     """Director of an edge that stays in the planes normal to the directions, and may tilt and stretch there."""
 
     kind: Literal["director"]
-    """The word director."""
 
     def add_to(self, model: Model, *, here: bool = False) -> Held:
         """Hold the director."""
         return self._hold(model.hold_director, model, here)
 
 
-class Rigid(Part):
+class Rigid(Part, of=Model.hold_rigid, leave=("name",)):
     """A statically determinate support for the motions that others leave free; a step activates it."""
 
     kind: Literal["rigid"]
-    """The word rigid."""
     name: Name
     """Name, for the step that activates it."""
-    nodes: Selection = "all"
-    """Nodes that may be held: three that are not on a line, or more."""
+    nodes: Selection
     instead_of: list[Name] = field(default_factory=list)
-    """Names of supports that the same step frees, whose nodes may be held."""
 
     def add_to(self, model: Model, *, here: bool = False) -> Held:
         """Add the support, inactive until the step."""

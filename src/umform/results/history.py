@@ -24,6 +24,9 @@ log = logging.getLogger("umform")
 
 Floats = NDArray[np.float64]
 
+#: Approximate number of states that each step of a run keeps with their fields.
+FRAMES = 60
+
 
 @dataclass(frozen=True)
 class Mark:

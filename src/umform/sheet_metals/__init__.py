@@ -15,6 +15,7 @@ from umform.sheet_metals.directional_fit import Directions, balanced, fit_hill48
 from umform.sheet_metals.flow_curve import read_flow_curve
 from umform.sheet_metals.least_squares import Fit
 from umform.sheet_metals.library import cards, get, limits, names, of_certificate
+from umform.sheet_metals.modulus_fit import fit_falling_modulus
 from umform.sheet_metals.sheet_metal import SheetMetal
 from umform.sheet_metals.tensile_test import (
     TensileTest,
@@ -34,6 +35,7 @@ __all__ = [
     "cards",
     "fit_chaboche",
     "fit_cycles",
+    "fit_falling_modulus",
     "fit_hardening",
     "fit_hill48",
     "fit_linear",

@@ -3,11 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from umform.materials import Chaboche, Metal, Mises, Perfect, Voce, YieldFunction, YoshidaUemori, tension
+from umform.materials import (
+    Chaboche,
+    FallingModulus,
+    Metal,
+    Mises,
+    Perfect,
+    Voce,
+    YieldFunction,
+    YoshidaUemori,
+    tension,
+)
 from umform.sheet_metals.curve_fit import pairs
 from umform.sheet_metals.least_squares import Fit, fit
 
@@ -68,6 +79,7 @@ def fit_chaboche(
     poisson: float,
     yield_function: YieldFunction | None = None,
     largest_step: float = 1e-3,
+    modulus: FallingModulus | None = None,
 ) -> Fit[Metal]:
     """Voce's hardening and back stresses of Chaboche from tests along the rolling direction.
 
@@ -84,6 +96,8 @@ def fit_chaboche(
         Default: von Mises.
     largest_step : float
         Larger strain differences are divided into steps.
+    modulus : FallingModulus, optional
+        Decrease of Young's modulus.
 
     Returns
     -------
@@ -91,6 +105,7 @@ def fit_chaboche(
         Constants Y, Q, d of Y + Q (1 - exp(-d p)), and C1, gamma1, ...
     """
     first, top = _levels(tests, young)
+    metal = partial(Metal, young, poisson, yield_function=yield_function or Mises(), modulus=modulus)
     recalls = _RECALLS[parts - 1]
     start = {"Y": 0.8 * first, "Q": 0.3 * (top - 0.8 * first), "d": 10.0}
     for number, recall in enumerate(recalls, start=1):
@@ -99,7 +114,7 @@ def fit_chaboche(
     def build(c: Mapping[str, float]) -> Metal:
         back = Chaboche(tuple((c[f"C{n}"], c[f"gamma{n}"]) for n in range(1, parts + 1)))
         curve = Voce(c["Y"], c["Y"] + c["Q"], c["d"])
-        return Metal(young, poisson, hardening=curve, yield_function=yield_function or Mises(), back_stress=back)
+        return metal(hardening=curve, back_stress=back)
 
     return fit_tests(tests, build, start, largest_step, bounds={"Y": (0.05 * top, top)})
 
@@ -110,6 +125,7 @@ def fit_yoshida_uemori(
     poisson: float,
     yield_function: YieldFunction | None = None,
     largest_step: float = 1e-3,
+    modulus: FallingModulus | None = None,
 ) -> Fit[Metal]:
     """The two surfaces of Yoshida and Uemori from tests along the rolling direction; parameters as `fit_chaboche`.
 
@@ -119,15 +135,14 @@ def fit_yoshida_uemori(
         Constants Y, C, B - Y, growth, b, m and h. Without a large cycle that follows a reversal, h is not determined.
     """
     first, top = _levels(tests, young)
+    metal = partial(Metal, young, poisson, yield_function=yield_function or Mises(), modulus=modulus)
     small = 0.8 * first
     start = {"Y": small, "C": 300.0, "B - Y": 0.4 * (top - small), "growth": 0.6 * (top - small)}
     start |= {"b": 0.2 * (top - small), "m": 15.0, "h": 0.5}
 
     def build(c: Mapping[str, float]) -> Metal:
         back = YoshidaUemori(c["C"], c["Y"] + c["B - Y"], c["growth"], c["b"], c["m"], c["h"])
-        return Metal(
-            young, poisson, hardening=Perfect(c["Y"]), yield_function=yield_function or Mises(), back_stress=back
-        )
+        return metal(hardening=Perfect(c["Y"]), back_stress=back)
 
     return fit_tests(tests, build, start, largest_step, bounds={"h": (0.0, 1.0), "Y": (0.05 * top, top)})
 

@@ -110,7 +110,7 @@ def fit_hill48(measured: Directions) -> Fit[Hill48]:
     return fit(build, lambda function: _residuals(function, measured), start, positive=True)
 
 
-def fit_yld2004(measured: Directions, exponent: float = 8) -> Fit[Yld2004]:
+def fit_yld2004(measured: Directions, exponent: float = Yld2004.exponent) -> Fit[Yld2004]:
     """Yld2004-18p by least squares, the best of twelve starts; the shears 23 and 13, which sheet tests do not
     determine, stay 1.
 

@@ -137,7 +137,9 @@ def fit(
         xtol=tolerance,
     )
     values = constants(found.x)
-    spread, correlation = _uncertainty(np.asarray(found.jac), np.asarray(found.fun))
+    residual = np.asarray(found.fun)
+    variance = float(residual @ residual) / max(len(residual) - len(names), 1)
+    spread, correlation = uncertainty(np.asarray(found.jac), variance)
     spread = np.where(found.active_mask != 0, np.inf, spread)
     if positive:
         spread = spread * np.array(list(values.values()))
@@ -145,11 +147,17 @@ def fit(
     return Fit(build(values), values, dict(zip(names, spread.tolist(), strict=True)), misfit, correlation)
 
 
-def _uncertainty(jacobian: Floats, residual: Floats) -> tuple[Floats, Floats]:
-    """Standard deviations, infinite along undetermined directions, and correlations, eq. (3.141)."""
+def uncertainty(jacobian: Floats, variance: float) -> tuple[Floats, Floats]:
+    """Standard deviations, infinite along undetermined directions, and correlations, eq. (3.141).
+
+    Parameters
+    ----------
+    jacobian : ndarray, shape (m, n)
+        Derivatives of the residuals.
+    variance : float
+        Variance of a residual.
+    """
     _, sizes, directions = np.linalg.svd(jacobian, full_matrices=False)
-    free = max(len(residual) - jacobian.shape[1], 1)
-    variance = float(residual @ residual) / free
     blind = sizes < 1e-6 * sizes.max(initial=1e-300)
     inverse = np.where(blind, 0.0, 1.0 / np.where(blind, 1.0, sizes))
     rows = directions * inverse[:, None]

@@ -13,9 +13,9 @@ the help of a command starts quickly.
 """
 
 from umform.spec.in_deck import InDeck, OneOf, deck_keys, entries, note_of
-from umform.spec.parameter import About, FieldOf, Parameter, hint_of, parameters, sentences
+from umform.spec.parameter import About, FieldOf, Parameter, declared, hint_of, parameters, sentences
 from umform.spec.paths import Scalar, changed, scalars
-from umform.spec.rule import Checked, Rule, check_fields, check_value
+from umform.spec.rule import Checked, Rule, check_arguments, check_fields, check_value
 from umform.spec.takes import takes
 
 __all__ = [
@@ -28,9 +28,11 @@ __all__ = [
     "Rule",
     "Scalar",
     "changed",
+    "check_arguments",
     "check_fields",
     "check_value",
     "deck_keys",
+    "declared",
     "entries",
     "hint_of",
     "note_of",

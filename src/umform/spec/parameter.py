@@ -161,7 +161,8 @@ class Parameter:
     @property
     def sentence(self) -> str:
         """What it is: a noun phrase, then, after a semicolon, what holds without it."""
-        return sentences(self.spec).get(self.name, "")
+        words = [word for kind in self.kinds for word in kind.choices]
+        return sentences(self.spec).get(self.name) or (f"The word {words[0]}." if len(words) == 1 else "")
 
     @property
     def noun(self) -> str:
@@ -203,27 +204,43 @@ class Parameter:
 
 @dataclass(frozen=True)
 class FieldOf:
-    """Annotation of a field that is one of another Spec.
+    """Annotation of a field that is one of another Spec, or a parameter of a function.
 
     Attributes
     ----------
-    spec : type
-        The other Spec.
+    spec : type or function
+        The other Spec, or the function.
     name : str
-        Name of the field there.
+        Name there.
+    hint : object, optional
+        Another type than there.
     """
 
-    spec: type
+    spec: Any
     name: str
+    hint: Any = None
 
 
 @cache
-def parameters(spec: type) -> Mapping[str, Parameter]:
-    """The parameters of a Spec by name, in the order of its fields."""
-    return {one.name: _parameter(spec, one) for one in fields(spec) if one.init}
+def declared(spec: Any) -> Sequence[Field[Any]]:
+    """Fields of a Spec; of a function, its named parameters in their place."""
+    if isinstance(spec, type):
+        return [one for one in fields(spec) if one.init]
+    found: list[Any] = []
+    for one in inspect.signature(spec).parameters.values():
+        if one.name != "self" and one.kind not in (one.VAR_POSITIONAL, one.VAR_KEYWORD):
+            found.append(field(default=MISSING if one.default is one.empty else one.default))
+            found[-1].name, found[-1].type = one.name, one.annotation
+    return found
 
 
-def _parameter(spec: type, one: Field[Any]) -> Parameter:
+@cache
+def parameters(spec: Any) -> Mapping[str, Parameter]:
+    """The parameters of a Spec by name, in the order of its fields; or those of a function."""
+    return {one.name: _parameter(spec, one) for one in declared(spec)}
+
+
+def _parameter(spec: Any, one: Field[Any]) -> Parameter:
     hint = hint_of(spec, one)
     arms = list(_arms(hint))
     kinds = tuple(_kind(arm, extras) for arm, extras in arms if arm is not type(None))
@@ -241,13 +258,15 @@ def _over(under: About, over: About) -> About:
     return About(*(first or second for first, second in pairs))
 
 
-def hint_of(spec: type, one: Field[Any]) -> Any:
+def hint_of(spec: Any, one: Field[Any]) -> Any:
     """The annotation of a field; names that are imported for types only are objects of any kind."""
     kind: Any = one.type
     if isinstance(kind, FieldOf):
-        return parameters(kind.spec)[kind.name].hint
+        kind = kind.hint or parameters(kind.spec)[kind.name].hint
     if not isinstance(kind, str):
         return kind
+    if not isinstance(spec, type):
+        return eval(kind, {}, _Names(spec.__globals__))
     for base in spec.__mro__:
         if one.name in vars(base).get("__annotations__", ()):
             return eval(kind, {}, _Names(vars(sys.modules[base.__module__])))
@@ -305,9 +324,16 @@ def _within(node: ast.AST, name: str) -> Iterator[tuple[str, list[ast.stmt]]]:
 
 
 @cache
-def sentences(spec: type) -> dict[str, str]:
-    """The strings below the fields of a class and its bases."""
+def sentences(spec: Any) -> dict[str, str]:
+    """The strings below the fields of a class and its bases; of a function, the texts of its parameters."""
     found: dict[str, str] = {}
+    if not isinstance(spec, type):
+        section = inspect.cleandoc(spec.__doc__ or "").partition("\nParameters\n----------\n")[2].partition("\n\n")[0]
+        for names, text in re.findall(r"^(\w.*?)(?: : .*)?\n((?:    .*\n?)+)", section, re.MULTILINE):
+            other = re.match(r"\s*As for :func:`(\w+)`", text)
+            known = sentences(spec.__globals__[other[1]]) if other else {}
+            found |= {name: known.get(name, " ".join(text.split())) for name in names.split(", ")}
+        return found
     for base in reversed(spec.__mro__):
         if "__annotations__" not in vars(base):
             continue

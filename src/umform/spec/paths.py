@@ -8,6 +8,7 @@ from typing import Any
 
 from umform.errors import InvalidValue
 from umform.spec.in_deck import entries
+from umform.spec.parameter import Parameter
 
 
 @dataclass(frozen=True)
@@ -95,4 +96,10 @@ def _entries(spec: Any) -> Iterator[tuple[Any, Any, str, str]]:
             if name == getattr(kind, "inside", None):
                 yield from _entries(value)
             else:
-                yield name, value, one.about.unit, one.sentence
+                yield name, _as_declared(value, one), one.about.unit, one.sentence
+
+
+def _as_declared(value: Any, one: Parameter) -> Any:
+    """The value of a field; a whole number where any number may stand is a number."""
+    whole = isinstance(value, int) and not isinstance(value, bool)
+    return float(value) if whole and {kind.type for kind in one.kinds} == {float} else value

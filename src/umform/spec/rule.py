@@ -86,8 +86,33 @@ def check_fields(spec: Any) -> None:
         check_value(kind, name, getattr(spec, name))
 
 
-def check_value(spec: type, name: str, value: Any) -> None:
-    """Reject an invalid value of one field of a Spec.
+def check_arguments(function: Callable[..., Any], at: str = "", /, **values: Any) -> None:
+    """Reject invalid arguments of a function: their types and bounds are those of its signature.
+
+    Parameters
+    ----------
+    function : callable
+        The function.
+    at : str
+        Place for the message; by default the name of the function.
+    **values
+        Arguments.
+
+    Raises
+    ------
+    NotFinite, InvalidValue
+        ``where`` is the place and the name of the argument.
+    """
+    for name, value in values.items():
+        try:
+            check_value(function, name, value)
+        except InvalidValue as error:
+            error.where = f"{at or function.__name__}, {name}"
+            raise
+
+
+def check_value(spec: Any, name: str, value: Any) -> None:
+    """Reject an invalid value of one field of a Spec, or of an argument of a function.
 
     Raises
     ------

@@ -1,22 +1,24 @@
-"""Functions whose further arguments are the fields of a Spec."""
+"""Functions whose further arguments are the fields of a Spec, or arguments of another function."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import MISSING, fields
+from dataclasses import MISSING
 from inspect import Parameter, signature
 from typing import Any, TypeVar
+
+from umform.spec.parameter import declared
 
 F = TypeVar("F", bound=Callable[..., Any])
 
 
-def takes(spec: type, *leave: str) -> Callable[[F], F]:
+def takes(spec: Any, *leave: str) -> Callable[[F], F]:
     """Decorator of a function whose ``**options`` are fields of a Spec: its signature names them with their defaults.
 
     Parameters
     ----------
-    spec : type
-        The Spec.
+    spec : type or function
+        The Spec, or the other function.
     *leave : str
         Fields that are arguments of the function already.
     """
@@ -30,7 +32,7 @@ def takes(spec: type, *leave: str) -> Callable[[F], F]:
                 default=Parameter.empty if one.default is MISSING else one.default,
                 annotation=one.type,
             )
-            for one in fields(spec)
+            for one in declared(spec)
             if one.name not in leave
         ]
         function.__signature__ = own.replace(parameters=[*list(own.parameters.values())[:-1], *options])  # type: ignore[attr-defined]

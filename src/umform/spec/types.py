@@ -31,6 +31,10 @@ Text = Annotated[str, MinLen(1)]
 Degrees = Annotated[
     float, Gt(0.0), Lt(180.0), About("degrees", cause="radians, a sign, or the angle of bending instead")
 ]
+#: An angle that an element turns over the radius of a tool.
+ElementTurn = Annotated[float, Gt(0.0), Le(90.0), About(cause="radians, or a sign", remedy="15 degrees are usual")]
+#: An angle from which an edge is sharp.
+Sharp = Annotated[float, Gt(0.0), Lt(90.0), About("degrees", cause="radians, or the angle in the solid")]
 #: A part of a whole.
 Share = Annotated[float, Gt(0.0), Le(1.0), About(cause="a percentage, or a sign")]
 #: A number of things.
@@ -38,14 +42,14 @@ Count = Annotated[int, Ge(1), About(cause="a fraction, or a sign")]
 #: Number of increments of a step.
 Increments = Annotated[int, Ge(1), Le(1_000_000), About(cause="a fraction, or a sign", remedy="a whole number, 50")]
 #: How often an increment may be halved.
-Cuts = Annotated[int, Ge(0), Le(40), About(cause="a fraction, or a sign", remedy="10 is the default")]
+Cuts = Annotated[int, Ge(0), Le(40), About(cause="a fraction, or a sign")]
 #: Ratio of the largest increment to the first one.
 Growth = Annotated[float, Ge(1.0), About(cause="a ratio below 1", remedy="1 never exceeds the first increment")]
 #: Duration of a step.
 Duration = Annotated[
     float,
     Gt(0.0),
-    About(cause="a sign, or the time at the end in place of what the step takes", remedy="1 is the default"),
+    About(cause="a sign, or the time at the end in place of what the step takes"),
 ]
 #: The rolling direction of a sheet that is bent about one line.
 Rolling = Annotated[

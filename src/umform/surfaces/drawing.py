@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
-from annotated_types import Gt, Lt
-
-from umform.spec import About, check_fields, takes
-from umform.spec.types import Positive, Text
+from umform.spec import check_fields, takes
+from umform.spec.types import Positive, Sharp, Text
 from umform.surfaces.cad import CadTool
+from umform.surfaces.cad.tool import FREE_FORM
 from umform.surfaces.triangulated import Triangulated
 
 
@@ -20,11 +19,9 @@ class Drawing:
 
     file: Text
     """Path, from the folder of the deck; it ends in .step, .stp, .iges, .igs or .stl."""
-    tolerance: Positive = 1e-3
+    tolerance: Positive = FREE_FORM
     """Largest distance of the tool from free-form faces of a STEP or IGES file."""
-    sharp: Annotated[float, Gt(0.0), Lt(90.0), About("degrees", cause="radians, or the angle in the solid")] | None = (
-        None
-    )
+    sharp: Sharp | None = None
     """Angle from which an edge is sharp: by default 30 between triangles of STL, 2 between faces."""
     open: bool = False
     """The surface may have rims; beyond them there is no contact."""
@@ -50,11 +47,10 @@ class Drawing:
             If it has no surface for a tool; the message names places.
         """
         path = folder / self.file
+        sharp = {} if self.sharp is None else {"sharp": self.sharp}
         if path.suffix.lower() == ".stl":
-            sharp = 30.0 if self.sharp is None else self.sharp
-            return Triangulated.from_stl(path, sharp=sharp, open=self.open, scale=self.scale)
-        sharp = 2.0 if self.sharp is None else self.sharp
-        return CadTool.read(path, tolerance=self.tolerance, open=self.open, sharp=sharp, scale=self.scale)
+            return Triangulated.from_stl(path, open=self.open, scale=self.scale, **sharp)
+        return CadTool.read(path, tolerance=self.tolerance, open=self.open, scale=self.scale, **sharp)
 
 
 @takes(Drawing, "file")

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from umform.errors import InvalidValue
+from umform.spec.types import Positive
 from umform.surfaces.corners import rounded
 from umform.surfaces.crossings import refuse_crossings
 from umform.surfaces.directions import Point2, point, positive
@@ -99,7 +100,7 @@ class Profile:
         solid: str | None = None,
         origin: Point2 = (0.0, 0.0),
         unit: str = "mm",
-        tolerance: float = 1e-3,
+        tolerance: Positive = 1e-3,
     ) -> Profile:
         """The section in a DXF drawing: lines, arcs, circles and polylines as they are, ellipses and splines as arcs.
 

@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from umform.errors import InvalidValue
+from umform.spec import check_arguments
+from umform.spec.types import ElementTurn, NotNegative, Positive
 from umform.surfaces.size_map import ToolSizes
 from umform.surfaces.tool import Surface
 
@@ -27,12 +29,12 @@ def tool_sizes(
     above: Sequence[Surface],
     box: ArrayLike,
     *,
-    thickness: float,
-    turn: float,
-    largest: float,
-    flow: float = 0.0,
+    thickness: Positive,
+    turn: ElementTurn,
+    largest: Positive,
+    flow: NotNegative = 0.0,
     growth: float = 1.5,
-    smallest: float = 0.0,
+    smallest: NotNegative = 0.0,
 ) -> ToolSizes:
     """Element sizes of a flat blank that limit the angle of an element over the convex radii of its tools. eq. (5.69)
 
@@ -74,15 +76,14 @@ def tool_sizes(
     0.96
     """
     low, high = _corners(box)
-    good = 0.0 < turn <= 90.0 and largest > 0.0 and growth > 1.0 and thickness > 0.0 and 0.0 <= smallest <= largest
-    if not (good and flow >= 0.0):
+    check_arguments(tool_sizes, thickness=thickness, turn=turn, largest=largest, flow=flow, smallest=smallest)
+    if not (growth > 1.0 and smallest <= largest):
         raise InvalidValue(
-            "sizes need a thickness, an angle of up to 90 degrees, a largest size, and a growth of more than one",
+            "sizes need a growth of more than one, and a smallest size that is none above the largest",
             where="tool_sizes",
-            value=f"thickness {thickness:g}, turn {turn:g}, largest {largest:g}, growth {growth:g}, flow {flow:g}, "
-            f"smallest {smallest:g}",
-            cause="a sign, radians in place of degrees, or a smallest size above the largest",
-            remedy="turn=15, growth=1.5",
+            value=f"largest {largest:g}, growth {growth:g}, smallest {smallest:g}",
+            cause="a sign, or the sizes exchanged",
+            remedy="growth=1.5",
         )
     x, y = _lines(low, high)
     places = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)

@@ -12,6 +12,8 @@ import numpy as np
 
 from umform import _core
 from umform.errors import InvalidValue, TurnedNormals
+from umform.spec import check_arguments
+from umform.spec.types import Sharp
 from umform.surfaces.directions import positive
 from umform.surfaces.smooth import Patches, connected, from_drawing, from_facets
 from umform.surfaces.smooth import patches as smooth_patches
@@ -62,20 +64,14 @@ class Triangulated(Tool):
 
     surface: Triangles
     normals: Floats | None = None
-    sharp: float = 30.0
+    sharp: Sharp = 30.0
+    """Angle from which an edge is sharp."""
     open: bool = False
     name: str = "Triangulated"
     patches: Patches = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        if not 0.0 < self.sharp < 90.0:
-            raise InvalidValue(
-                "the angle from which an edge is sharp must be between 0 and 90 degrees",
-                where=f"{self.name}.sharp",
-                value=self.sharp,
-                cause="an angle in radians, or that inside of the solid",
-                remedy="the angle between the normals of two triangles, 30 for instance",
-            )
+        check_arguments(Triangulated, self.name, sharp=self.sharp)
         _refuse_shape(self.normals, self.surface, self.name)
         edges = connected(self.surface, self.name, rims=self.open)
         if not (edges.mate < 0).any() and self.volume < 0.0:
@@ -94,7 +90,7 @@ class Triangulated(Tool):
 
     @classmethod
     def from_stl(
-        cls, path: str | Path, *, sharp: float = 30.0, open: bool = False, weld: float = 0.0, scale: float = 1.0
+        cls, path: str | Path, *, sharp: float = sharp, open: bool = False, weld: float = 0.0, scale: float = 1.0
     ) -> Triangulated:
         """A tool from the triangles of an STL file.
 

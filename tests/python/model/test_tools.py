@@ -199,7 +199,7 @@ def test_stops_and_moments_that_make_no_sense_are_refused():
     press, way = model.press(punch, "z", "press"), model.drive(punch, "x", "slide")
     model.press_turn(punch, "y", (1.0, 0.0, 0.0), "moment")
     for stiffness in (0.0, -1.0, np.nan):
-        with pytest.raises(InvalidValue, match="spring"):
+        with pytest.raises(InvalidValue, match="the force per length beyond must be positive"):
             model.stop(press, at=0.0, stiffness=stiffness)
     with pytest.raises(InvalidValue, match="presses no tool"):
         model.stop(way, at=0.0, stiffness=1.0)

@@ -26,7 +26,7 @@ from umform.processes.draw.cup import Cup
 from umform.processes.draw.u_bend import UBend
 from umform.processes.draw_bead.spec import DrawBead
 from umform.processes.hemming import Hemming
-from umform.spec import About, Rule, check_fields, parameters
+from umform.spec import About, Rule, check_fields, parameters, scalars
 from umform.spec.types import Degrees, Length
 
 
@@ -180,6 +180,12 @@ def test_nothing_in_place_of_any_object_is_refused():
     check_fields(Holder(1.0))
     with pytest.raises(InvalidValue, match="the thing that it holds must be an object"):
         check_fields(Holder(None))
+
+
+def test_a_whole_number_of_a_field_for_any_number_can_vary():
+    found = {one.path: one.value for one in scalars(AirBending(thickness=2, layers=2, contact_points=5))}
+    kinds = {path: type(found[path]) for path in ("thickness", "layers", "contact_points")}
+    assert kinds == {"thickness": float, "layers": int, "contact_points": int}
 
 
 def test_a_signature_names_the_fields_of_its_options():

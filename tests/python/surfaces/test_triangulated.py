@@ -316,7 +316,7 @@ def test_other_triangles_that_are_no_surface():
     line = Triangles(np.array([(0, 0, 0), (1, 0, 0), (2, 0, 0.0)]), np.array([(0, 1, 2)]))
     with pytest.raises(UnfitTriangles, match=r"no area.*\n.*\n.*1 triangle, at \(1, 0, 0\)"):
         Triangulated(line)
-    with pytest.raises(InvalidValue, match="sharp must be between"):
+    with pytest.raises(InvalidValue, match="an edge is sharp must be a number between 0 and 90"):
         Triangulated(surface, sharp=120.0)
     with pytest.raises(TurnedNormals, match="looks away"):
         Triangulated(surface, np.tile([0.0, 0.0, 1.0], (16, 3, 1)))

@@ -1,7 +1,7 @@
 """Sheet metal: yield functions, hardening, and their effect on bending and springback."""
 
 from umform_book.case import Chapter
-from umform_book.material import bending, cards, elements, finite_strain, paths, u_bend, yield_functions
+from umform_book.material import bending, cards, elements, finite_strain, identification, paths, u_bend, yield_functions
 
 CHAPTER = Chapter(
     "Material",
@@ -14,5 +14,6 @@ CHAPTER = Chapter(
         cards.CASE,
         bending.CASE,
         u_bend.CASE,
+        identification.CASE,
     ),
 )

@@ -19,6 +19,7 @@ from umform.errors import InvalidValue
 from umform.model import Model
 from umform.progress import Show
 from umform.results.cells import tell_of_cells
+from umform.results.history import FRAMES
 from umform.timing import new_timing
 
 _Work = Callable[[Model, Sequence[Step]], Result]
@@ -30,7 +31,7 @@ def solve(
     *,
     solver: str = "auto",
     options: NewtonOptions | None = None,
-    frames: int = 60,
+    frames: int = FRAMES,
     progress: Show = None,
     checkpoint: str | PathLike[str] | None = None,
     every: float = 60.0,
@@ -111,7 +112,7 @@ def solve_followed(
     *,
     solver: str = "auto",
     options: NewtonOptions | None = None,
-    frames: int = 60,
+    frames: int = FRAMES,
     progress: Show = None,
     checkpoint: str | PathLike[str] | None = None,
     every: float = 60.0,
@@ -141,7 +142,7 @@ def resume(
     *,
     solver: str = "auto",
     options: NewtonOptions | None = None,
-    frames: int = 60,
+    frames: int = FRAMES,
     progress: Show = None,
     every: float = 60.0,
 ) -> Result:

@@ -19,6 +19,7 @@ from umform.model.terms.state import Snapshot
 from umform.progress import Tick, silent
 from umform.results.coarse import warn_of_volume
 from umform.results.drift import warn_of_drift
+from umform.results.history import FRAMES
 from umform.results.history import Mark as HistoryMark
 from umform.results.penetration import warn_of_contact
 from umform.results.records import Iteration
@@ -86,7 +87,7 @@ class OpenRun:
     """
 
     def __init__(
-        self, model: Model, *, solver: str = "auto", options: NewtonOptions | None = None, frames: int = 60
+        self, model: Model, *, solver: str = "auto", options: NewtonOptions | None = None, frames: int = FRAMES
     ) -> None:
         timing = new_timing()
         with timing.run:

@@ -22,6 +22,7 @@ from umform.analysis.steps.loop import Run
 from umform.errors import InvalidValue, UmformError
 from umform.model import Model
 from umform.model.terms.control import Control
+from umform.results.history import FRAMES
 from umform.results.records import Failed
 
 Floats = NDArray[np.float64]
@@ -198,7 +199,7 @@ def solve_with_shadows(
     *,
     solver: str = "auto",
     options: NewtonOptions | None = None,
-    frames: int = 60,
+    frames: int = FRAMES,
     **rest: Any,
 ) -> Shadowed:
     """Solve a model, and beside it the same model to round-off and slightly different ones.

@@ -48,13 +48,13 @@ class Free:
     several; with a contact its tool opens."""
     steps: Increments = 10
     """Number of equal increments."""
-    cuts: Cuts = 10
+    cuts: Cuts = Move.cuts
     """How often an increment may be halved before the run fails."""
     grow: Growth = 1.0
     """Largest increment relative to the nominal one."""
     on: Support | None = None
     """What ``hold_rigid`` of the model returned: it holds its nodes in their positions at the beginning of the step."""
-    time: Duration = 1.0
+    time: Duration = Move.time
     """Duration of the step: for rate-dependent metals, and for motions of tools in time."""
 
     def __post_init__(self) -> None:

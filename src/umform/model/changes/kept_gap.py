@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Annotated
 
 import numpy as np
+from annotated_types import Gt
 from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
@@ -12,9 +14,12 @@ from umform.model.equations.evaluated import Evaluated
 from umform.model.tools.press import Press
 from umform.model.tools.tool import Tool
 from umform.model.tools.tool_controls import ToolMotion
+from umform.spec import About
 
 Floats = NDArray[np.float64]
 
+#: Distance of two tools.
+Gap = Annotated[float, Gt(0.0), About(cause="a sign", remedy="the height of blocks")]
 #: Smallest cosine between normals and travel for which two tools face each other.
 _FACING = 0.999
 
@@ -39,7 +44,7 @@ def stop_at_gap(model: Evaluated, press: Press, to: Tool, gap: float) -> tuple[f
         If no part of the sheet lies between them, they are already nearer, or one moves without the other.
     """
     where = _where(press, to)
-    _check(press, to, gap, where)
+    _check_together(press, to, where)
     ways = np.concatenate([np.empty((0, 2)), *_facing(model, press, to)])
     if len(ways) == 0:
         raise InvalidValue(
@@ -76,12 +81,6 @@ def check_kept_gaps(model: Evaluated) -> None:
 
 def _where(press: Press, to: Tool) -> str:
     return f"keep_gap, tool {press.way.tool.name} to {to.name}"
-
-
-def _check(press: Press, to: Tool, gap: float, where: str) -> None:
-    if not (np.isfinite(gap) and gap > 0.0):
-        raise InvalidValue("a gap between two tools is positive", where=where, value=gap, remedy="the height of blocks")
-    _check_together(press, to, where)
 
 
 def _check_together(press: Press, to: Tool, where: str) -> None:

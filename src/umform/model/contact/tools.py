@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import math
 
-from numpy.typing import ArrayLike
-
 from umform.errors import InvalidValue
 from umform.model.contact.pair import Contact
 from umform.model.terms import forces
 from umform.model.terms.controls import Controls
+from umform.model.terms.forces import Vector
 from umform.model.terms.now import Now
 from umform.model.terms.term import Global
-from umform.model.tools.press import Press, Stop, check_stiffness
+from umform.model.tools.press import Press, Stiffness, Stop
 from umform.model.tools.tool import Motion, Tool
 from umform.model.tools.tool_controls import ToolForce, ToolMotion, ToolTurn, ToolWay, refuse_given_and_found, turn_of
+from umform.spec import check_arguments
 from umform.surfaces import Direction, Surface, unit_vector
 
 
@@ -61,7 +61,7 @@ class Tools(list[Tool]):
         tool : Tool or Contact
             The tool, or a pair that touches it.
         direction : str or array_like, shape (3,)
-            "z", "-x", ... or a vector.
+            Direction: "z", "-x", ... or a vector.
         name : str, optional
             Column of the history.
 
@@ -79,9 +79,7 @@ class Tools(list[Tool]):
         tool.add_way(way)
         return way
 
-    def turn(
-        self, tool: Contact | Tool, axis: Direction, about: ArrayLike = (0.0, 0.0, 0.0), name: str = ""
-    ) -> ToolTurn:
+    def turn(self, tool: Contact | Tool, axis: Direction, about: Vector = (0.0, 0.0, 0.0), name: str = "") -> ToolTurn:
         """Let steps turn a tool about an axis.
 
         Parameters
@@ -136,7 +134,7 @@ class Tools(list[Tool]):
         return self._pressed(ToolMotion(f"{name}_way", direction=unit_vector(direction, "press"), tool=tool), name)
 
     def press_turn(
-        self, tool: Contact | Tool, axis: Direction, about: ArrayLike = (0.0, 0.0, 0.0), name: str = ""
+        self, tool: Contact | Tool, axis: Direction, about: Vector = (0.0, 0.0, 0.0), name: str = ""
     ) -> ToolForce:
         """Let steps turn a tool with a moment about an axis; its angle is an unknown.
 
@@ -161,7 +159,7 @@ class Tools(list[Tool]):
         return self._pressed(turn_of(f"{name}_way", tool, axis, about), name)
 
     def spring(
-        self, tool: Contact | Tool, direction: Direction, stiffness: float, preload: float = 0.0, name: str = ""
+        self, tool: Contact | Tool, direction: Direction, stiffness: Stiffness, preload: float = 0.0, name: str = ""
     ) -> ToolForce:
         """Support a tool by a spring, such as a pad on gas springs; its displacement is an unknown.
 
@@ -185,13 +183,13 @@ class Tools(list[Tool]):
         """
         tool = _tool_of(tool)
         name = name or self.controls.free_name(f"{tool.name}_spring")
-        check_stiffness(stiffness, preload, f"spring {name}", "preload")
+        check_arguments(Tools.spring, f"spring {name}", stiffness=stiffness, preload=preload)
         way = ToolMotion(f"{name}_way", direction=unit_vector(direction, "spring"), tool=tool)
         force = self._pressed(way, name)
         tool.presses[-1].stiffness, tool.presses[-1].free = stiffness, preload / stiffness
         return force
 
-    def stop(self, force: ToolForce, at: float, stiffness: float | None = None, *, below: bool = False) -> None:
+    def stop(self, force: ToolForce, at: float, stiffness: Stiffness | None = None, *, below: bool = False) -> None:
         """Limit the displacement of a pressed or sprung tool by a stop: distance blocks, the end of a gas spring.
 
         Parameters
@@ -199,11 +197,11 @@ class Tools(list[Tool]):
         force : ToolForce
             Return value of :meth:`press`, :meth:`press_turn` or :meth:`spring`.
         at : float
-            Displacement at which the tool meets the stop.
+            Displacement at which the tool meets it.
         stiffness : float, optional
-            Force per length beyond the stop. Default: rigid; the column ``<name>_stop`` is then its force on the tool.
+            Force per length beyond; by default it is rigid, and the column ``<name>_stop`` its force on the tool.
         below : bool
-            Whether the stop is a lower bound of the displacement; default: an upper bound.
+            Whether it is a lower bound of the displacement; by default an upper bound.
 
         Raises
         ------
@@ -211,7 +209,7 @@ class Tools(list[Tool]):
             If a number is invalid, or the range between rigid stops is empty.
         """
         press = self.press_of(force)
-        check_stiffness(1.0 if stiffness is None else stiffness, at, f"stop of {force.name}", "way")
+        check_arguments(Tools.stop, f"stop of {force.name}", at=at, stiffness=stiffness)
         if stiffness is None and not any(stop.rigid for stop in press.stops):
             self.controls.refuse_taken([f"{force.name}_stop"], f"{force.name}_stop")
         press.stops.append(Stop(float(at), math.inf if stiffness is None else float(stiffness), -1.0 if below else 1.0))
@@ -288,7 +286,7 @@ class Tools(list[Tool]):
         tool.add_press(Press(Global(f"{name}_found", {way: 1.0}, what=what), way, force))
         return force
 
-    def set_motion(self, tool: Contact | Tool, motion: Motion, about: ArrayLike = (0.0, 0.0, 0.0)) -> None:
+    def set_motion(self, tool: Contact | Tool, motion: Motion, about: Vector = (0.0, 0.0, 0.0)) -> None:
         """Prescribe a motion of a tool in time, in addition to that of the steps.
 
         Parameters

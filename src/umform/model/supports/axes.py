@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from umform.errors import InvalidValue
+from umform.model.terms.forces import Vector
 from umform.surfaces import Direction, unit_vector
 
 Floats = NDArray[np.float64]
@@ -91,7 +92,7 @@ class Turned:
 GLOBAL = Turned(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)))
 
 
-def cylindrical(origin: ArrayLike, axis: Direction) -> Cylindrical:
+def cylindrical(origin: Vector, axis: Direction) -> Cylindrical:
     """Cylindrical axes r, t, a for supports.
 
     Parameters
@@ -99,7 +100,7 @@ def cylindrical(origin: ArrayLike, axis: Direction) -> Cylindrical:
     origin : array_like, shape (3,)
         A point of the axis.
     axis : str or array_like, shape (3,)
-        Direction of the axis: "y", "-z", or a vector.
+        Direction of the axis.
 
     Returns
     -------
@@ -208,7 +209,7 @@ def unit_normals(normals: ArrayLike, count: int) -> Floats:
     return np.asarray(vectors / sizes[:, None], dtype=np.float64)
 
 
-def _point(origin: ArrayLike) -> tuple[float, float, float]:
+def _point(origin: Vector) -> tuple[float, float, float]:
     point = np.asarray(origin, dtype=float)
     if point.shape != (3,) or not np.isfinite(point).all():
         raise InvalidValue(

@@ -36,7 +36,7 @@ class Supports(Held):
         nodes : str, callable or array_like
             Name of a set, predicate of x, y, z, node ids or a mask, see :meth:`umform.Mesh.nodes`.
         directions : str, optional
-            Letters of the directions, "xz" for instance; all three by default.
+            Letters of the directions: x, y, z, or those of the axes, such as r, t, a; by default all three.
         axes : Axes, optional
             Local axes instead of x, y, z: :func:`umform.cylindrical` or :func:`umform.turned`.
         normals : array_like, shape (3,) or (n, 3), optional
@@ -75,8 +75,8 @@ class Supports(Held):
         ----------
         nodes : str, callable or array_like
             Name of a set, predicate of x, y, z, node ids or a mask, see :meth:`umform.Mesh.nodes`.
-        normal : {"x", "y", "z"}
-            Normal of the plane.
+        normal : str
+            Normal of the plane: x, y or z.
         """
         return self.fix(nodes, normal)
 
@@ -99,7 +99,7 @@ class Supports(Held):
         nodes : str, callable or array_like
             Lower and upper nodes, "x0" for instance; through a stack of cells the outermost two nodes make the pair.
         directions : str, optional
-            Letters of the directions in which the mid-line is held; "xz" lets it move along y. Default: all three.
+            As for :meth:`fix`; "xz" lets the mid-line move along y.
         axes, here, name
             As for :meth:`fix`.
 
@@ -150,9 +150,7 @@ class Supports(Held):
         ----------
         nodes : str, callable or array_like
             Lower and upper nodes, "x0" for instance; through a stack of cells the outermost two nodes make the pair.
-        directions : str, optional
-            Letters of the directions. Default: all three.
-        axes, here, name
+        directions, axes, here, name
             As for :meth:`fix`.
 
         Returns
@@ -189,12 +187,12 @@ class Supports(Held):
         ----------
         nodes : str, callable or array_like
             Name of a set, predicate of x, y, z, node ids or a mask, see :meth:`umform.Mesh.nodes`.
-        direction : {"x", "y", "z"}
-            Direction, or a letter of the axes.
+        direction : str
+            Direction.
         name : str, optional
             Column of the history.
         axes : Axes, optional
-            Local axes instead of x, y, z.
+            Local axes instead of x, y, z; the direction is then one of their letters.
 
         Returns
         -------
@@ -225,12 +223,12 @@ class Supports(Held):
         ----------
         nodes : str, callable or array_like
             Lower and upper nodes, "x1" for instance; through a stack of cells the outermost two nodes make the pair.
-        direction : {"x", "y", "z"}
-            Direction, or a letter of the axes.
+        direction : str
+            Direction.
         name : str, optional
             Column of the history.
         axes : Axes, optional
-            Local axes instead of x, y, z.
+            Local axes instead of x, y, z; the direction is then one of their letters.
 
         Returns
         -------

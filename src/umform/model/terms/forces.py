@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,14 +11,18 @@ from numpy.typing import ArrayLike, NDArray
 from umform import _core
 from umform.errors import InvalidValue, NotFinite
 from umform.mesh import FACES, Mesh, Selector
+from umform.spec import InDeck
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.int32]
 
+#: Three numbers.
+Vector = Annotated[ArrayLike, InDeck(tuple[float, float, float])]
+
 DIRECTIONS = {"x": 0, "y": 1, "z": 2}
 
 
-def vector3(values: ArrayLike, where: str) -> Floats:
+def vector3(values: Vector, where: str) -> Floats:
     """Three finite numbers."""
     vector = np.asarray(values, dtype=float)
     if vector.shape != (3,):

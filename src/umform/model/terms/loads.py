@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from umform.mesh import Mesh, Selector
 from umform.model.terms import forces
 from umform.model.terms.controls import Controls
 from umform.model.terms.dead_load import Load
+from umform.model.terms.forces import Vector
 from umform.model.terms.pressure import Pressure
 
 Floats = NDArray[np.float64]
@@ -33,7 +34,7 @@ class Loads:
     def __iter__(self) -> Iterator[Load]:
         return iter(self.controls.of_kind(Load))
 
-    def force(self, nodes: Selector, force: ArrayLike, name: str = "") -> Load:
+    def force(self, nodes: Selector, force: Vector, name: str = "") -> Load:
         """The same dead force on each node of a set.
 
         Parameters
@@ -41,7 +42,7 @@ class Loads:
         nodes : str, callable or array_like
             Name of a set, predicate of x, y, z, node ids or a mask, see :meth:`umform.Mesh.nodes`.
         force : array_like, shape (3,)
-            Force on each node for the value 1 of the control.
+            Force on each node for the value 1.
         name : str, optional
             Column of the history.
 
@@ -52,7 +53,7 @@ class Loads:
         """
         return self._load(forces.nodal_forces(self.mesh, nodes, force), name or self.controls.free_name("force"))
 
-    def traction(self, faces: Selector, traction: ArrayLike, name: str = "") -> Load:
+    def traction(self, faces: Selector, traction: Vector, name: str = "") -> Load:
         """Dead traction on faces of the cells, lateral ones too.
 
         Parameters
@@ -60,7 +61,7 @@ class Loads:
         faces : str, callable or array_like
             Name of a set, predicate of x, y, z, or rows (cell, face), see :meth:`umform.Mesh.face_set`.
         traction : array_like, shape (3,)
-            Force per reference area for the value 1 of the control.
+            Force per reference area for the value 1.
         name : str, optional
             Column of the history.
 
@@ -73,7 +74,7 @@ class Loads:
             forces.traction_forces(self.mesh, faces, traction), name or self.controls.free_name("traction")
         )
 
-    def line_load(self, faces: Selector, side: str, load: ArrayLike, name: str = "") -> Load:
+    def line_load(self, faces: Selector, side: str, load: Vector, name: str = "") -> Load:
         """Dead load on the lower or upper edge of lateral faces.
 
         Parameters
@@ -81,9 +82,9 @@ class Loads:
         faces : str, callable or array_like
             Name of a set, predicate of x, y, z, or rows (cell, face), see :meth:`umform.Mesh.face_set`.
         side : {"lower", "upper"}
-            Which edge of the faces.
+            Which of their edges.
         load : array_like, shape (3,)
-            Force per reference length for the value 1 of the control.
+            Force per reference length for the value 1.
         name : str, optional
             Column of the history.
 
@@ -96,13 +97,13 @@ class Loads:
             forces.edge_forces(self.mesh, faces, side, load), name or self.controls.free_name("line_load")
         )
 
-    def body_force(self, force: ArrayLike, name: str = "") -> Load:
+    def body_force(self, force: Vector, name: str = "") -> Load:
         """Dead force in the volume.
 
         Parameters
         ----------
         force : array_like, shape (3,)
-            Force per reference volume for the value 1 of the control.
+            Force per reference volume for the value 1.
         name : str, optional
             Column of the history.
 

@@ -6,14 +6,24 @@ import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Annotated, Any
 
-import numpy as np
+from annotated_types import Gt
 
-from umform.errors import InvalidValue, NotFinite
 from umform.model.terms.control import Twins
 from umform.model.terms.into import Global
 from umform.model.tools.tool_controls import ToolForce, ToolWay
+from umform.spec import About
+
+#: Force per length of a spring.
+Stiffness = Annotated[
+    float,
+    Gt(0.0),
+    About(
+        cause="a sign, or a tool that a force alone presses",
+        remedy="a force per length; for a force alone model.press(tool, direction)",
+    ),
+]
 
 
 @dataclass(frozen=True)
@@ -138,33 +148,3 @@ class Press:
         way, force = twins.of(self.way), twins.of(self.force)
         gaps = [twins.of(tool) for tool in self.gaps]
         return Press(twins.of(self.unknown), way, force, self.stiffness, self.free, list(self.stops), self.held, gaps)
-
-
-def check_stiffness(stiffness: float, other: float, where: str, names: str) -> None:
-    """Reject an invalid spring or stop.
-
-    Parameters
-    ----------
-    stiffness, other : float
-        Force per length, and the number beside it.
-    where : str
-        For the message.
-    names : str
-        Meaning of the other number, and a remedy for a missing stiffness.
-    """
-    if not np.isfinite([stiffness, other]).all():
-        raise NotFinite(
-            "a spring needs finite numbers",
-            where=where,
-            value=f"stiffness {stiffness}, {names} {other}",
-            cause="an earlier computation",
-            remedy=f"give a finite stiffness and a finite {names}",
-        )
-    if not stiffness > 0.0:
-        raise InvalidValue(
-            "the stiffness of a spring must be positive",
-            where=where,
-            value=stiffness,
-            cause="a sign, or a tool that a force alone presses",
-            remedy="a force per length; for a force alone model.press(tool, direction)",
-        )

@@ -58,7 +58,6 @@ class SectionCurve(_Cut):
     """A section of the part in the tools and released."""
 
     kind: Literal["section"]
-    """The word section."""
 
     def take(self, name: str, part: Formed) -> Measured:
         """Both skins in each state, and how far the release moves them."""
@@ -77,7 +76,6 @@ class Springback(_Cut):
     """Angles and side-wall radius of a hat section as NUMISHEET 93 defines them."""
 
     kind: Literal["springback"]
-    """The word springback."""
     heights: _Three = HEIGHTS
     """Heights above the bottom at which the wall is measured, rising; by default 15, 35 and 55, as in NUMISHEET 93."""
 
@@ -115,7 +113,6 @@ class DrawIn(MeasurePart):
     """Outline of an edge of the blank and how far it is drawn in, at the end of forming."""
 
     kind: Literal["draw_in"]
-    """The word draw_in."""
     edge: Annotated[
         Annotated[list[Selection], Tag("several"), Field(min_length=1)] | Annotated[Selection, Tag("one")],
         Discriminator(lambda value: "several" if isinstance(value, list) else "one"),
@@ -155,7 +152,6 @@ class Ears(MeasurePart):
     """Ear profile of a cup about the z-axis."""
 
     kind: Literal["ears"]
-    """The word ears."""
     rim: Selection = "rim"
     """Nodes of the edge of the blank; default: the set rim."""
 

@@ -24,7 +24,6 @@ class Forces(MeasurePart):
     """Force of each tool over a travel, up to the end of forming, and the work of friction."""
 
     kind: Literal["forces"]
-    """The word forces."""
     control: Name
     """Control of the abscissa, such as the stroke; forces are those along its direction, else along z."""
 

@@ -24,7 +24,6 @@ class Distance(MeasurePart):
     """Distance of the part from a tool where it stands, and after the release where it stood last."""
 
     kind: Literal["distance"]
-    """The word distance."""
     tool: Name
     """Name of the tool; a tool that no contact has stands where the deck puts it."""
     within: Positive | None = None
@@ -73,7 +72,6 @@ class Gauge(MeasurePart):
     """The released part, laid as a rigid body into a gauge of its shape at the end of forming."""
 
     kind: Literal["gauge"]
-    """The word gauge."""
     points: Annotated[list[Vector], Field(min_length=3, max_length=3)] | None = None
     """Three points of the blank that the part lies on, each the nearest node; default: the best fit of all points."""
 
@@ -134,7 +132,6 @@ class Map(MeasurePart):
     """A field of forming over the part."""
 
     kind: Literal["map"]
-    """The word map."""
     field: Literal[
         "thinning", "wrinkling", "thickness_strain", "major_lower", "major_middle", "major_upper", "minor_lower",
         "minor_middle", "minor_upper",

@@ -52,7 +52,7 @@ def find_stroke(
     case: AirBending,
     angle: float,
     *,
-    tolerance: float = 0.02,
+    tolerance: float = Goal.tolerance,
     frames: int = FRAMES,
     solver: str = "auto",
     progress: bool | None = None,

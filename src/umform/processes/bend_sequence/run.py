@@ -5,6 +5,7 @@ from __future__ import annotations
 from umform.analysis.run import Result
 from umform.mesh import Mesh
 from umform.processes.air_bending.bend import Loaded
+from umform.processes.air_bending.goal import Goal
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.search import bent_to_angle
 from umform.processes.bend_sequence.collisions import collisions
@@ -20,7 +21,7 @@ FRAMES = 30
 
 
 def bend_sequence(
-    sequence: BendSequence, *, tolerance: float = 0.02, frames: int = FRAMES, progress: Show = None
+    sequence: BendSequence, *, tolerance: float = Goal.tolerance, frames: int = FRAMES, progress: Show = None
 ) -> Part:
     """Bend a strip several times; each bend starts from the previous state: displacements, stresses, plastic strains.
 

@@ -10,7 +10,10 @@ from umform.results.forming import KeelerBrazier, add_forming_fields
 
 
 def outcome_of(case: Cup | UBend, result: Result) -> Drawn:
-    """The part of a case from a run of its problem, which has a frame at the end of each step."""
+    """The part of a case from a run of its problem, which has a frame at the end of each step.
+
+    The stroke at the forming limit is rough: it is interpolated between these frames.
+    """
     kinds = [step.kind for step in case.problem().contents.steps]
     opens = kinds.index("free") + 1
     limit = KeelerBrazier.of(case.thickness, case.material)

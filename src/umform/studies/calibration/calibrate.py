@@ -9,11 +9,12 @@ from typing import Any
 import numpy as np
 
 from umform.errors import InvalidValue
-from umform.materials import J2, Hardening, Hill48, Metal, Mises, YieldFunction, Yld2004
+from umform.materials import J2, FallingModulus, Hardening, Hill48, Metal, Mises, YieldFunction, Yld2004
 from umform.sheet_metals import (
     CURVE_FITS,
     Fit,
     fit_chaboche,
+    fit_falling_modulus,
     fit_hill48,
     fit_yld2004,
     fit_yoshida_uemori,
@@ -28,6 +29,8 @@ BACK_STRESSES = ("chaboche1", "chaboche2", "chaboche3", "chaboche4", "yoshida-ue
 _CANDIDATES = ("swift", "voce", "linear-voce")
 #: Plastic strain below which a tension test depends more on the extensometer than on the metal.
 _FIRST_PLASTIC = 5e-4
+#: Rounds in which plastic strains and the modulus that falls with them find each other: each gains two digits.
+_ROUNDS = 8
 
 
 @dataclass(frozen=True)
@@ -43,9 +46,11 @@ class Calibration:
     yield_function : YieldFunction
         Its yield function.
     fits : mapping of str to Fit
-        The fits of the law, by "yield function", "hardening" and "cycles".
+        The fits of the law, by "yield function", "modulus", "hardening" and "cycles".
     others : mapping of str to float
         Misfits of the other hardening curves.
+    young : float
+        Young's modulus.
     """
 
     measurements: Measurements
@@ -53,6 +58,7 @@ class Calibration:
     yield_function: YieldFunction
     fits: Mapping[str, Fit[Any]]
     others: Mapping[str, float] = field(default_factory=dict)
+    young: float = 0.0
 
 
 def calibrate(
@@ -61,7 +67,7 @@ def calibrate(
     poisson: float = 0.3,
     *,
     yield_function: str = "hill48",
-    exponent: float = 8.0,
+    exponent: float = Yld2004.exponent,
     hardening: str = "auto",
     back_stress: str = "chaboche2",
     largest_step: float = 1e-3,
@@ -111,21 +117,24 @@ def calibrate(
     if measurements.directions is not None:
         found = _function(measurements, yield_function, exponent)
         fits["yield function"], function = found, found.law
+    modulus: FallingModulus | None = None
+    if measurements.unloading is not None:
+        slopes = fit_falling_modulus(measurements.unloading.eqps, measurements.unloading.modulus, young)
+        fits["modulus"], modulus = slopes, slopes.law
     law: J2 | Metal | None = None
     others: dict[str, float] = {}
     if measurements.cycles is not None:
-        cycles = _cycles(measurements, young, poisson, function, back_stress, largest_step)
+        cycles = _cycles(measurements, young, poisson, function, back_stress, largest_step, modulus)
         fits["cycles"], law = cycles, cycles.law
     elif measurements.tension is not None:
-        curve, others = _curve(measurements.tension, young, function, hardening)
+        curve, others = _curve(measurements.tension, young, function, hardening, modulus)
         fits["hardening"] = curve
-        isotropic = isinstance(function, Mises)
         law = (
             J2(young, poisson, hardening=curve.law)
-            if isotropic
-            else Metal(young, poisson, hardening=curve.law, yield_function=function)
+            if isinstance(function, Mises) and modulus is None
+            else Metal(young, poisson, hardening=curve.law, yield_function=function, modulus=modulus)
         )
-    return Calibration(measurements, law, function, fits, others)
+    return Calibration(measurements, law, function, fits, others, young)
 
 
 def _function(measurements: Measurements, kind: str, exponent: float) -> Fit[Hill48] | Fit[Yld2004]:
@@ -152,10 +161,16 @@ def _too_few(name: str, count: int, remedy: str) -> InvalidValue:
     )
 
 
-def _curve(tension: Test, young: float, function: YieldFunction, kind: str) -> tuple[Fit[Hardening], dict[str, float]]:
+def _curve(
+    tension: Test, young: float, function: YieldFunction, kind: str, modulus: FallingModulus | None
+) -> tuple[Fit[Hardening], dict[str, float]]:
     """The hardening curve: stresses along the rolling direction over the value of the yield function there."""
     s0, _ = uniaxial(function, 0.0)
     eqps = (tension.strain - tension.stress / young) * s0  # equal plastic work
+    if modulus is not None:
+        for _ in range(_ROUNDS):
+            present = young * modulus.share(young, np.maximum(eqps, 0.0))
+            eqps = (tension.strain - tension.stress / present) * s0
     flows = eqps >= _FIRST_PLASTIC
     if np.count_nonzero(flows) < 4:
         raise InvalidValue(
@@ -173,10 +188,16 @@ def _curve(tension: Test, young: float, function: YieldFunction, kind: str) -> t
 
 
 def _cycles(
-    measurements: Measurements, young: float, poisson: float, function: YieldFunction, kind: str, largest_step: float
+    measurements: Measurements,
+    young: float,
+    poisson: float,
+    function: YieldFunction,
+    kind: str,
+    largest_step: float,
+    modulus: FallingModulus | None,
 ) -> Fit[Metal]:
     tests = [test for test in (measurements.cycles, measurements.tension) if test is not None]
     pairs = [(test.strain, test.stress) for test in tests]
     if kind == "yoshida-uemori":
-        return fit_yoshida_uemori(pairs, young, poisson, function, largest_step)
-    return fit_chaboche(pairs, int(kind[-1]), young, poisson, function, largest_step)
+        return fit_yoshida_uemori(pairs, young, poisson, function, largest_step, modulus)
+    return fit_chaboche(pairs, int(kind[-1]), young, poisson, function, largest_step, modulus)

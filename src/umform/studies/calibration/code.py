@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import is_dataclass
 from typing import Any
 
-from umform.materials import J2, Metal, YieldFunction
+from umform.materials import J2, FallingModulus, Metal, YieldFunction
 from umform.materials.yield_functions import Function
 from umform.problem.keys import given, keys_of, law_keys
 from umform.problem.written import toml_line
@@ -33,6 +33,11 @@ def function_block(function: YieldFunction) -> tuple[str, str]:
     """A yield function without hardening: its line of a deck, and Python."""
     keys = _rounded(keys_of(Function, function))
     return toml_line("yield_function", keys) + "\n", f"yield_function = {_code(function)}\n"
+
+
+def modulus_block(modulus: FallingModulus) -> tuple[str, str]:
+    """A falling modulus: its line of a deck, and Python."""
+    return toml_line("modulus", _rounded(vars(modulus))) + "\n", f"modulus = {_code(modulus)}\n"
 
 
 def _code(value: Any) -> str:

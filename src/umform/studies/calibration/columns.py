@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
 
@@ -11,7 +12,9 @@ from umform.errors import FileProblem
 Row = tuple[int, dict[str, str]]
 
 
-def read_rows(path: str | PathLike[str], wanted: tuple[str, ...], example: str) -> list[Row]:
+def read_rows(
+    path: str | PathLike[str], wanted: tuple[str, ...], example: str, names: Mapping[str, str] | None = None
+) -> list[Row]:
     """Rows of a CSV file whose first row has the names of the columns; what follows # is a comment.
 
     Parameters
@@ -22,6 +25,8 @@ def read_rows(path: str | PathLike[str], wanted: tuple[str, ...], example: str) 
         Columns that must be there.
     example : str
         How such a file begins, for messages.
+    names : mapping of str to str, optional
+        Names of columns in the file where they differ: ``{"stress": "sigma"}``.
 
     Raises
     ------
@@ -40,8 +45,9 @@ def read_rows(path: str | PathLike[str], wanted: tuple[str, ...], example: str) 
     table = [(number, [cell.strip() for cell in line.split(",")]) for number, line in cells if line]
     if not table:
         raise FileProblem("there are no measurements", where=str(path), cause="an empty file", remedy=remedy)
-    header = [name.casefold().replace(" ", "_") for name in table[0][1]]
-    missing = [name for name in wanted if name not in header]
+    own = {_key(there): name for name, there in (names or {}).items()}
+    header = [own.get(_key(name), _key(name)) for name in table[0][1]]
+    missing = [(names or {}).get(name, name) for name in wanted if name not in header]
     if missing:
         raise FileProblem(
             f"the column {missing[0]} is missing",
@@ -62,6 +68,10 @@ def read_rows(path: str | PathLike[str], wanted: tuple[str, ...], example: str) 
             )
         rows.append((number, dict(zip(header, row, strict=True))))
     return rows
+
+
+def _key(name: str) -> str:
+    return name.strip().casefold().replace(" ", "_")
 
 
 def number(path: str | PathLike[str], row: Row, column: str, *, empty: bool = False) -> float | None:

@@ -8,17 +8,19 @@ from pathlib import Path
 from umform.io.staging import staging
 from umform.io.tables import write_csv
 from umform.studies.calibration.calibrate import Calibration
-from umform.studies.calibration.code import deck_block, function_block, python_code
+from umform.studies.calibration.code import deck_block, function_block, modulus_block, python_code
 from umform.studies.calibration.pictures import pictures
 
-_PICTURES = ("directions", "locus", "tension", "cycles")
+_PICTURES = ("directions", "locus", "modulus", "tension", "cycles")
 FILES = ("metal.toml", "metal.py", "constants.csv", *(f"{name}.{end}" for name in _PICTURES for end in ("png", "svg")))
 
 
 def texts(found: Calibration) -> tuple[str, str]:
     """Block of a deck, and Python."""
     if found.law is None:
-        return function_block(found.yield_function)
+        blocks = [function_block(found.yield_function)] if "yield function" in found.fits else []
+        blocks += [modulus_block(found.fits["modulus"].law)] if "modulus" in found.fits else []
+        return "".join(deck for deck, _ in blocks), "".join(python for _, python in blocks)
     return deck_block(found.law), python_code(found.law)
 
 

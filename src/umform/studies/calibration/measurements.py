@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike
 
@@ -14,6 +15,8 @@ from umform.studies.calibration.columns import number, read_rows
 
 Floats = NDArray[np.float64]
 Path = str | PathLike[str]
+#: Names of columns in a file where they differ from ours.
+Names = Mapping[str, str] | None
 
 #: A strain that must be in per cent, and the range of stresses in MPa at which metals yield.
 _LARGEST_STRAIN, _SOFTEST, _HARDEST = 2.0, 10.0, 5000.0
@@ -38,6 +41,20 @@ class Test:
 
 
 @dataclass(frozen=True)
+class Unloading:
+    """Slopes of unloading.
+
+    Attributes
+    ----------
+    eqps, modulus : ndarray, shape (n,)
+        Plastic strains, and the slope from each.
+    """
+
+    eqps: Floats
+    modulus: Floats
+
+
+@dataclass(frozen=True)
 class Measurements:
     """All measurements; None for missing ones.
 
@@ -49,14 +66,17 @@ class Measurements:
         Tension up to the largest force.
     cycles : Test, optional
         Tension and compression.
+    unloading : Unloading, optional
+        Slopes of unloading over the plastic strain.
     """
 
     directions: Directions | None = None
     tension: Test | None = None
     cycles: Test | None = None
+    unloading: Unloading | None = None
 
 
-def read_directions(path: Path) -> Directions:
+def read_directions(path: Path, names: Names = None) -> Directions:
     """Read yield stresses and r-values: columns angle, stress, r; the angle ``biaxial`` has the biaxial point.
 
     Stresses in MPa are divided by that at 0 degrees. A cell of what was not measured is empty.
@@ -66,7 +86,8 @@ def read_directions(path: Path) -> Directions:
     FileProblem, InvalidValue
         If columns are missing, a cell is not a number, an angle comes twice, or a value is not positive.
     """
-    rows = read_rows(path, ("angle", "stress", "r"), "angle,stress,r / 0,1.0,0.21 / 45,0.81,1.58 / biaxial,1.03,0.67")
+    example = "angle,stress,r / 0,1.0,0.21 / 45,0.81,1.58 / biaxial,1.03,0.67"
+    rows = read_rows(path, ("angle", "stress", "r"), example, names)
     stresses: dict[float, float] = {}
     r: dict[float, float] = {}
     biaxial: list[float | None] = [None, None]
@@ -110,7 +131,9 @@ def _first(stresses: dict[float, float], path: Path) -> float:
     )
 
 
-def read_tension(path: Path, young: float, *, engineering: bool = False, percent: bool = False) -> Test:
+def read_tension(
+    path: Path, young: float, *, engineering: bool = False, percent: bool = False, names: Names = None
+) -> Test:
     """Read a tension test along the rolling direction up to the largest force.
 
     Parameters
@@ -124,13 +147,15 @@ def read_tension(path: Path, young: float, *, engineering: bool = False, percent
         the largest force.
     percent : bool
         Strains are in per cent.
+    names : mapping of str to str, optional
+        Names of columns in the file where they differ: ``{"stress": "sigma"}``.
 
     Raises
     ------
     FileProblem, InvalidValue
         If columns are missing or the numbers contradict their units or their kind.
     """
-    plastic_given, strain, stress = _pairs(path, percent, empty=False)
+    plastic_given, strain, stress = _pairs(path, percent, names, empty=False)
     if engineering:
         top = int(np.argmax(stress)) + 1
         strain, stress = np.log1p(strain[:top]), (stress * (1.0 + strain))[:top]
@@ -157,12 +182,14 @@ def read_tension(path: Path, young: float, *, engineering: bool = False, percent
     return Test(strain, stress)
 
 
-def read_cycles(path: Path, young: float, *, engineering: bool = False, percent: bool = False) -> Test:
+def read_cycles(
+    path: Path, young: float, *, engineering: bool = False, percent: bool = False, names: Names = None
+) -> Test:
     """Read cycles along the rolling direction: columns strain and stress, in their order; parameters as for tension.
 
     Each turning point must be there; its stress may be left empty.
     """
-    plastic_given, strain, stress = _pairs(path, percent, empty=True)
+    plastic_given, strain, stress = _pairs(path, percent, names, empty=True)
     if plastic_given:
         raise InvalidValue(
             "cycles need total strains",
@@ -187,13 +214,46 @@ def read_cycles(path: Path, young: float, *, engineering: bool = False, percent:
     return Test(strain, stress)
 
 
-def _pairs(path: Path, percent: bool, *, empty: bool) -> tuple[bool, Floats, Floats]:
+def read_unloading(path: Path, young: float, *, percent: bool = False, names: Names = None) -> Unloading:
+    """Read slopes of unloading: columns plastic_strain and modulus, in MPa; parameters as for tension.
+
+    Raises
+    ------
+    FileProblem, InvalidValue
+        If columns are missing, or the numbers contradict their units.
+    """
+    rows = read_rows(path, ("plastic_strain", "modulus"), "plastic_strain,modulus / 0.02,185000", names)
+    table = np.array([[number(path, row, name) for name in ("plastic_strain", "modulus")] for row in rows], dtype=float)
+    if len(table) < 3:
+        raise InvalidValue("three or more measurements are needed", where=str(path), value=len(table))
+    eqps, modulus = table.T * np.array([[0.01 if percent else 1.0], [1.0]])
+    if not ((eqps >= 0.0).all() and (eqps < _LARGEST_STRAIN).all()):
+        worst = eqps[(eqps < 0.0) | (eqps >= _LARGEST_STRAIN)][0]
+        raise InvalidValue(
+            "plastic strains are fractions and not negative",
+            where=str(path),
+            value=worst,
+            cause="per cent, or a sign",
+            remedy="--percent (percent=True), or strains divided by 100",
+        )
+    if not ((modulus > young / 3.0).all() and (modulus < 1.1 * young).all()):
+        raise InvalidValue(
+            "the slope of unloading is at most Young's modulus, and no less than a third",
+            where=str(path),
+            value=modulus[(modulus <= young / 3.0) | (modulus >= 1.1 * young)][0],
+            cause="GPa, or Young's modulus of another metal",
+            remedy=f"slopes in MPa; Young's modulus is {young:g} MPa",
+        )
+    return Unloading(eqps, modulus)
+
+
+def _pairs(path: Path, percent: bool, given: Names, *, empty: bool) -> tuple[bool, Floats, Floats]:
     """Whether strains are plastic, strains, and stresses of a file."""
-    rows = read_rows(path, ("stress",), "strain,stress / 0.05,275")
+    rows = read_rows(path, ("stress",), "strain,stress / 0.05,275", given)
     header = rows[0][1] if rows else {}
     names = [name for name in ("strain", "plastic_strain") if name in header]
     if len(names) != 1:
-        read_rows(path, ("strain",), "strain,stress / 0.05,275, or plastic_strain,stress")
+        read_rows(path, ("strain",), "strain,stress / 0.05,275, or plastic_strain,stress", given)
         raise InvalidValue(
             "a test has the column strain or plastic_strain, and three rows or more",
             where=str(path),

@@ -10,11 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from umform.materials import J2, Metal, YieldFunction, tension
+from umform.materials import J2, FallingModulus, Metal, YieldFunction, tension
 from umform.plotting import COLOURS
 from umform.sheet_metals import Directions, uniaxial
 from umform.studies.calibration.calibrate import Calibration
-from umform.studies.calibration.measurements import Test
+from umform.studies.calibration.measurements import Test, Unloading
 
 Floats = NDArray[np.float64]
 #: Shares of the largest shear at which the locus is drawn.
@@ -29,6 +29,8 @@ def pictures(found: Calibration) -> Iterator[tuple[str, Figure]]:
     if given.directions is not None:
         yield "directions", over_the_angle(found.yield_function, given.directions)
         yield "locus", locus(found.yield_function, given.directions)
+    if given.unloading is not None:
+        yield "modulus", over_plastic_strain(found.fits["modulus"].law, given.unloading, found.young)
     for name, test in (("tension", given.tension), ("cycles", given.cycles)):
         if test is not None and found.law is not None:
             yield name, along_a_test(found.law, test, name)
@@ -85,6 +87,18 @@ def _contour(function: YieldFunction, shear: float) -> tuple[Floats, Floats]:
         sizes.append(low)
     size = np.array(sizes)
     return size * np.cos(rays), size * np.sin(rays)
+
+
+def over_plastic_strain(law: FallingModulus, measured: Unloading, young: float) -> Figure:
+    """Slopes of unloading over the plastic strain."""
+    figure = Figure(figsize=(6.2, 4.0), layout="constrained")
+    axes: Axes = figure.subplots()
+    p = np.linspace(0.0, 1.05 * float(measured.eqps.max()), 101)
+    axes.plot(measured.eqps, measured.modulus, "o", color=COLOURS[1], markersize=3, label="measured")
+    axes.plot(p, young * law.share(young, p), color=COLOURS[0], linewidth=1.2, label="fit")
+    axes.set(title="unloading", xlabel="plastic strain", ylabel="modulus, MPa")
+    axes.legend()
+    return figure
 
 
 def along_a_test(law: J2 | Metal, test: Test, name: str) -> Figure:

@@ -129,13 +129,15 @@ def derivatives(
 
 
 def subject_of(subject: Any, by: Any, options: NewtonOptions | None = None, solver: str | None = None) -> Subject:
-    """What derivatives are taken of, from what a user gives.
+    """What derivatives are taken of, from what a user gives; one that is made already stays as it is.
 
     Raises
     ------
     InvalidValue
         A function without the values of its parameters.
     """
+    if isinstance(subject, OfProblem | OfCase | OfFunction):
+        return subject
     if isinstance(subject, Problem):
         return OfProblem(subject)
     if callable(subject) and not hasattr(subject, "__dataclass_fields__"):

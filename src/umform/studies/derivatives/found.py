@@ -170,7 +170,7 @@ class Derivatives:
     @property
     def table(self) -> list[list[str]]:
         """A header, and a row for each response: its value, and its change for 1 % more of each parameter."""
-        rows = [["quantity", "value", *(f"1 % {name}" for name in self._short_names), "unit"]]
+        rows = [["quantity", "value", *self._short_names, "unit"]]
         for response in self.responses:
             ones = [self[response.name, one.path] for one in self.parameters]
             if all(one.value in (None, 0.0) for one in ones):
@@ -259,7 +259,7 @@ class Derivatives:
         label = next(one.label for one in self.responses if one.name == main)
         caption = f"Change of the {label} for 1 % more of each parameter."
         table, notes, warnings = self.table, self.notes, self.warnings
-        return Annex("Changes of the results", table, notes, warnings, lambda: self.plot(main), caption)
+        return Annex("Changes for 1 % more of", table, notes, warnings, lambda: self.plot(main), caption)
 
     @property
     def _main(self) -> str:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from umform.errors import InvalidValue
 from umform.io.tables import write_csv, write_json
 from umform.report.versions import versions
+from umform.results.outcome import Annex
 from umform.results.quantity import UNKNOWN, Bad, Quantity, list_columns
 from umform.studies.derivatives import Derivatives
 from umform.studies.scatter.second_run import ALLOWED, STEPS, SecondRun
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 #: Files: all numbers, the same with the sources, the picture.
 TABLE, RECORD, PICTURE = FILES = ("scatter.csv", "scatter.json", "scatter.png")
+#: Heading of the table of shares.
+SHARES = "Shares of the variance in %"
 #: Capability above which a process is usually called capable.
 CAPABLE = 1.33
 
@@ -85,7 +88,7 @@ class Scattered:
         return {
             "Parameters that scatter": self._table_of_sources,
             "Scatter of the results": self._table_of_results,
-            "Shares of the variance in %": self._table_of_shares,
+            SHARES: self._table_of_shares,
         } | {f"{one.place}: changes": self._table_of_run(one) for one in self.second_runs}
 
     @property
@@ -160,6 +163,15 @@ class Scattered:
                     f"{f' ({run.note})' if run.note else ''}; umform sweep over {run.path} shows the curve"
                 )
         return own
+
+    @property
+    def annexes(self) -> list[Annex]:
+        """Tables and picture for the outcome of a process; the warnings are at the end."""
+        found = {title: Annex(title, table) for title, table in self.tables.items()}
+        caption = "Shares of the parameters in the variance of the results."
+        found[SHARES] = replace(found[SHARES], picture=self.plot, caption=caption)
+        *others, last = found.values()
+        return [*others, replace(last, warnings=self.warnings)]
 
     def record(self) -> dict[str, Any]:
         """All of it as JSON data."""

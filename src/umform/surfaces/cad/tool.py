@@ -21,6 +21,8 @@ from umform.surfaces.tool import Tool
 from umform.surfaces.triangles import Floats, Ids, Triangles
 from umform.surfaces.triangulated import Triangulated
 
+#: Largest distance of a tool from free-form faces, where none is given.
+FREE_FORM = 1e-3
 #: Initial angle in radians by which triangles turn, smallest factor of the next attempt, number of attempts.
 _ANGLE, _LEAST_SHARE, _ROUNDS = 0.35, 0.5, 8
 #: More triangles are not tried.
@@ -66,7 +68,7 @@ class CadTool(Tool):
         cls,
         path: str | Path,
         *,
-        tolerance: float = 1e-3,
+        tolerance: float = FREE_FORM,
         open: bool = False,
         sharp: float = 2.0,
         scale: float = 1.0,

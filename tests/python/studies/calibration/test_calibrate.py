@@ -19,7 +19,7 @@ from umform.problem.tagged import deck_type
 from umform.sheet_metals import CURVE_FITS, Directions, fit_chaboche, get
 from umform.studies.calibration import Calibration, Measurements, calibrate, read_cycles, read_tension
 from umform.studies.calibration.code import deck_block, python_code
-from umform.studies.calibration.measurements import Test
+from umform.studies.calibration.measurements import Test, Unloading
 from umform.studies.calibration.pictures import curve_of, over_the_angle, pictures
 from umform.studies.calibration.words import remarks
 
@@ -128,6 +128,70 @@ def test_a_back_stress_comes_back_from_a_half_cycle():
     assert found.undetermined == ()
     assert found.constants["C1"] == pytest.approx(5000.0, rel=0.02)
     assert found.constants["gamma1"] == pytest.approx(60.0, rel=0.02)
+
+
+FALLING = uf.FallingModulus(160e3, 40.0)
+
+
+def slopes(young=206e3, noise=0.0):
+    eqps = np.array([0.002, 0.005, 0.01, 0.02, 0.04, 0.06, 0.1])
+    return Unloading(eqps, young * FALLING.share(young, eqps) + noise * np.array([1, -1, 1, -1, 1, -1, 1]))
+
+
+def test_a_falling_modulus_comes_back_from_slopes_of_unloading():
+    found = calibrate(Measurements(unloading=slopes()), 206e3)
+    assert found.law is None
+    assert vars(found.fits["modulus"].law) == pytest.approx(vars(FALLING), rel=1e-5)
+    noisy = calibrate(Measurements(unloading=slopes(noise=1000.0)), 206e3).fits["modulus"]
+    assert abs(noisy.constants["saturated"] - 160e3) < 2.0 * noisy.deviations["saturated"] < 5e3
+    assert noisy.undetermined == ()
+
+
+def test_tension_and_cycles_are_fitted_with_the_modulus_that_falls():
+    curve = uf.Swift(520.0, 0.004, 0.22)
+    metal = uf.Metal(206e3, 0.3, hardening=curve, modulus=FALLING)
+    strain = np.geomspace(2e-3, 0.2, 40)
+    tension = Test(strain, uf.materials.tension(metal, strain)[1])
+    with_slopes = calibrate(Measurements(tension=tension, unloading=slopes()), 206e3, hardening="swift")
+    assert with_slopes.law.modulus == with_slopes.fits["modulus"].law
+    assert vars(with_slopes.law.hardening) == pytest.approx(vars(curve), rel=2e-3)
+    without = calibrate(Measurements(tension=tension), 206e3, hardening="swift")
+    assert with_slopes.fits["hardening"].misfit < 0.2 * without.fits["hardening"].misfit
+    names: dict[str, object] = {}
+    exec(python_code(with_slopes.law), names)
+    assert names["material"].modulus.saturated == pytest.approx(160e3, rel=1e-4)
+    back = uf.Metal(
+        2e5, 0.3, hardening=uf.Voce(200.0, 230.0, 10.0), back_stress=uf.Chaboche([(5000.0, 60.0)]), modulus=FALLING
+    )
+    path = np.concatenate([np.linspace(0.002, 0.03, 12), np.linspace(0.028, -0.03, 25)])
+    cycles = Test(path, uf.materials.tension(back, path)[1])
+    data = Measurements(cycles=cycles, unloading=slopes(2e5))
+    cycled = calibrate(data, 2e5, back_stress="chaboche1", largest_step=5e-3).fits["cycles"]
+    assert cycled.constants["C1"] == pytest.approx(5000.0, rel=0.02)
+    assert cycled.misfit < 0.05
+
+
+def test_slopes_of_unloading_on_the_command_line_with_other_names_of_columns(tmp_path):
+    found = slopes()
+    rows = "\n".join(f"{100 * p:.12g},{E:.12g}" for p, E in zip(found.eqps, found.modulus, strict=True))
+    (tmp_path / "slopes.csv").write_text(f"Dehnung,E chord\n{rows}\n")
+    words = ["metal", "fit", "--young", "206000", "--unloading", str(tmp_path / "slopes.csv"), "--percent"]
+    missing = CliRunner().invoke(app, [*words, "--out", str(tmp_path / "out")])
+    assert missing.exit_code == 1
+    assert "the column plastic_strain is missing" in missing.output
+    names = ["--column", "plastic_strain=Dehnung", "--column", "modulus=E chord"]
+    done = CliRunner().invoke(app, [*words, *names, "--out", str(tmp_path / "out")])
+    assert done.exit_code == 0, done.output
+    assert "saturated   160000" in done.output
+    assert "modulus = { saturated = 160000.0, rate = 40.0 }" in (tmp_path / "out" / "metal.toml").read_text()
+    assert (tmp_path / "out" / "modulus.png").is_file()
+    for wrong, said in (("Dehnung=strain", "this renames no column"), ("stress", "the sign = is missing")):
+        refused = CliRunner().invoke(app, [*words, "--column", wrong])
+        assert said in refused.output
+    for name, row, said in (("gpa", "0.02,185", "at most Young's modulus"), ("percent", "5,185000", "per cent")):
+        (tmp_path / f"{name}.csv").write_text("plastic_strain,modulus\n" + f"{row}\n" * 3)
+        refused = CliRunner().invoke(app, [*words[:5], str(tmp_path / f"{name}.csv")])
+        assert said in refused.output, refused.output
 
 
 def test_what_measurements_do_not_tell_is_named():

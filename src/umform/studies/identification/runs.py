@@ -1,0 +1,131 @@
+"""Runs of the search: weighted differences from the measurements, and their derivatives."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import InvalidValue, UmformError
+from umform.progress import Show
+from umform.studies.derivatives import Derivatives, derivatives
+from umform.studies.derivatives.subjects import Subject
+from umform.studies.identification.data import Measured
+
+Floats = NDArray[np.float64]
+
+
+@dataclass
+class Runs:
+    """The runs of a search: one for each set of values, and for each setting of the measurements.
+
+    Attributes
+    ----------
+    thing : Subject
+        What is run.
+    paths : sequence of str
+        What is looked for.
+    data : sequence of Measured
+        Measurements.
+    count : int
+        Runs so far.
+    refused : int
+        Sets of values that were refused, or whose run did not converge.
+    refusal : UmformError or None
+        Why the last set was; None if it was not.
+    progress, on_run
+        See :func:`umform.identify`.
+    """
+
+    thing: Subject
+    paths: Sequence[str]
+    data: Sequence[Measured]
+    progress: Show = None
+    on_run: Callable[[int, float], object] = lambda count, misfit: None
+    count: int = 0
+    refused: int = 0
+    refusal: UmformError | None = None
+    _last: dict[bytes, tuple[Floats, Floats, list[Derivatives]]] = field(default_factory=dict)
+
+    def at(self, values: Floats) -> tuple[Floats, Floats, list[Derivatives]]:
+        """Numbers of the run, derivatives shape (m, n), and the runs, one for each measurement.
+
+        Values have 12 digits, with which a deck gives elastic constants as E and nu.
+
+        Raises
+        ------
+        UmformError
+            A value is refused, a run does not converge, or a derivative is unknown.
+        """
+        key = values.tobytes()
+        if key not in self._last:
+            found = self._run({path: float(f"{value:.12g}") for path, value in zip(self.paths, values, strict=True)})
+            self.refusal = None
+            self._last = dict([*list(self._last.items())[-1:], (key, found)])
+            self.on_run(self.count, float(np.sqrt(np.mean(self._over(found[0]) ** 2))))
+        return self._last[key]
+
+    def residuals(self, values: Floats) -> Floats:
+        """Differences over their standard deviations; infinite where there is no run."""
+        try:
+            return self._over(self.at(values)[0])
+        except UmformError as error:
+            self.refused += 1
+            self.refusal = error
+            return np.full(len(self.numbers[0]), math.inf)
+
+    def jacobian(self, values: Floats) -> Floats:
+        """Derivatives of the residuals."""
+        found: Floats = self.at(values)[1] / self.numbers[1][:, None]
+        return found
+
+    @property
+    def numbers(self) -> tuple[Floats, Floats]:
+        """All measured numbers and their standard deviations."""
+        pairs = [one.numbers for one in self.data]
+        return np.concatenate([one for one, _ in pairs]), np.concatenate([one for _, one in pairs])
+
+    def _over(self, found: Floats) -> Floats:
+        measured, deviations = self.numbers
+        return (found - measured) / deviations
+
+    def _run(self, values: Mapping[str, float]) -> tuple[Floats, Floats, list[Derivatives]]:
+        numbers, slopes, runs = [], [], []
+        for setting, group in groupby(self.data, lambda one: dict(one.at)):
+            some = list(group)
+            run = self._derivatives({**setting, **values}, [name for one in some for name in one.of])
+            for one in some:
+                value, slope = one.found(run)
+                numbers.append(value)
+                slopes.append(slope)
+                runs.append(run)
+        slope = np.concatenate(slopes)
+        self._check(slope, runs)
+        return np.concatenate(numbers), slope, runs
+
+    def _derivatives(self, values: Mapping[str, Any], of: list[Any]) -> Derivatives:
+        self.count += 1
+        try:
+            return derivatives(self.thing.with_(values), list(self.paths), of, progress=self.progress)
+        except InvalidValue as error:
+            error.where = "quantity" if error.where == "of" else error.where
+            raise
+
+    def _check(self, slopes: Floats, runs: Sequence[Derivatives]) -> None:
+        """Refuse unknown derivatives."""
+        lost = ~np.isfinite(slopes).all(axis=0)
+        if lost.any():
+            path = self.paths[int(np.argmax(lost))]
+            raise InvalidValue(
+                "a derivative is unknown",
+                where=path,
+                cause=next(
+                    (run.runs.kept[path].lost for run in runs if run.runs.kept[path].lost), "a number undefined"
+                ),
+                remedy="smaller increments, or other first values",
+            )
