@@ -32,12 +32,13 @@ Derive = Annotated[
 def derive(
     deck: DeckFile,
     by: Annotated[
-        list[str],
+        list[str] | None,
         typer.Option(
             metavar="PATH",
-            help="Parameter, such as tools.die.radius (see `umform paths DECK`), or its end; repeatable.",
+            help="Parameter, such as tools.die.radius (see `umform paths DECK`), or its end; repeatable. Default: "
+            "those of the table [derivatives] of the deck.",
         ),
-    ],
+    ] = None,
     of: Annotated[
         list[str] | None,
         typer.Option(
@@ -73,9 +74,12 @@ def derive(
     said: list[str] = []
     with deck_errors():
         problem = read(deck, changes or (), trust)
-        held = dict(_pair(text) for text in hold or ())
+        table = problem.contents.derivatives
+        paths, held = by or (table.by if table else []), dict(_pair(text) for text in hold or ())
+        wanted = of or (table.results or None if table else None)
+        _refuse_none(paths)
         place = folder_for(out, Path("results") / f"{deck.stem}-derive", (TABLE,), overwrite=overwrite, say=said.append)
-        found = derivatives(problem, by, of, hold=held)
+        found = derivatives(problem, paths, wanted, hold=held or (table.hold if table else {}))
     for text in said:  # only of a run that starts
         typer.echo(f"umform: {text}", err=True)
     show_annex(found.annex)
@@ -98,6 +102,16 @@ def say_written(files: Sequence[Path]) -> None:
     """Print the names of files in one folder."""
     names = ", ".join(file.name for file in files)
     console().print(f"Written to {files[0].parent}: {names}", soft_wrap=True, markup=False)
+
+
+def _refuse_none(paths: Sequence[str]) -> None:
+    if not paths:
+        raise InvalidValue(
+            "there is no parameter for derivatives",
+            where="--by",
+            cause="neither the option, nor a table [derivatives] in the deck",
+            remedy="--by tools.die.radius, for instance; umform paths DECK lists all",
+        )
 
 
 def _pair(text: str) -> tuple[str, str]:

@@ -15,7 +15,7 @@ from umform.problem.material import MaterialPart
 from umform.problem.mesh import MeshPart
 from umform.problem.notes import Field, Later
 from umform.problem.parts import Name, Part
-from umform.problem.settings import Output, Solution, Units
+from umform.problem.settings import Derivatives, Output, Solution, Units
 from umform.problem.steps import StepPart
 from umform.problem.supports import Support
 from umform.problem.tools import ToolPart
@@ -61,6 +61,8 @@ class Contents(Part):
     """Quantities that steps move, by name: displacements, loads, tools; the names are history columns."""
     measures: dict[Name, AnyMeasure] = field(default_factory=dict)
     """Measures of the part by name; the names are those of files and fields."""
+    derivatives: Derivatives | None = None
+    """Derivatives of the results, for `umform derive`."""
     units: Units = field(default_factory=Units)
     """Names of the units."""
     steps: Annotated[list[StepPart], Field(min_length=1)]

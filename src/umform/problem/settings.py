@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import field
 from typing import Annotated, Literal
 
 from umform.analysis.newton.options import NewtonOptions
@@ -68,3 +69,14 @@ class Output(Part):
         if any(abs(strain) > LARGEST_STRAIN for pair in self.forming_limit for strain in pair):
             text = "the strains of a forming limit are logarithmic, not per cent: 0.262 = ln(1.3) for 30 %"
             raise Refusal("forming_limit", text)
+
+
+class Derivatives(Part):
+    """Derivatives of the results of a deck, for `umform derive`."""
+
+    by: Annotated[list[str], Field(min_length=1)]
+    """Paths of the parameters, such as tools.die.radius: `umform paths` lists them."""
+    results: list[str] = field(default_factory=list)
+    """Measures, or columns of the history such as punch_force:max; without any all measures, else forces."""
+    hold: dict[str, str] = field(default_factory=dict)
+    """Results that stay constant, and the path of the parameter that follows each."""

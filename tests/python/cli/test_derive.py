@@ -52,7 +52,7 @@ def test_a_deck_has_derivatives_as_table_files_and_picture(deck, tmp_path):
         (["--by", "solution.residual"], "its effect is an error of the solution"),
         (["--by", "nowhere"], "there is no number of this path"),
         (["--by", "material.E", "--hold", "angle"], "this holds no result"),
-        ([], "missing option '--by'"),
+        ([], "there is no parameter for derivatives"),
     ],
 )
 def test_what_has_no_derivative_is_refused_by_name(deck, words, text, tmp_path):
@@ -60,6 +60,18 @@ def test_what_has_no_derivative_is_refused_by_name(deck, words, text, tmp_path):
     assert refused.exit_code != 0
     assert text in refused.output
     assert "Traceback" not in refused.output
+
+
+def test_a_deck_may_name_its_derivatives(deck, tmp_path):
+    named = tmp_path / "deck.toml"
+    table = '\n[derivatives]\nby = ["material.E", "strength"]\nresults = ["stroke_force:peak", "stroke:last"]\n'
+    named.write_text(deck.read_text() + table + 'hold = { "stroke_force:peak" = "to.stroke" }\n')
+    done = run("derive", named, *COARSE, "--out", tmp_path / "out")
+    assert done.exit_code == 0, done.output
+    assert "stroke_force:peak is constant: steps.0.to.stroke follows" in done.output
+    found = rows(tmp_path / "out")
+    assert float(found["stroke:last", "material.hardening.strength"]["value"]) < 0.0  # stronger: less stroke
+    assert run("check", named).exit_code == 0
 
 
 def test_a_bend_to_an_angle_has_derivatives_at_that_angle(tmp_path):

@@ -92,11 +92,11 @@ def derivatives(
     >>> round(found["tip_force", "E"].relative, 6)
     1.0
     """
-    held = dict(hold or {})
     thing = subject_of(subject, by, options, solver)
     known = {one.path: one for one in thing.parameters()}
+    held = {name: known_parameter(path, known).path for name, path in (hold or {}).items()}
     names = list(dict.fromkeys([*by, *held.values()]))
-    parameters = [known_parameter(name, known) for name in names]
+    parameters = list({one.path: one for one in (known_parameter(name, known) for name in names)}.values())
     lead = thing.build()
     shadows, sizes = {}, {}
     for one in parameters:

@@ -155,7 +155,7 @@ class OfFunction:
 
     def parameters(self) -> list[Scalar]:
         """The numbers."""
-        return [Scalar(name, float(value)) for name, value in self.values.items()]
+        return [Scalar(name, value) for name, value in self.values.items()]
 
     def with_(self, changes: Mapping[str, float]) -> OfFunction:
         """Other values."""
