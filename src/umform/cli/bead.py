@@ -29,6 +29,7 @@ from umform.cli.options import (
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.scattering import Wishes, scattering
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
 from umform.errors import UmformError
@@ -37,6 +38,7 @@ from umform.processes.draw_bead.spec import DrawBead
 
 @app.command()
 @given_by(DrawBead, omit=("material",))
+@scattering
 def bead(
     given: Given,
     out: Annotated[
@@ -66,6 +68,8 @@ def bead(
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
+    *,
+    wishes: Wishes,
 ) -> None:
     """Draw a sheet through a draw bead: restraining force, uplift, thinning, and the equivalent bead.
 
@@ -83,19 +87,23 @@ def bead(
     if deck:
         print_deck(case)
         return
+    if wishes:  # refuse what is wrong before the run
+        wishes.check(case)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/bead"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     with staging(place, FILES):
         with _what_was_reached(place):
             drawn = extrapolated(case) if extrapolate else drawn_through(case)
         more: list[Path] = []
+        scatter: list[Path] = []
         try:
             drawn, more = derived(drawn, case, derive, place)
+            drawn, scatter = wishes.added_to(drawn, case, place)
             with printing(f"the files of the bead are in {place}"):
                 show_outcome(drawn, f"equivalent: {in_python(drawn)}", note)
         finally:  # even if the table cannot be printed
             with drawn.result.timing.files:
-                files = [*write_files(place, drawn, note), *more]
+                files = [*write_files(place, drawn, note), *more, *scatter]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(drawn.result.timing)
