@@ -73,11 +73,10 @@ class PackageCopy:
         file.unlink()  # a link
         file.write_text(there.replace(before, text + before), encoding="utf-8")
 
-    def run(self, program, *words, given=None):
-        """What a program prints that imports the copy."""
-        imported = f"import umform\nassert umform.__file__.startswith({str(self.folder)!r})\n"
-        done = subprocess.run(
-            [sys.executable, "-c", imported + program, *map(str, words)],
+    def python(self, *words, given=None):
+        """A finished process of Python."""
+        return subprocess.run(
+            [sys.executable, *map(str, words)],
             env={**os.environ, "PYTHONPATH": str(self.folder)},
             cwd=self.folder,
             input=given,
@@ -85,6 +84,15 @@ class PackageCopy:
             text=True,
             check=False,
         )
+
+    def umform(self, *words):
+        """A finished command."""
+        return self.python("-m", "umform", *words)
+
+    def run(self, program, *words, given=None):
+        """What a program prints that imports the copy."""
+        imported = f"import umform\nassert umform.__file__.startswith({str(self.folder)!r})\n"
+        done = self.python("-c", imported + program, *words, given=given)
         assert done.returncode == 0, done.stdout + done.stderr
         return done.stdout
 
