@@ -430,3 +430,202 @@ def test_a_command_is_a_file_and_its_name(addition):
     assert said.stdout == "0.785 g for each mm2\n"
     assert refused.returncode == 1 and "the length must be positive" in refused.stderr
     assert "--length" in refused.stderr and "Traceback" not in refused.stderr
+
+
+def test_a_number_of_a_process_is_a_field_and_its_value(addition):
+    field = '''    steady_way: Annotated[float, Quantity("steady travel", "mm", 2)]
+    """Travel over which the forces are averaged."""
+'''
+    addition.put("processes/draw_bead/measures.py", "    closing_force: Annotated", field)
+    value = "            steady_way=float(np.ptp(way[steady])),\n"
+    addition.put("processes/draw_bead/measures.py", "            closing_force=", value)
+    addition.run("""
+import csv
+from contextlib import redirect_stdout
+from io import StringIO
+from pathlib import Path
+
+import umform as uf
+from umform.cli.outcome_screen import show_outcome
+from umform.processes.draw_bead import DrawBead, drawn_through
+
+steel = uf.J2(210e3, 0.3, hardening=uf.Linear(200.0, 500.0))
+coarse = {"element": "ANS3DEAS", "elements": 2, "contact_points": 3}
+case = DrawBead(thickness=1.0, material=steel, radius=3.0, height=1.0, groove_radius=3.0, **coarse)
+drawn = drawn_through(case, frames=0, progress=False)
+way = drawn["steady_way"].value
+assert 0.0 < case.way - case.through - way < case.size
+assert [one["unit"] for one in drawn.record()["quantities"] if one["name"] == "steady_way"] == ["mm"]
+drawn.write(Path("."))
+(row,) = [row for row in csv.DictReader(Path("quantities.csv").open()) if row["name"] == "steady_way"]
+assert row["unit"] == "mm" and float(row["value"]) == way
+with redirect_stdout(StringIO()) as screen:
+    show_outcome(drawn)
+assert "steady travel" in screen.getvalue() and f"{way:.2f}" in screen.getvalue()
+""")
+
+
+SPEC = '''"""A strip that is pulled: its parameters."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from umform.spec import check_fields
+from umform.spec.types import Length, Stress
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pull:
+    """A strip that is pulled, in mm, N and MPa."""
+
+    groups: ClassVar = {"length": "Sheet", "way": "Solution"}
+    """Group of the parameters from each of these on."""
+
+    length: Length = 10.0
+    """Length of the strip."""
+    young: Stress = 210e3
+    """Young's modulus."""
+    way: Length = 0.1
+    """Travel of its end."""
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+'''
+PROBLEM = '''"""The problem of a strip that is pulled: what a deck of it holds."""
+
+from __future__ import annotations
+
+from umform.problem.problem import Problem
+from umform.processes.pull.spec import Pull
+
+
+def problem_of(case: Pull) -> Problem:
+    """One end is held, the other one is pulled."""
+    cells = {"generator": "strip", "width": 2.0, "thickness": 1.0, "cells": (4, 1)}
+    tables = {
+        "title": "A strip that is pulled",
+        "mesh": {"length": case.length, **cells},
+        "material": {"law": "SVK", "E": case.young, "nu": 0.0},
+        "supports": [{"kind": "fix", "nodes": "x0"}],
+        "controls": {"pull": {"kind": "displacement", "nodes": "x1", "direction": "x"}},
+        "steps": [{"kind": "move", "to": {"pull": case.way}, "increments": 2}],
+    }
+    return Problem.of(tables, ["Units: mm, N, MPa."])
+'''
+MEASURES = '''"""Measures of a strip that was pulled."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from umform.analysis.run import Result
+from umform.results.outcome import Outcome
+from umform.results.quantity import Quantity, quantities_of
+
+
+@dataclass(frozen=True)
+class Pulled(Outcome):
+    """A strip that was pulled."""
+
+    result: Result
+    force: Annotated[float, Quantity("force", "N", 1)]
+    """Force at the end of the travel."""
+
+    title = "A strip that was pulled"
+
+    @property
+    def quantities(self) -> list[Quantity]:
+        """The measures."""
+        return quantities_of(self)
+
+    @property
+    def stages(self) -> dict[str, Result]:
+        """The run by its name."""
+        return {"pulling": self.result}
+
+    @property
+    def warnings(self) -> list[str]:
+        """Warnings."""
+        return self.result.warnings
+'''
+OUTCOME = '''"""What is reported of a run."""
+
+from __future__ import annotations
+
+from umform.analysis.run import Result
+from umform.processes.pull.measures import Pulled
+from umform.processes.pull.spec import Pull
+
+
+def outcome_of(case: Pull, result: Result) -> Pulled:
+    """The force."""
+    return Pulled(result, float(result["pull_force"][-1]))
+'''
+PULL = '''"""``umform pull``: pull a strip."""
+
+from __future__ import annotations
+
+from umform.cli.given import Given, given_by
+from umform.cli.options import PrintDeck, print_deck
+from umform.cli.outcome_screen import show_outcome
+from umform.cli.root import app
+from umform.processes.pull.spec import Pull
+
+
+@app.command()
+@given_by(Pull)
+def pull(given: Given, deck: PrintDeck = False) -> None:
+    """Pull a strip."""
+    from umform.processes.problems import outcome_of, problem_of
+
+    case = Pull(**given)
+    if deck:
+        print_deck(case)
+        return
+    show_outcome(outcome_of(case, problem_of(case).build().solve(progress=False)))
+'''
+
+
+def test_a_process_is_a_folder_and_its_command(addition):
+    """Its Spec gives options, checks and parameters of derivatives; its deck is the same run."""
+    files = {"__init__": '"""A strip that is pulled."""\n', "spec": SPEC, "problem": PROBLEM}
+    for name, text in (files | {"measures": MEASURES, "outcome": OUTCOME}).items():
+        addition.write(f"processes/pull/{name}.py", text)
+    addition.write("cli/pull.py", PULL)
+    addition.put("cli/commands.py", '    "resume": "resume",', '    "pull": "pull",\n')
+    addition.run("""
+import re
+
+import numpy as np
+import umform as uf
+from typer.testing import CliRunner
+from umform.cli import app
+from umform.problem import Problem
+from umform.processes.problems import outcome_of, problem_of
+from umform.processes.pull.spec import Pull
+
+def umform(*words):
+    return CliRunner().invoke(app, ["pull", *words], env={"COLUMNS": "200", "TERMINAL_WIDTH": "200"})
+
+assert re.search(r"--way\\s+<float>\\s+Travel of its end in mm\\.", umform("--help").stdout), umform("--help").stdout
+refused = umform("--way", "-1")
+assert refused.exit_code == 1 and "--way" in refused.output and "positive" in refused.output, refused.output
+
+case = Pull(length=20.0)
+result = problem_of(case).build().solve(progress=False)
+done = outcome_of(case, result)
+assert f"{done['force'].value:.1f}" in umform("--length", "20").stdout
+deck = Problem.read(umform("--length", "20", "--print-deck").stdout)
+assert np.array_equal(deck.build().solve(progress=False)["pull_force"], result["pull_force"])
+
+found = uf.derivatives(case, ["young", "way", "length"], progress=False)
+force = done["force"].value
+assert [one.name for one in found.responses] == ["force"] and found.responses[0].value == force
+by_young, by_way, by_length = found.values[0] * [case.young, case.way, case.length] / force
+assert abs(by_young - 1.0) < 1e-3
+assert abs(by_way + by_length) < 1e-3  # the strain is all that counts
+assert 1.0 < by_way < 1.1  # and its force grows a little faster than it
+""")
