@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import os
 import re
+import shutil
 import signal
+import subprocess
 import sys
 from collections.abc import Mapping
 from dataclasses import is_dataclass
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+import umform
 from umform import _core, elements
 from umform import materials as mt
 from umform.mesh import FACE_NODES, Mesh, strip
@@ -44,6 +49,57 @@ MATERIALS = {
 }
 
 CELL_NODES = {"hex8": 8, "hex18": 18}
+
+
+class PackageCopy:
+    """A copy of the package, which tests extend as docs/where-does-it-go.md says; processes of their own import it."""
+
+    def __init__(self, folder):
+        self.folder, self.package = folder, folder / "umform"
+        shutil.copytree(Path(umform.__file__).parent, self.package, copy_function=os.symlink)
+
+    def write(self, name, text):
+        """A new file."""
+        file = self.package / name
+        assert not file.exists(), name
+        file.parent.mkdir(exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+
+    def put(self, name, before, text):
+        """Text before another one, which occurs once in a file."""
+        file = self.package / name
+        there = file.read_text(encoding="utf-8")
+        assert there.count(before) == 1, (name, before)
+        file.unlink()  # a link
+        file.write_text(there.replace(before, text + before), encoding="utf-8")
+
+    def python(self, *words, given=None):
+        """A finished process of Python."""
+        return subprocess.run(
+            [sys.executable, *map(str, words)],
+            env={**os.environ, "PYTHONPATH": str(self.folder)},
+            cwd=self.folder,
+            input=given,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+
+    def umform(self, *words):
+        """A finished command."""
+        return self.python("-m", "umform", *words)
+
+    def run(self, program, *words, given=None):
+        """What a program prints that imports the copy."""
+        imported = f"import umform\nassert umform.__file__.startswith({str(self.folder)!r})\n"
+        done = self.python("-c", imported + program, *words, given=given)
+        assert done.returncode == 0, done.stdout + done.stderr
+        return done.stdout
+
+
+@pytest.fixture
+def package_copy(tmp_path):
+    return PackageCopy(tmp_path)
 
 
 class OneElement:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from umform.errors import InvalidValue
+
 if TYPE_CHECKING:
     from umform.analysis.run import Result
     from umform.problem.problem import Problem
@@ -25,9 +27,9 @@ def problem_of(case: Any) -> Problem:
     Raises
     ------
     InvalidValue
-        A bend has no stroke.
+        A bend has no stroke, or this is no such case.
     """
-    made: Problem = _room(case, "problem").problem_of(case)
+    made: Problem = _function(case, "problem")(case)
     return made
 
 
@@ -41,9 +43,22 @@ def outcome_of(case: Any, result: Result) -> Outcome:
     result : Result
         A run with a frame at the end of each step.
     """
-    found: Outcome = _room(case, "outcome").outcome_of(case, result)
+    found: Outcome = _function(case, "outcome")(case, result)
     return found
 
 
-def _room(case: Any, file: str) -> Any:
-    return import_module(f"{type(case).__module__.rpartition('.')[0]}.{file}")
+def _function(case: Any, file: str) -> Any:
+    """The function ``<file>_of`` of a file in the folder of the process."""
+    module = f"{type(case).__module__.rpartition('.')[0]}.{file}".lstrip(".")
+    try:
+        return getattr(import_module(module), f"{file}_of")
+    except (ModuleNotFoundError, AttributeError) as error:
+        if error.name not in (module, f"{file}_of"):
+            raise
+        raise InvalidValue(
+            "this is no case of a process with one problem",
+            where=f"{file}_of",
+            value=type(case).__name__,
+            cause="several operations, of which each has a problem, or another object",
+            remedy="a case such as AirBending(stroke=6.0), or a Problem",
+        ) from None

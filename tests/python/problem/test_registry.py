@@ -1,14 +1,8 @@
 """What docs/where-does-it-go.md says of a generator, a support and a control is all: a function, and its table."""
 
 import json
-import shutil
-import subprocess
-import sys
-from pathlib import Path
 
 import pytest
-
-import umform
 
 #: File of the package, a text that occurs there once, and what is put before it.
 ADDED = [
@@ -175,26 +169,12 @@ print(json.dumps([top, float(forces.min()), sinks, refused, keys]))
 """
 
 
-@pytest.fixture(scope="module")
-def package(tmp_path_factory):
-    """A copy of the package with these additions."""
-    folder = tmp_path_factory.mktemp("copy")
-    shutil.copytree(Path(umform.__file__).parent, folder / "umform", ignore=shutil.ignore_patterns("__pycache__"))
-    for name, before, text in ADDED:
-        file = folder / "umform" / name
-        there = file.read_text()
-        assert there.count(before) == 1, (name, before)
-        file.write_text(there.replace(before, text + before))
-    return folder
-
-
-def test_a_generator_a_support_and_a_control_are_a_function_and_its_table(package):
+def test_a_generator_a_support_and_a_control_are_a_function_and_its_table(package_copy):
     """Default, bound and sentence stand in the function; the deck builds and runs, and its schema has them."""
-    (package / "deck.toml").write_text(DECK)
-    where = {"cwd": package, "env": {"PYTHONPATH": str(package)}}
-    run = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, check=False, **where)
-    assert run.returncode == 0, run.stderr
-    top, load, sinks, refused, (rise, directions, mass) = json.loads(run.stdout)
+    for addition in ADDED:
+        package_copy.put(*addition)
+    (package_copy.folder / "deck.toml").write_text(DECK)
+    top, load, sinks, refused, (rise, directions, mass) = json.loads(package_copy.run(PROGRAM))
     assert top == pytest.approx(0.25 + 0.1) and load == pytest.approx(-9.81 * 2.5) and sinks
     assert "mass" in refused and "9.5" in refused
     assert (rise["default"], rise["exclusiveMinimum"]) == (0.25, 0)

@@ -12,6 +12,8 @@ from umform.problem.templates import template_file, templates
 from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.bend_sequence import bend_sequence
 from umform.processes.bend_sequence.spec import Bend, BendSequence
+from umform.processes.bending.case import free_bending
+from umform.processes.bending.spec import FreeBending
 from umform.processes.draw.case import draw
 from umform.processes.draw.cup import ESAFORM, Cup
 from umform.processes.draw.u_bend import NUMISHEET, UBend
@@ -75,6 +77,19 @@ def test_the_deck_of_a_bend_that_is_turned_over_repeats_its_history(tmp_path, mo
         assert done.result.model.u.tolist() == again.model.u.tolist()
     with pytest.raises(InvalidValue, match="a deck names the files of the operation before"):
         part.bends[1].problem.toml()
+
+
+def test_free_bending_reports_of_a_run_of_its_problem():
+    case = FreeBending(mesh=(8, 1), steps=8, stroke=3.0, unload=False)
+    found = uf.derivatives(case, ["mu"], progress=False)
+    done = free_bending(case, progress=False)
+    assert [one.value for one in found.responses] == [one.value for one in done.quantities if one.value is not None]
+
+
+@pytest.mark.parametrize("case", [Hemming(), METAL], ids=["hem", "law"])
+def test_what_has_no_problem_of_its_own_is_refused(case):
+    with pytest.raises(InvalidValue, match=r"(?s)no case of a process with one problem.*several operations"):
+        problem_of(case)
 
 
 def test_a_path_changes_a_number_and_the_mesh_follows():
