@@ -85,6 +85,70 @@ except DeckError as error:
 """)
 
 
+SLOW = '''@dataclass(frozen=True)
+class Slow(RateFactor):
+    """A factor that grows little."""
+
+    reference: Annotated[float, Gt(0.0), _TYPICAL]
+    """Plastic strain rate from which it grows."""
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+    def factor(self) -> _core.RateFactor:
+        """The factor as the kernels take it."""
+        return JohnsonCook(reference=self.reference, strength=0.001).factor()
+
+
+'''
+CARD = """[X1]
+number = "9.9999"
+aliases = []
+young = 210e3
+poisson = 0.3
+yield_stress = 200
+tensile_strength = 300
+curve = "Swift"
+uniform = "n"
+n = 0.15
+basis = "invented"
+source = "a test"
+caveat = "there is no such metal"
+
+"""
+
+
+def test_a_rate_factor_is_a_class_and_a_sheet_metal_a_table(addition):
+    addition.put("materials/rate_factor.py", "@dataclass(frozen=True)\nclass JohnsonCook(", SLOW)
+    addition.put("sheet_metals/metals.toml", "[S235]", CARD)
+    addition.run("""
+import json
+from pathlib import Path
+
+import umform as uf
+from typer.testing import CliRunner
+from umform.cli import app
+from umform.problem import Problem
+from umform.problem.contents import json_schema
+from umform.problem.keys import law_keys
+
+metal = uf.Metal(210e3, 0.3, hardening=uf.Linear(200.0, 1000.0), rate=uf.Slow(2.0))
+assert law_keys(metal)["rate"] == {"factor": "Slow", "reference": 2.0}
+law = 'law = "Metal"\\nhardening = { curve = "Linear", yield_stress = 200.0, modulus = 1000.0 }'
+law += '\\nrate = { factor = "Slow", reference = 2.0 }'
+text = Path("deck.toml").read_text()
+assert Problem.read(text.replace('law = "SVK"', law)).build().model.bodies.only.material == metal
+part = json.loads(json_schema())["$defs"]["Slow"]["properties"]["reference"]
+assert part["description"] == "Plastic strain rate from which it grows."
+
+shown = CliRunner().invoke(app, ["metal", "list"])
+assert "X1" in shown.stdout, shown.output
+assert 200.0 < uf.sheet_metals.get("X1").law.hardening.curve()(0.05)[0] < 330.0
+done = CliRunner().invoke(app, ["bend", "--stroke", "1", "--material", "X1", "--print-deck"])
+assert done.exit_code == 0, done.output
+""")
+
+
 EXTENT = '''class Extent(MeasurePart):
     """Extent of the part along x."""
 
@@ -150,6 +214,48 @@ try:
     raise AssertionError
 except UmformError as error:
     assert "column 'farthest' of the history itself" in str(error), error
+""")
+
+
+FIELD = """    fields["far_x"] = model.u.reshape(-1, 3)[model.mesh.connectivity, 0].max(axis=1)
+"""
+TRIES = '''    tries: Count = 3
+    """Number of tries."""
+
+'''
+
+
+def test_a_field_of_the_results_and_an_option_are_a_line(addition):
+    addition.put("results/fields.py", "    return fields\n\n\ndef _cell_fields(", FIELD)
+    addition.put(
+        "analysis/newton/options.py", "    def __post_init__(self) -> None:\n        check_fields(self)", TRIES
+    )
+    addition.run("""
+import json
+from pathlib import Path
+
+import umform as uf
+from typer.testing import CliRunner
+from umform.cli import app
+from umform.problem import DeckError, Problem
+from umform.problem.contents import json_schema
+
+assert uf.NewtonOptions(tries=4).tries == 4
+text = Path("deck.toml").read_text()
+assert Problem.read(text + '[solution]\\ntries = 5\\n').build().options.tries == 5
+key = json.loads(json_schema())["$defs"]["Solution"]["properties"]["tries"]
+assert (key["default"], key["minimum"], key["description"]) == (3, 1, "Number of tries.")
+try:
+    Problem.read(text + '[solution]\\ntries = 0\\n')
+    raise AssertionError
+except DeckError as error:
+    assert "solution.tries" in str(error), error
+
+result = Problem.read(text).build().solve(progress=False)
+assert abs(result.frames[-1].cells["far_x"].max() - 0.1) < 1e-12
+done = CliRunner().invoke(app, ["run", "deck.toml", "--out", "out"])
+assert done.exit_code == 0, done.output
+assert b"far_x" in Path("out/fields.vtkhdf").read_bytes()
 """)
 
 
@@ -256,6 +362,7 @@ def test_a_step_is_a_dataclass_and_its_loop(addition):
     )
     addition.put("analysis/run/going.py", "Release: Releasing", "Fade: Fading, ")
     addition.put("problem/steps.py", "class Close(_Controlled", STEP_TABLE)
+    addition.put("__init__.py", '"Arc", "Close", "Free", "Move"', '"Fade", ')
     addition.put("problem/steps.py", "Move | Release | Arc | Free", "Fade | ")
     addition.run("""
 import json
@@ -277,6 +384,7 @@ for command in (["check", "deck.toml"], ["run", "deck.toml", "--out", "out"]):
 problem = load("deck.toml")
 built = problem.build()
 result = built.solve(progress=False)
+assert built.steps[1] == uf.Fade(built.controls["pull"], part=0.25, steps=4) and "Fade" in dir(uf)
 assert np.allclose(result["pull"][3:], 0.1 * 0.75 ** np.arange(1, 5)), result["pull"]
 assert np.allclose(result["time"], [0, 0.5, 1, 1.25, 1.5, 1.75, 2])
 keys = json.loads(json_schema())["$defs"]["Fade"]["properties"]
