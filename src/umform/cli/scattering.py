@@ -28,7 +28,7 @@ _PANEL = "Scatter of the results"
 _OPTIONS = {
     "sources": ("--scatter", "PATH=SIZE", "Standard deviation of a parameter, such as `thickness=2%` or `0.02`"),
     "tolerances": (
-        "--tolerance",
+        "--tolerance-of",
         "PATH=SIZE",
         "Tolerance of a parameter, such as `die_radius=±0.05`: three standard deviations",
     ),

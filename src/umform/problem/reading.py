@@ -12,6 +12,7 @@ import re
 import types
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import MISSING, fields, is_dataclass
+from datetime import date, time
 from functools import cache
 from pathlib import Path
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
@@ -26,7 +27,7 @@ from umform.spec import InDeck, OneOf, Parameter, deck_keys, hint_of, note_of, p
 #: Folder of a deck (``folder``), and whether it is trusted (``trust``).
 Context = Mapping[str, Any]
 #: Values that a text of TOML gives; others are objects of Python.
-WRITTEN = (dict, list, str, int, float)
+WRITTEN = (dict, list, str, int, float, date, time)
 #: Errors of what cannot be built.
 REFUSED = (UmformError, ArithmeticError, ValueError, MemoryError)
 #: Types of Python that a deck writes in a way of its own.

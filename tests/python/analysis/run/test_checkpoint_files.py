@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import resource
 import shutil
+from types import SimpleNamespace
 
 import h5py
 import numpy as np
@@ -232,14 +233,14 @@ def test_checkpoints_come_so_many_seconds_after_each_other(tmp_path, monkeypatch
 
     monkeypatch.setattr("umform.analysis.run.checkpoint.clock.perf_counter", perf_counter)
     monkeypatch.setattr("umform.analysis.run.checkpoint.write_tree", slow)
-    monkeypatch.setattr("umform.analysis.run.checkpoint._tree", lambda run: {})
+    monkeypatch.setattr("umform.analysis.run.checkpoint.memory_of", lambda run: {})
     checkpoints = Checkpoints(tmp_path / "run.h5", 60.0, {})
     times = []
     while now[0] < 1000.0:
         now[0] += 10.0
         if checkpoints.due():
             times.append(now[0])
-            checkpoints.write(None)
+            checkpoints.write(SimpleNamespace(follower=None))
             cost[0] = 15.0
     assert times[:2] == [60.0, 121.0]
     assert times[2] - times[1] >= 15.0 + 20 * 15.0  # not more than a twentieth of the time

@@ -38,7 +38,7 @@ def table(file):
 
 def test_a_deck(deck):
     few = ["--set", "steps.0.increments=2", "--set", "mesh.cells=[4,1]", "--set", "steps.0.to.force=0.01"]
-    words = ["--scatter", "material.E=3%", "--tolerance", "thickness=±0.004", "--measure", "force_force"]
+    words = ["--scatter", "material.E=3%", "--tolerance-of", "thickness=±0.004", "--measure", "force_force"]
     done = call("sigma", deck, *few, *words, "--correlate", "E,thickness=0.5", "--limit", "external_work=0:1")
     assert done.exit_code == 0, done.output
     assert "Shares of the variance" in done.output
@@ -57,7 +57,7 @@ def test_a_deck(deck):
         (["--scatter", "mu=1%"], ["where:  --scatter", "material.E"]),
         (["--scatter", "E"], ["where:  --scatter", "the sign = is missing", "PATH=SIZE"]),
         (["--scatter", "E=1%", "--scatter", "E=2%"], ["where:  --scatter", "a name has two values"]),
-        (["--tolerance", "E=±x"], ["where:  E", "a scatter is a number"]),
+        (["--tolerance-of", "E=±x"], ["where:  E", "a scatter is a number"]),
         (["--scatter", "E=1%", "--correlate", "E,nu=a"], ["where:  --correlate"]),
         (["--scatter", "E=1%", "--limit", "force_force=4"], ["where:  --limit", "low:high"]),
         (["--scatter", "E=1%", "--hold", "force_force=mu"], ["where:  --hold"]),
