@@ -60,7 +60,7 @@ nitpicky = True
 nitpick_ignore_regex = [
     (r"py:(obj|class)", ".*"),  # types, and words in backticks, most of which are no public names
     (r"py:\w+", r"(?!umform\.).*"),  # short names: a link where there is one
-    (r"py:(mod|func)", r"umform\.(model|run|solution)\.\w+(\.\w+)?"),  # the rooms behind the public names
+    (r"py:(mod|func)", r"umform\.(analysis|model)\.\w+(\.\w+)*"),  # the rooms behind the public names
 ]
 highlight_language = "none"  # a block of Markdown says what it is
 default_role = "py:obj"  # a name in backticks is a link where there is such a name
