@@ -2,35 +2,11 @@
 
 import pytest
 
-DECK = """
-[mesh]
-generator = "strip"
-length = 10.0
-width = 2.0
-thickness = 1.0
-cells = [4, 1]
-[material]
-law = "SVK"
-E = 210e3
-nu = 0.3
-[[supports]]
-kind = "fix"
-nodes = "x0"
-[controls.pull]
-kind = "displacement"
-nodes = "x1"
-direction = "x"
-[[steps]]
-kind = "move"
-to = { pull = 0.1 }
-increments = 2
-"""
-
 
 @pytest.fixture
-def addition(package_copy):
+def addition(package_copy, strip):
     """The copy, with a deck beside it."""
-    (package_copy.folder / "deck.toml").write_text(DECK)
+    (package_copy.folder / "deck.toml").write_text(strip)
     return package_copy
 
 
@@ -186,7 +162,7 @@ done = CliRunner().invoke(app, ["run", "deck.toml", "--out", "out"])
 assert done.exit_code == 0, done.output
 (row,) = csv.DictReader(Path("out/measures.csv").open())
 assert row["quantity"] == "extent" and abs(float(row["formed"]) - 20.2) < 1e-9, row
-assert len(Path("out/measure-size.csv").read_text().splitlines()) == 21
+assert len(Path("out/measure-size.csv").read_text().splitlines()) == 31
 part = json.loads(json_schema())["$defs"]["Extent"]["properties"]["factor"]
 assert part["description"] == "Factor of the extent." and part["default"] == 1.0
 """)

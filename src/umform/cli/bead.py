@@ -29,7 +29,7 @@ from umform.cli.options import (
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
-from umform.cli.scattering import Wishes, scattering
+from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
 from umform.errors import UmformError
@@ -69,7 +69,7 @@ def bead(
     verbose: Verbose = 0,
     debug: Debug = False,
     *,
-    wishes: Wishes,
+    scatter_options: ScatterOptions,
 ) -> None:
     """Draw a sheet through a draw bead: restraining force, uplift, thinning, and the equivalent bead.
 
@@ -87,8 +87,8 @@ def bead(
     if deck:
         print_deck(case)
         return
-    if wishes:  # refuse what is wrong before the run
-        wishes.check(case)
+    if scatter_options:  # refuse what is wrong before the run
+        scatter_options.check(case)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/bead"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     with staging(place, FILES):
@@ -98,7 +98,7 @@ def bead(
         scatter: list[Path] = []
         try:
             drawn, more = derived(drawn, case, derive, place)
-            drawn, scatter = wishes.added_to(drawn, case, place)
+            drawn, scatter = scatter_options.added_to(drawn, case, place)
             with printing(f"the files of the bead are in {place}"):
                 show_outcome(drawn, f"equivalent: {in_python(drawn)}", note)
         finally:  # even if the table cannot be printed

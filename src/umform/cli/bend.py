@@ -34,7 +34,7 @@ from umform.cli.options import (
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
-from umform.cli.scattering import Wishes, scattering
+from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.sequence import run_sequence
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
@@ -96,7 +96,7 @@ def bend(
     verbose: Verbose = 0,
     debug: Debug = False,
     *,
-    wishes: Wishes,
+    scatter_options: ScatterOptions,
 ) -> None:
     """Air-bend a sheet in a V-die, and unload it.
 
@@ -128,8 +128,8 @@ def bend(
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     tools = drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer)
     case = AirBending(**{**given, "stroke": stroke}, **tools, material=law)
-    if wishes:  # refuse what is wrong before the run
-        wishes.check(replace(case, stroke=stroke or 0.5 * case.largest_stroke))
+    if scatter_options:  # refuse what is wrong before the run
+        scatter_options.check(replace(case, stroke=stroke or 0.5 * case.largest_stroke))
     if sequence is not None:
         check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, deck)
         run_sequence(sequence, case, note, out, length, tolerance=tolerance, overwrite=overwrite)
@@ -169,7 +169,7 @@ def bend(
 
                 done = replace(done, budget=error_budget(done.case, done.measures, processes=processes))
             done, more = derived(done, done.case, derive, place, None if angle is None else {"angle": "stroke"})
-            done, scatter = wishes.added_to(done, done.case, place)
+            done, scatter = scatter_options.added_to(done, done.case, place)
             with printing(f"the files of the bend are in {place}"):
                 total = "" if length is None else total_force(done.measures.largest_force, length)
                 show_outcome(done, total, note)

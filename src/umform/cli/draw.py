@@ -30,7 +30,7 @@ from umform.cli.options import (
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
-from umform.cli.scattering import Wishes, scattering
+from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
@@ -118,7 +118,7 @@ def cup(
     verbose: Verbose = 0,
     debug: Debug = False,
     *,
-    wishes: Wishes,
+    scatter_options: ScatterOptions,
 ) -> None:
     """Draw a round cup from a disc: forces, ears, thickness, strains and limits, springback.
 
@@ -134,7 +134,7 @@ def cup(
     if deck:
         print_deck(case)
         return
-    _run(case, draw, out, "cup", note, limit_curve, derive, wishes, overwrite=overwrite, timing=timing)
+    _run(case, draw, out, "cup", note, limit_curve, derive, scatter_options, overwrite=overwrite, timing=timing)
 
 
 @group.command()
@@ -170,7 +170,7 @@ def u(
     verbose: Verbose = 0,
     debug: Debug = False,
     *,
-    wishes: Wishes,
+    scatter_options: ScatterOptions,
 ) -> None:
     """Draw a U-bend from a strip in plane strain: forces, springback angles, strains and limits.
 
@@ -187,7 +187,7 @@ def u(
         return
     three = not coarse if extrapolate is None else extrapolate
     how = extrapolated if three else draw
-    _run(case, how, out, "u-bend", note, limit_curve, derive, wishes, overwrite=overwrite, timing=timing)
+    _run(case, how, out, "u-bend", note, limit_curve, derive, scatter_options, overwrite=overwrite, timing=timing)
 
 
 def _on_mesh(spec: type[Cup | UBend], given: Given, coarse: bool, fine: bool) -> Given:
@@ -236,7 +236,7 @@ def _run(
     note: str,
     limit: Path | None,
     derive: list[str] | None,
-    wishes: Wishes,
+    scatter_options: ScatterOptions,
     *,
     overwrite: bool,
     timing: bool,
@@ -248,8 +248,8 @@ def _run(
     from umform.processes.draw.words import before_the_run
 
     print_warnings_once()
-    if wishes:  # refuse what is wrong before the run
-        wishes.check(case)
+    if scatter_options:  # refuse what is wrong before the run
+        scatter_options.check(case)
     curve = _limit(limit)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results") / name, FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
@@ -263,7 +263,7 @@ def _run(
         try:
             drawn, more = derived(drawn, case, derive if drawn.released else None, place)
             if drawn.released:
-                drawn, scatter = wishes.added_to(drawn, case, place)
+                drawn, scatter = scatter_options.added_to(drawn, case, place)
             with printing(f"the files of the part are in {place}"):
                 show_outcome(drawn, note)
         finally:  # even if the table cannot be printed

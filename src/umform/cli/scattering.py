@@ -40,7 +40,7 @@ _OPTIONS = {
 
 
 @dataclass(frozen=True)
-class Wishes:
+class ScatterOptions:
     """What is wanted of the scatter, as it is typed.
 
     Attributes
@@ -142,12 +142,12 @@ def _number(text: str, typed: str) -> float:
 
 
 def scattering(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Give a command the options of scatter; its parameter ``wishes`` gets them."""
+    """Give a command the options of scatter; its parameter ``scatter_options`` gets them."""
     options = [
         inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=_repeatable(*told))
         for name, told in _OPTIONS.items()
     ]
-    made: Callable[..., Any] = in_place_of("wishes", options, Wishes)(command)
+    made: Callable[..., Any] = in_place_of("scatter_options", options, ScatterOptions)(command)
     return made
 
 

@@ -11,7 +11,7 @@ from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read
 from umform.cli.derive import say_written
 from umform.cli.outcome_screen import show_annex
 from umform.cli.root import Debug, Overwrite, Verbose, app
-from umform.cli.scattering import Wishes, scattering
+from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.warnings import print_warnings_once
 
 
@@ -28,7 +28,7 @@ def sigma(
     verbose: Verbose = 0,
     debug: Debug = False,
     *,
-    wishes: Wishes,
+    scatter_options: ScatterOptions,
 ) -> None:
     """Standard deviation of the results of a deck, the share of each parameter, Cp and Cpk.
 
@@ -42,13 +42,13 @@ def sigma(
     print_warnings_once()
     with deck_errors():
         loaded = read(deck, changes or (), trust)
-    wishes.check(loaded)
+    scatter_options.check(loaded)
     default = Path("results") / f"{deck.stem}-sigma"
     place = folder_for(
         out, default, FILES, overwrite=overwrite, say=lambda text: typer.echo(f"umform: {text}", err=True)
     )
     with staging(place, FILES):
-        found = wishes.run(loaded)
+        found = scatter_options.run(loaded)
         for annex in found.annexes:
             show_annex(annex)
         say_written(found.write(place))

@@ -130,7 +130,7 @@ def deck_type(hint: Any, told_apart: bool = True) -> Any:
     hint : type
         The annotation.
     told_apart : bool
-        Whether members of a union are told apart by their notations.
+        Whether the notation of a value selects the member of a union.
     """
     if (notation := written_as(hint)) is not None:
         return deck_type(notation, False)

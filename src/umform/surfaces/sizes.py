@@ -79,7 +79,7 @@ def tool_sizes(
     check_arguments(tool_sizes, thickness=thickness, turn=turn, largest=largest, flow=flow, smallest=smallest)
     if not (growth > 1.0 and smallest <= largest):
         raise InvalidValue(
-            "sizes need a growth of more than one, and a smallest size that is none above the largest",
+            "sizes need a growth above one, and a smallest size of at most the largest",
             where="tool_sizes",
             value=f"largest {largest:g}, growth {growth:g}, smallest {smallest:g}",
             cause="a sign, or the sizes exchanged",

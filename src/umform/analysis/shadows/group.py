@@ -230,7 +230,7 @@ def resume_with_shadows(
     *,
     solver: str = "auto",
     options: NewtonOptions | None = None,
-    frames: int = 60,
+    frames: int = FRAMES,
     **rest: Any,
 ) -> Shadowed:
     """Continue a run and its shadows from their checkpoint; the results have the bits of uninterrupted ones.

@@ -15,7 +15,7 @@ from umform.progress import Show
 from umform.results.quantity import Quantity
 from umform.spec import Scalar
 from umform.studies.derivatives.found import Derivatives
-from umform.studies.derivatives.responses import Response, responses
+from umform.studies.derivatives.responses import responses
 from umform.studies.derivatives.subjects import (
     Built,
     OfCase,
@@ -208,6 +208,3 @@ def _shadow(thing: Subject, one: Scalar, lead: Built) -> tuple[tuple[Subject, Bu
         cause=str(refusal).splitlines()[0] if refusal else "",
         remedy=getattr(refusal, "remedy", "") or "another parameter",
     )
-
-
-__all__ = ["Response", "derivatives"]

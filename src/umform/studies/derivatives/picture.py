@@ -31,7 +31,8 @@ def tornado(derivatives: Sequence[Derivative], path: str | Path | None = None) -
         colours = ["tab:red" if change < 0.0 else "tab:blue" for change in changes]
         axes.barh([one.parameter.path for one in known], changes, color=colours)
         axes.axvline(0.0, color="black", linewidth=0.8)
-        axes.set_xlabel(f"change of {response.heading} for 1 % more of each parameter")
+        unit = f", {response.unit}" if response.unit else ""
+        axes.set_xlabel(f"change of the {response.label} for 1 % more of each parameter{unit}")
     if path is not None:
         save(figure, path)
     return figure
