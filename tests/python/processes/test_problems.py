@@ -21,7 +21,7 @@ from umform.processes.draw_bead.case import drawn_through
 from umform.processes.draw_bead.spec import DrawBead
 from umform.processes.hemming import Hemming, hemming
 from umform.processes.hemming.spec import acute
-from umform.processes.problems import problem_of
+from umform.processes.problems import outcome_of, problem_of
 
 METAL = uf.sheet_metals.get("DC04").law
 CUP = Cup(**ESAFORM | Cup.meshes["coarse"] | {"stroke": 2.0}, material=METAL)
@@ -31,13 +31,25 @@ BEND = AirBending(stroke=1.0, layers=1, elements_per_thickness=1.0)
 
 @pytest.mark.parametrize("case", [CUP, replace(CUP, holder_force=None), U], ids=["cup", "cup-fixed", "u"])
 def test_the_deck_of_a_drawn_part_repeats_its_history(case):
-    drawn = draw(case, frames=0, progress=False)
+    drawn = draw(case, frames=1, progress=False)
     again = Problem.read(problem_of(case).toml()).build().solve(progress=False)
     held = len(drawn.result["time"])
     for name in ("stroke", "punch_fz", "holder_fz", "on_die_penetration"):
         assert drawn.result[name].tolist() == again[name][:held].tolist(), name
     assert drawn.released is not None
     assert drawn.released.model.u.tolist() == again.model.u.tolist()
+    assert outcome_of(case, again).values == drawn.values
+    for first, last in ((1, 2), (3, 3)):  # the part of a history has its pictures at its own rows
+        part = again.of_steps(first, last)
+        assert part.rows[-1]["step"] == last and part.frames
+        assert [frame.time for frame in part.frames] == [part.rows[frame.number]["time"] for frame in part.frames]
+
+
+def test_the_outcome_of_a_bend_is_that_of_the_process():
+    case = replace(BEND, stroke=6.5)
+    done = air_bending(case, progress=False)
+    assert done["largest_force"].value > 1.05 * done["force"].value
+    assert outcome_of(case, problem_of(case).build().solve(progress=False)).values == done.values
 
 
 def test_the_deck_of_a_bead_repeats_its_history():
@@ -46,6 +58,7 @@ def test_the_deck_of_a_bead_repeats_its_history():
     again = Problem.read(problem_of(case).toml()).build().solve(progress=False)
     assert drawn.result.table().keys() == again.table().keys()
     assert all(column.tolist() == again[name].tolist() for name, column in drawn.result.table().items())
+    assert outcome_of(case, again).values == drawn.values
 
 
 def repeated(decks, folder, monkeypatch):
