@@ -12,6 +12,7 @@ import pytest
 import umform as uf
 from umform.errors import InvalidValue
 from umform.problem import Problem
+from umform.processes.air_bending import AirBending
 
 EXAMPLES = Path(__file__).resolve().parents[4] / "examples" / "umat"
 COMPILER = shutil.which("gcc") or shutil.which("cc")
@@ -237,3 +238,16 @@ def test_table_files_and_picture(beam, tmp_path):
         beam["tip_force", "E"]
     with pytest.raises(InvalidValue, match="no such parameter"):
         beam.column("tip_force", "nu")
+
+
+def test_shadows_of_a_bend_are_near_at_once_and_in_balance():
+    """Their increments begin with those of the reference, and need two to three corrections."""
+    case = AirBending(stroke=3.0, layers=1, elements_per_thickness=1.0)
+    found = uf.derivatives(case, ["thickness", "die_radius"], of=["angle"], progress=False)
+    assert found.warnings == []
+    increments = len(found.run) - 1
+    for shadow in found.runs.shadows.values():
+        assert increments < shadow.timing.attempts.evaluations < 4 * increments
+        assert shadow.balance().force_imbalance.max() < 1e-10
+        assert shadow["die_penetration"].max() < 0.01  # what a sheet of 2 mm allows
+    assert found.runs.reference.balance().force_imbalance.max() < 1e-12
