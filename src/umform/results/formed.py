@@ -6,6 +6,7 @@ constant and a linear part through the thickness that restore them. docs/other-p
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -36,6 +37,8 @@ class _Grid:
     ----------
     places : ndarray, shape (places, 2)
         Natural coordinates r, s.
+    reach : float
+        Values are means over squares of this half-width around the places; 0: values at the places.
     heights : ndarray, shape (heights,)
         Natural coordinates t.
     weights : ndarray, shape (heights,)
@@ -45,6 +48,7 @@ class _Grid:
     """
 
     places: Floats
+    reach: float
     heights: Floats
     weights: Floats
     curved: bool
@@ -84,7 +88,7 @@ def formed_shells(model: Model, points: int, units: str = "") -> FormedState:
     quads = np.array(_QUADS[lower.shape[1]])
     t, w = _core.gauss(points)
     corners = FACE_NODES[: lower.shape[1]][quads]
-    grid = _Grid(corners.mean(axis=1), t, w, curved=False)
+    grid = _Grid(corners.mean(axis=1), _half_width(quads), t, w, curved=False)
     stress, strain, plastic, _ = _on_grid(model, grid)
     used, cells = np.unique(lower[:, quads].reshape(-1, 4), return_inverse=True)
     partner = np.zeros(len(x), dtype=np.int64)
@@ -145,7 +149,7 @@ def formed_solids(model: Model, layers: int, points: Points = 1, units: str = ""
     corners = FACE_NODES[:half][quads]
     shape = np.stack([(1 + a * r) * (1 + b * s) / 4 for a, b in FACE_NODES[:4]], axis=1)
     places = np.einsum("pa,kai->kpi", shape, corners).reshape(-1, 2)
-    grid = _Grid(places, heights, weights, curved=True)
+    grid = _Grid(places, _half_width(quads) if points == 1 else 0.0, heights, weights, curved=True)
     stress, _, plastic, history = _on_grid(model, grid)
     cells, count = len(nodes), len(quads)
 
@@ -221,7 +225,11 @@ class _Interpolated:
         self.there = _Geometry(nodes, there)
         flat = np.concatenate([np.stack([r, s], axis=1), np.zeros((len(r), 1))], axis=1)
         self.middle = _Geometry(nodes, flat), _Geometry(nodes, np.pad(grid.places, ((0, 0), (0, 1))))
-        lagrange = [_lagrange(_core.gauss(n)[0], grid.places[:, axis]) for axis, n in enumerate(self.rule)]
+        reach = grid.reach / math.sqrt(3.0)  # The mean of two Gauss points is exact for these polynomials.
+        lagrange = [
+            sum(0.5 * _lagrange(_core.gauss(n)[0], grid.places[:, axis] + way) for way in (-reach, reach))
+            for axis, n in enumerate(self.rule)
+        ]
         self.share = np.einsum("pi,pj->pji", *lagrange).reshape(k, -1)
 
     def at(self, values: Floats) -> Floats:
@@ -318,6 +326,11 @@ class _Geometry:
 def _matrix(components: Floats) -> Floats:
     """Symmetric tensors (..., 3, 3) of components (..., 6)."""
     return components[..., [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]
+
+
+def _half_width(quads: Ids) -> float:
+    """Half of the width of the quadrilaterals of a face in natural coordinates."""
+    return 1.0 if len(quads) == 1 else 0.5
 
 
 def _lagrange(nodes: Floats, at: Floats) -> Floats:
