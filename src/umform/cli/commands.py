@@ -31,6 +31,7 @@ FILES = {
     "resume": "resume",
     "run": "run",
     "sigma": "sigma",
+    "store": "store",
     "sweep": "sweep",
     "view": "view",
 }
