@@ -17,9 +17,9 @@ import numpy as np
 from umform.errors import InvalidValue, UmformError
 from umform.io.store import Store
 from umform.pool import check_processes, run_all
+from umform.problem.metal_file import metal_of
 from umform.processes.air_bending.spec import AirBending
 from umform.progress import Show, progress_bar
-from umform.sheet_metals import get
 from umform.studies.bend_table.stored import TOLERANCE, StoredBend, bends, check_bend
 
 #: Angle of punch and die that is not part of the names of files.
@@ -202,7 +202,9 @@ def setups(
     punch_radii: Sequence[float] = (),
     die_radii: Sequence[float] = (),
 ) -> list[Setup]:
-    """All combinations of metals of the library, thicknesses and tools; what is not given is that of the case.
+    """All combinations of metals, thicknesses and tools; what is not given is that of the case.
+
+    Metals are names of the library, or paths of files of `umform bend correct` or `umform metal fit`.
 
     Raises
     ------
@@ -218,7 +220,7 @@ def setups(
     chosen = [sorted(set(values)) or [getattr(case, name)] for name, values in lists.items()]
     found = []
     for metal, sizes in itertools.product(metals, itertools.product(*chosen)):
-        sheet = get(metal, sizes[0])
+        sheet = metal_of(metal, sizes[0])
         changes: dict[str, Any] = dict(zip(lists, sizes, strict=True))
         found.append(Setup(sheet.name, replace(case, **changes, material=sheet.law)))
     return found
