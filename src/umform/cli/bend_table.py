@@ -26,7 +26,7 @@ _FORMATS = ("csv", "json", "freecad", "inventor", "creo", "solidworks")
 StoreFolder = Annotated[Path | None, option("Folder of the store of bends; see `umform store`.", _TABLE, "--store")]
 #: Parameters of a bend that are lists here, or that a table does not have.
 _OTHERS = ("thickness", "opening", "punch_radius", "die_radius", "material", "punch_section", "die_section")
-_NONE = ("stroke", "bottoming", "rolling")
+_NONE = ("stroke", "bottoming")
 
 
 @bends.command("table")

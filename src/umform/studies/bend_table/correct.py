@@ -8,10 +8,11 @@ from typing import Any
 
 from umform.analysis.run import Result
 from umform.errors import InvalidValue
-from umform.materials import J2, Hardening, Metal
+from umform.materials import J2, Hardening, Metal, YoshidaUemori
 from umform.processes.air_bending.goal import needed_stroke
 from umform.processes.air_bending.outcome import outcome_of
 from umform.processes.air_bending.problem import problem_of
+from umform.processes.air_bending.remarks import coarse_mesh
 from umform.processes.air_bending.spec import AirBending
 from umform.progress import Show
 from umform.studies.identification import Identified, MeasuredNumber, Sought, identify
@@ -99,7 +100,7 @@ def correct(
             remedy="the angle between the legs after springback",
         )
     curve = case.material.hardening
-    shape = _shape(curve)
+    shape = _shape(curve, getattr(case.material, "back_stress", None))
     data = [_measured("angle", angle, angle_deviation, case)]
     if force is not None:
         data.append(_measured("force", force, force_deviation or 0.01 * abs(force), case))
@@ -137,20 +138,20 @@ def _given(curve: Hardening) -> dict[str, Any]:
     return {one.name: getattr(curve, one.name) for one in fields(curve) if one.init}  # type: ignore[arg-type]
 
 
-def _shape(curve: Hardening | None) -> str:
+def _shape(curve: Hardening | None, back_stress: object = None) -> str:
     """The constant that gives a curve its shape; empty if it has none.
 
     Raises
     ------
     InvalidValue
-        There is no curve, or none with stresses.
+        There is no curve with stresses, or it is part of a back stress.
     """
     names: dict[str, Any] = {} if curve is None or not is_dataclass(curve) else _given(curve)
-    if not any(name in names for name in _STRESSES):
+    if not any(name in names for name in _STRESSES) or isinstance(back_stress, YoshidaUemori):
         raise InvalidValue(
             "this law has no flow curve that could be scaled",
             where="material",
-            value=type(curve).__name__,
+            value=type(curve if back_stress is None else back_stress).__name__,
             cause="its hardening is part of its back stress, or a class of your own",
             remedy="a law with Swift, Voce, LinearVoce, Linear, Perfect or Table",
         )
@@ -173,8 +174,9 @@ def _notes(case: AirBending, found: Identified, data: Sequence[MeasuredNumber], 
     )
     for path, value in found.values.items():
         yield f"{path.replace('_', ' ')} times {value:.4f} +- {found.deviations[path]:.2g}"
-    yield "assumed: thickness, tools, elastic constants, the rest of the law, and no friction"
+    yield "assumed: thickness, tools, elastic constants, back stresses, the rest of the law, and no friction"
+    yield from coarse_mesh(case)
     if len(data) == 1:
-        yield "the angle alone does not tell stress from hardening: forces of this card are wrong; measure the force too"
+        yield "the angle alone does not tell stress from hardening: the forces of this card are wrong"
     if found.fit.misfit > _FAR:
         yield f"the corrected bend is {found.fit.misfit:.1f} standard deviations from the measurement"
