@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from umform.model.supports.axes import cylindrical as cylindrical
     from umform.model.supports.axes import turned as turned
     from umform.model.transfer.trim import Trim as Trim
+    from umform.processes.flat_pattern import flat as flat
     from umform.results import fields as fields
     from umform.studies.derivatives import Derivatives as Derivatives
     from umform.studies.derivatives import derivatives as derivatives
@@ -119,6 +120,7 @@ _HOME = {
         "read_tool",
         "write_tool",
     ),
+    "umform.processes.flat_pattern": ("flat",),
     "umform.studies.derivatives": ("Derivatives", "derivatives"),
     "umform.studies.goals": ("Compensated", "Wanted", "compensate"),
     "umform.studies.scatter": ("Scatter", "Scattered", "scatter"),

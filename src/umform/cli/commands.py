@@ -22,6 +22,7 @@ FILES = {
     "derive": "derive",
     "draw": "draw",
     "elements": "elements",
+    "flat": "flat",
     "hem": "hem",
     "identify": "identify",
     "metal": "metals",

@@ -1,0 +1,120 @@
+"""Checks of a flat pattern: overlap, holes near bends, flanges too short for the die."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.processes.flat_pattern.pattern import FlatBend, FlatPattern
+
+Floats = NDArray[np.float64]
+
+#: Parts of a length that count as a touch.
+_TOUCH = 1e-6
+
+
+def overlap(pattern: FlatPattern) -> Floats | None:
+    """A place where contours cross, (2,); None if the pattern lies flat without overlap."""
+    a, b = _pieces(pattern)
+    d = b - a
+    for k in range(len(a) - 1):
+        p, q = a[k + 1 :], d[k + 1 :]
+        cross = d[k, 0] * q[:, 1] - d[k, 1] * q[:, 0]
+        way = p - a[k]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            s = (way[:, 0] * q[:, 1] - way[:, 1] * q[:, 0]) / cross
+            r = (way[:, 0] * d[k, 1] - way[:, 1] * d[k, 0]) / cross
+        inside = (s > _TOUCH) & (s < 1.0 - _TOUCH) & (r > _TOUCH) & (r < 1.0 - _TOUCH)
+        if inside.any():
+            return np.asarray(a[k] + s[int(np.flatnonzero(inside)[0])] * d[k])
+    return None
+
+
+def _pieces(pattern: FlatPattern) -> tuple[Floats, Floats]:
+    curves = [one.points() for one in (pattern.outer, *pattern.holes)]
+    return np.concatenate(curves), np.concatenate([np.roll(x, -1, axis=0) for x in curves])
+
+
+def holes_near_bends(pattern: FlatPattern) -> Iterator[str]:
+    """Warnings of holes nearer than 2 t + R to a bend line."""
+    for number, hole in enumerate(pattern.holes, start=1):
+        x = hole.points()
+        for bend in pattern.bends:
+            least = 2.0 * pattern.thickness + bend.radius
+            away = _distance(x, np.array([bend.lines[0][0], bend.lines[-1][1]]))
+            if away < least:
+                middle = x.mean(axis=0)
+                how = "lies across" if away == 0.0 else f"is {away:.3g} mm from"
+                yield (
+                    f"hole {number} at {middle[0]:.4g}, {middle[1]:.4g} {how} the line of bend {bend.number}, nearer "
+                    f"than 2 t + R = {least:.3g} mm: it will be distorted"
+                )
+
+
+def _distance(x: Floats, line: Floats) -> float:
+    """Distance of a closed curve from a line; 0 if the line crosses it."""
+    along = line[1] - line[0]
+    length = float(np.linalg.norm(along))
+    along = along / length
+    way = x - line[0]
+    s, h = way @ along, way @ np.array([-along[1], along[0]])
+    between = (s > 0.0) & (s < length)
+    if between.any() and h[between].min() < 0.0 < h[between].max():
+        return 0.0
+    return float(np.hypot(h, np.maximum(np.maximum(-s, s - length), 0.0)).min())
+
+
+def short_flanges(pattern: FlatPattern, least: float) -> Iterator[str]:
+    """Warnings of flanges shorter than a die needs, measured square to the bend line.
+
+    Parameters
+    ----------
+    pattern : FlatPattern
+        The pattern.
+    least : float
+        Flat length in mm from a bend line that the die needs.
+    """
+    for bend in pattern.bends:
+        shortest = min(flange for line in bend.lines for flange in flanges(pattern, bend, line))
+        if shortest < least:
+            yield (
+                f"bend {bend.number}: the flat flange of {shortest:.4g} mm is shorter than the {least:.4g} mm that the "
+                "die needs: a narrower die"
+            )
+
+
+def flanges(pattern: FlatPattern, bend: FlatBend, line: Floats, places: int = 9) -> list[float]:
+    """Flat lengths from a bend line to the nearest outer contour or other bend zone, square to the line."""
+    across = np.array([-bend.along[1], bend.along[0]])
+    x = pattern.outer.points()
+    ends = np.roll(x, -1, axis=0)
+    others = [
+        (one[0], one[1], 0.5 * other.allowance.length)
+        for other in pattern.bends
+        if other is not bend
+        for one in other.lines
+    ]
+    found = list[float]()
+    for share in (np.arange(places) + 0.5) / places:
+        at = line[0] + share * (line[1] - line[0])
+        ways = crossings(at, across, x, ends)
+        more = [
+            way - np.sign(way) * half
+            for a, b, half in others
+            for way in crossings(at, across, a[None], b[None]).tolist()
+        ]
+        all_ways = np.concatenate([ways, more])
+        found += [float(all_ways[all_ways > 0.0].min()), float(-all_ways[all_ways < 0.0].max())]
+    return found
+
+
+def crossings(at: Floats, way: Floats, a: Floats, b: Floats) -> Floats:
+    """Distances along a straight line at which it crosses segments from a to b."""
+    side = np.array([-way[1], way[0]])
+    h, g = (a - at) @ side, (b - at) @ side
+    hit = (h > 0.0) != (g > 0.0)
+    h, g = h[hit], g[hit]
+    x = a[hit] + (h / (h - g))[:, None] * (b[hit] - a[hit])
+    return np.asarray((x - at) @ way)
