@@ -72,8 +72,8 @@ def _show(pattern: FlatPattern) -> None:
 
     length, width = pattern.size.tolist()
     console().print(
-        f"{pattern.path.name} (in {pattern.unit}): {pattern.thickness:.4g} mm sheet, flat {length:.3f} x {width:.3f} mm, "
-        f"{pattern.area:.1f} mm², {len(pattern.holes)} holes",
+        f"{pattern.path.name} (in {pattern.unit}): {pattern.thickness:.4g} mm sheet, flat {length:.3f} x {width:.3f} mm"
+        f", {pattern.area:.1f} mm², {len(pattern.holes)} holes",
         soft_wrap=True,
     )
     table = Table("bend", "faces", "direction", box=box.SIMPLE_HEAD)
