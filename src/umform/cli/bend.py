@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from umform.cli import bend_table as _table  # noqa: F401  (adds its command)
+from umform.cli.bends import alone, bends
 from umform.cli.check import Force
 from umform.cli.compensate import By, Want, compensated
 from umform.cli.derive import Derive, derived
@@ -33,7 +35,7 @@ from umform.cli.options import (
     print_deck,
 )
 from umform.cli.outcome_screen import show_outcome
-from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.root import Debug, Overwrite, Verbose, console, printing
 from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.sequence import run_sequence
 from umform.cli.timing import Timed, show_timing
@@ -54,7 +56,8 @@ if TYPE_CHECKING:
 _GOAL, _TOOLS = "What to do", "Tools"
 
 
-@app.command()
+@bends.callback(invoke_without_command=True)
+@alone
 @given_by(Goal, AirBending, omit=("material", "punch_section", "die_section"))
 @scattering
 def bend(
