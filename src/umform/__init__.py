@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from umform.elements import Mode as Mode
     from umform.elements import Tying as Tying
     from umform.errors import UmformError as UmformError
+    from umform.flat_pattern import flat as flat
     from umform.materials import *
     from umform.mesh import Mesh as Mesh
     from umform.model import Body as Body
@@ -46,7 +47,6 @@ if TYPE_CHECKING:
     from umform.model.supports.axes import cylindrical as cylindrical
     from umform.model.supports.axes import turned as turned
     from umform.model.transfer.trim import Trim as Trim
-    from umform.processes.flat_pattern import flat as flat
     from umform.results import fields as fields
     from umform.studies.derivatives import Derivatives as Derivatives
     from umform.studies.derivatives import derivatives as derivatives
@@ -120,7 +120,7 @@ _HOME = {
         "read_tool",
         "write_tool",
     ),
-    "umform.processes.flat_pattern": ("flat",),
+    "umform.flat_pattern": ("flat",),
     "umform.studies.derivatives": ("Derivatives", "derivatives"),
     "umform.studies.goals": ("Compensated", "Wanted", "compensate"),
     "umform.studies.scatter": ("Scatter", "Scattered", "scatter"),

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import DrawingError
-from umform.processes.flat_pattern.unfold import BendMap, PlaneMap, Unfolded
+from umform.flat_pattern.unfold import BendMap, PlaneMap, Unfolded
 from umform.surfaces.cad.solid import SolidEdge
 from umform.surfaces.segments import Arc, Line, Segment
 

@@ -11,8 +11,8 @@ from xml.sax.saxutils import escape
 import numpy as np
 
 from umform.errors import FileProblem
-from umform.processes.flat_pattern.contour import Contour
-from umform.processes.flat_pattern.pattern import FlatBend, FlatPattern
+from umform.flat_pattern.contour import Contour
+from umform.flat_pattern.pattern import FlatBend, FlatPattern
 from umform.surfaces.segments import Arc, Line
 
 #: Layers of the DXF file with their colours by the AutoCAD index.

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.processes.flat_pattern.pattern import FlatBend, FlatPattern
+from umform.flat_pattern.pattern import FlatBend, FlatPattern
 
 Floats = NDArray[np.float64]
 
@@ -66,27 +66,12 @@ def _distance(x: Floats, line: Floats) -> float:
     return float(np.hypot(h, np.maximum(np.maximum(-s, s - length), 0.0)).min())
 
 
-def short_flanges(pattern: FlatPattern, least: float) -> Iterator[str]:
-    """Warnings of flanges shorter than a die needs, measured square to the bend line.
-
-    Parameters
-    ----------
-    pattern : FlatPattern
-        The pattern.
-    least : float
-        Flat length in mm from a bend line that the die needs.
-    """
-    for bend in pattern.bends:
-        shortest = min(flange for line in bend.lines for flange in flanges(pattern, bend, line))
-        if shortest < least:
-            yield (
-                f"bend {bend.number}: the flat flange of {shortest:.4g} mm is shorter than the {least:.4g} mm that the "
-                "die needs: a narrower die"
-            )
+def shortest_flange(pattern: FlatPattern, bend: FlatBend) -> float:
+    """Smallest flat length from a bend line to the outer contour or to the next bend, square to the line."""
+    return min(length for line in bend.lines for length in _flanges(pattern, bend, line))
 
 
-def flanges(pattern: FlatPattern, bend: FlatBend, line: Floats, places: int = 9) -> list[float]:
-    """Flat lengths from a bend line to the nearest outer contour or other bend zone, square to the line."""
+def _flanges(pattern: FlatPattern, bend: FlatBend, line: Floats, places: int = 9) -> list[float]:
     across = np.array([-bend.along[1], bend.along[0]])
     x = pattern.outer.points()
     ends = np.roll(x, -1, axis=0)

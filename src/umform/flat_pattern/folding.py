@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.processes.flat_pattern.unfold import BendMap, PlaneMap, Unfolded
+from umform.flat_pattern.unfold import BendMap, PlaneMap, Unfolded
 
 Floats = NDArray[np.float64]
 

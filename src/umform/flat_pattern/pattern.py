@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import DrawingError
-from umform.processes.flat_pattern.allowance import Allowance, AllowanceProvider
-from umform.processes.flat_pattern.contour import Contour, contours_of
-from umform.processes.flat_pattern.folding import largest_distance
-from umform.processes.flat_pattern.skin import skin_of
-from umform.processes.flat_pattern.unfold import BendMap, Unfolded, unfold
+from umform.flat_pattern.allowance import Allowance, AllowanceProvider
+from umform.flat_pattern.contour import Contour, contours_of
+from umform.flat_pattern.folding import largest_distance
+from umform.flat_pattern.skin import skin_of
+from umform.flat_pattern.unfold import BendMap, Unfolded, unfold
 from umform.surfaces.cad.solid import Solid
 
 Floats = NDArray[np.float64]

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import DrawingError
-from umform.processes.flat_pattern.allowance import Allowance, AllowanceProvider
-from umform.processes.flat_pattern.skin import Patch, Skin
+from umform.flat_pattern.allowance import Allowance, AllowanceProvider
+from umform.flat_pattern.skin import Patch, Skin
 
 Floats = NDArray[np.float64]
 
