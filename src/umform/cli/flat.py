@@ -73,9 +73,9 @@ def flat(
     if bend and metal is None:
         raise InvalidValue("a part is bent of a metal", where="--bend", remedy="--metal DC04")
     say = partial(typer.echo, err=True)
+    place = folder_for(out, Path("results/flat"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     with by_name("--metal"):
         pattern = flattened(part, allowance=allowance, tooling=tooling, bodies=bodies, store=Store(store))
-    place = folder_for(out, Path("results/flat"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     for warning in pattern.warnings:
         say(f"umform: warning: {warning}")
     orders = Orders(pattern, tooling, bodies)

@@ -17,24 +17,31 @@ _TOUCH = 1e-6
 
 def overlap(pattern: FlatPattern) -> Floats | None:
     """A place where contours cross, (2,); None if the pattern lies flat without overlap."""
-    a, b = _pieces(pattern)
-    d = b - a
-    for k in range(len(a) - 1):
-        p, q = a[k + 1 :], d[k + 1 :]
-        cross = d[k, 0] * q[:, 1] - d[k, 1] * q[:, 0]
-        way = p - a[k]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            s = (way[:, 0] * q[:, 1] - way[:, 1] * q[:, 0]) / cross
-            r = (way[:, 0] * d[k, 1] - way[:, 1] * d[k, 0]) / cross
-        inside = (s > _TOUCH) & (s < 1.0 - _TOUCH) & (r > _TOUCH) & (r < 1.0 - _TOUCH)
-        if inside.any():
-            return np.asarray(a[k] + s[int(np.flatnonzero(inside)[0])] * d[k])
+    curves = [one.points() for one in (pattern.outer, *pattern.holes)]
+    low, high = (np.array([reduce(x, axis=0) for x in curves]) for reduce in (np.min, np.max))
+    for k, x in enumerate(curves):
+        near = ((low[k:] <= high[k]) & (high[k:] >= low[k])).all(axis=1)
+        others = [curves[n] for n in (k + np.flatnonzero(near)).tolist()]
+        ends = [np.roll(other, -1, axis=0) for other in others]
+        found = _crossing(x, np.roll(x, -1, axis=0), np.concatenate(others), np.concatenate(ends))
+        if found is not None:
+            return found
     return None
 
 
-def _pieces(pattern: FlatPattern) -> tuple[Floats, Floats]:
-    curves = [one.points() for one in (pattern.outer, *pattern.holes)]
-    return np.concatenate(curves), np.concatenate([np.roll(x, -1, axis=0) for x in curves])
+def _crossing(a: Floats, b: Floats, c: Floats, d: Floats) -> Floats | None:
+    """A point inside of both a segment from a to b and one from c to d."""
+    way, other = b - a, d - c
+    for start, along in zip(a, way, strict=True):
+        cross = along[0] * other[:, 1] - along[1] * other[:, 0]
+        away = c - start
+        with np.errstate(divide="ignore", invalid="ignore"):
+            s = (away[:, 0] * other[:, 1] - away[:, 1] * other[:, 0]) / cross
+            r = (away[:, 0] * along[1] - away[:, 1] * along[0]) / cross
+        inside = (s > _TOUCH) & (s < 1.0 - _TOUCH) & (r > _TOUCH) & (r < 1.0 - _TOUCH)
+        if inside.any():
+            return np.asarray(start + s[int(np.flatnonzero(inside)[0])] * along)
+    return None
 
 
 def holes_near_bends(pattern: FlatPattern) -> Iterator[str]:

@@ -100,8 +100,8 @@ def _stop(pattern: FlatPattern, section: Section, number: int, done: tuple[int, 
     edges = [here if side < 0.0 else section.length - here for side, bent in sides.items() if not bent]
     if edges:
         return min(edges), "flat edge"
-    for bent in sides.values():
-        away, other = min(bent)
+    nearest = sorted(min(bent) for bent in sides.values())
+    for away, other in nearest:
         if abs(by_number[other].angle - 90.0) < _SQUARE:
             return away + 0.5 * deduction(by_number[other], pattern), f"outer face of the flange of bend {other}"
     return None, "no square flange: mark the bend line"
@@ -191,7 +191,7 @@ def _number(value: float | None, decimals: int) -> str:
 
 
 def _red(pattern: FlatPattern, bent: BentPart | None) -> list[str]:
-    red = [] if pattern.order else ["no order of the bends: see the remarks"]
+    red = [] if pattern.order or not pattern.bends else ["no order of the bends: see the remarks"]
     return red + (bent.part.collisions if bent is not None else [])
 
 

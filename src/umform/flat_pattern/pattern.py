@@ -15,7 +15,7 @@ from umform.errors import DrawingError
 from umform.flat_pattern.allowance import Allowance, AllowanceProvider
 from umform.flat_pattern.contour import Contour, contours_of
 from umform.flat_pattern.folding import largest_distance
-from umform.flat_pattern.skin import skin_of
+from umform.flat_pattern.skin import Skin, skin_of
 from umform.flat_pattern.unfold import BendMap, Unfolded, unfold
 from umform.surfaces.cad.solid import Solid
 
@@ -23,6 +23,8 @@ Floats = NDArray[np.float64]
 
 #: Part of the area by which contour and faces may differ.
 _AREA = 1e-4
+#: Thickness over the width of the flat pattern from which a part is no sheet.
+_THICK = 0.5
 #: Distance in mm of bend lines that are one.
 _COLLINEAR = 1e-3
 
@@ -141,6 +143,7 @@ def pattern_of(path: str | Path, allowance: AllowanceProvider, *, deviation: flo
     outer, holes = curves[0], tuple(curves[1:])
     area = outer.area - sum(hole.area for hole in holes)
     _check_area(flat, area)
+    _check_thin(skin, outer)
     return FlatPattern(
         skin.solid.path,
         skin.solid.unit,
@@ -169,6 +172,21 @@ def _check_area(flat: Unfolded, area: float) -> None:
             value=f"area {area:.6g} mm² within the contour, {total:.6g} of the faces",
             cause="faces that lie over each other in the flat",
             remedy="make the part of two pieces, or give its corners a relief",
+        )
+
+
+def _check_thin(skin: Skin, outer: Contour) -> None:
+    """Refuse blocks and tubes, whose parallel ends look like the sides of a thick sheet."""
+    x = outer.points()
+    narrowest = float((x.max(axis=0) - x.min(axis=0)).min())
+    if skin.thickness > _THICK * narrowest:
+        raise DrawingError(
+            "this part is no sheet",
+            where=str(skin.solid.path),
+            value=f"thickness {skin.thickness:.4g} mm behind face {skin.patches[0].face.number}, which is "
+            f"{narrowest:.4g} mm wide",
+            cause="a block, a round tube, or a turned part",
+            remedy="export the solid of a bent sheet",
         )
 
 

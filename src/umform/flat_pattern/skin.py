@@ -206,7 +206,8 @@ def _check_rest(solid: Solid, skins: set[int]) -> tuple[str, ...]:
     """Refuse faces that do not lie within the sheet; warn of edges that are not square to it."""
     on_skin = np.concatenate([solid.edges[k].points[[0, -1]] for n in skins for k in solid.faces[n].edges])
     warnings = []
-    for number, face in solid.faces.items():
+    plain = ("Plane", "Cylinder")
+    for number, face in sorted(solid.faces.items(), key=lambda pair: pair[1].kind in plain):  # free forms first
         if number in skins:
             continue
         if face.kind == "Cone":
@@ -220,11 +221,12 @@ def _check_rest(solid: Solid, skins: set[int]) -> tuple[str, ...]:
         ends = np.concatenate([solid.edges[k].points[[0, -1]] for k in face.edges])
         away = np.linalg.norm(ends[:, None] - on_skin, axis=2).min(axis=1)
         if away.max() > 1e-4:
+            _check_kind(solid, face)
             raise _refuse(
                 solid,
                 "a face lies outside of the sheet",
                 f"face {number}, a {face.kind}, has a corner {away.max():.3g} mm from the faces of the sheet",
-                "a rib, boss, casting or step, or a second thickness",
+                "a rib, boss or casting, a second thickness, or a bend that is sharp inside",
                 "export the solid of a bent sheet of one thickness",
             )
         if not _square(solid, face, skins):
