@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from umform.elements import Mode as Mode
     from umform.elements import Tying as Tying
     from umform.errors import UmformError as UmformError
+    from umform.flat_pattern import flat as flat
     from umform.materials import *
     from umform.mesh import Mesh as Mesh
     from umform.model import Body as Body
@@ -121,6 +122,7 @@ _HOME = {
         "write_tool",
     ),
     "umform.report.state_files": ("export_state",),
+    "umform.flat_pattern": ("flat",),
     "umform.studies.derivatives": ("Derivatives", "derivatives"),
     "umform.studies.goals": ("Compensated", "Wanted", "compensate"),
     "umform.studies.scatter": ("Scatter", "Scattered", "scatter"),

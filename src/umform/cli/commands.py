@@ -23,6 +23,7 @@ FILES = {
     "draw": "draw",
     "elements": "elements",
     "export": "export",
+    "flat": "flat",
     "hem": "hem",
     "identify": "identify",
     "metal": "metals",
