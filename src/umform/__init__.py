@@ -66,6 +66,7 @@ if TYPE_CHECKING:
     from umform.surfaces import Cylinder as Cylinder
     from umform.surfaces import Extruded as Extruded
     from umform.surfaces import LedAround as LedAround
+    from umform.surfaces import OffsetField as OffsetField
     from umform.surfaces import Plane as Plane
     from umform.surfaces import Profile as Profile
     from umform.surfaces import Punch as Punch
@@ -104,6 +105,7 @@ _HOME = {
         "Cylinder",
         "Extruded",
         "LedAround",
+        "OffsetField",
         "Plane",
         "Profile",
         "Punch",
