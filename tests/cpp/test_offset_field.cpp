@@ -111,15 +111,17 @@ void equal_coefficients() {
 
 /// Far from the tool, and where no foot is found, the gap is at most `above` more than the distance, and of its sign.
 void bounds() {
-    const auto ball = tool(Sphere{{0, 0, 0}, 2, true});
+    const auto ball = tool(Sphere{{0, 0, 0}, 7, true});
     const SplineField field = fields(0.2)[1];
     const OffsetByField grown{ball, field};
     CHECK_NEAR(grown.above(), field.most() - field.least(), 1e-15);
-    for (double r = 0.1; r < 12.0; r += 0.37)
+    for (double r = 0.1; r < 13.0; r += 0.37)
         for (const Vec3& e : {along, across, up}) {
             const Vec3 x{r * e[0], r * e[1], r * e[2]};
             const double phi = gap_of(*ball, x).g, g = gap_of(grown, x).g;
             CHECK(g >= phi - field.most() - 1e-8 && g <= phi - field.least() + 1e-8);
+            if (r < 3.0) CHECK_NEAR(g, phi - field.most(), 1e-15);
+            if (r > 11.0) CHECK_NEAR(g, phi - field.least(), 1e-15);
         }
 }
 
