@@ -50,8 +50,10 @@ if TYPE_CHECKING:
     from umform.studies.derivatives import Derivatives as Derivatives
     from umform.studies.derivatives import derivatives as derivatives
     from umform.studies.goals import Compensated as Compensated
+    from umform.studies.goals import CompensatedShape as CompensatedShape
     from umform.studies.goals import Wanted as Wanted
     from umform.studies.goals import compensate as compensate
+    from umform.studies.goals import compensate_shape as compensate_shape
     from umform.studies.identification import Identified as Identified
     from umform.studies.identification import MeasuredCurve as MeasuredCurve
     from umform.studies.identification import MeasuredNumber as MeasuredNumber
@@ -122,7 +124,7 @@ _HOME = {
         "write_tool",
     ),
     "umform.studies.derivatives": ("Derivatives", "derivatives"),
-    "umform.studies.goals": ("Compensated", "Wanted", "compensate"),
+    "umform.studies.goals": ("Compensated", "CompensatedShape", "Wanted", "compensate", "compensate_shape"),
     "umform.studies.scatter": ("Scatter", "Scattered", "scatter"),
     "umform.studies.identification": ("Identified", "MeasuredCurve", "MeasuredNumber", "Sought", "identify"),
     "umform.studies.sweep": ("Sweep", "sweep"),

@@ -18,8 +18,8 @@ from umform.surfaces.directions import Direction, Point2, unit_vector
 
 Floats = NDArray[np.float64]
 
-#: Largest slope of a field: beyond it the surface of a tool comes near to folding.
-STEEPEST = 0.5
+#: Slope of a field from which the surface of a tool may fold: its distance and the field change alike.
+STEEPEST = 1.0
 #: Largest cosine of directions that are at right angles.
 RIGHT = 1e-9
 
@@ -119,16 +119,19 @@ class OffsetField:
             found = (found[:, :, None] * rows[:, None, :]).reshape(len(points), -1)
         return found
 
-    def bending(self) -> Floats:
-        """Second differences of the coefficients along all directions, as rows of a matrix."""
+    def differences(self) -> Floats:
+        """First and second differences of the coefficients along all directions, as rows of a matrix."""
         ids = np.arange(len(self.values)).reshape(tuple(self.coefficients))
         rows = []
         for k, h in enumerate(self.spacing / self.spacing.min()):
-            triples = np.stack([np.moveaxis(ids, k, 0)[i : self.coefficients[k] - 2 + i].ravel() for i in range(3)])
-            part = np.zeros((triples.shape[1], ids.size))
-            for row, weight in zip(triples, (1.0, -2.0, 1.0), strict=True):
-                part[np.arange(len(row)), row] = weight / h**2
-            rows.append(part)
+            for order, weights in ((1, (-1.0, 1.0)), (2, (1.0, -2.0, 1.0))):
+                count = self.coefficients[k] - order
+                part = np.zeros((ids.size // self.coefficients[k] * max(count, 0), ids.size))
+                for i, weight in enumerate(weights):
+                    part[np.arange(len(part)), np.moveaxis(ids, k, 0)[i : count + i].ravel()[: len(part)]] = (
+                        weight / h**order
+                    )
+                rows.append(part)
         return np.concatenate(rows)
 
     def edge(self, chord: float) -> float:

@@ -132,7 +132,7 @@ def test_pictures_lie_on_the_surface(rng):
 @pytest.mark.parametrize(
     ("change", "what"),
     [
-        ({"values": [0.0, 1.0, 0, 0, 0]}, "slope of a field must be less than 0.5"),
+        ({"values": [0.0, 1.0, 0, 0, 0]}, "slope of a field must be less than 1"),
         ({"values": [0.0, float("nan"), 0, 0, 0]}, "slope of a field"),
         ({"values": [0.1] * 4}, "a value for each coefficient"),
         ({"span": [(3.0, 3.0)]}, "a larger last number"),
