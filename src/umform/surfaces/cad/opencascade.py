@@ -125,7 +125,7 @@ class Shape:
             If a face cannot be triangulated.
         """
         mesh = importlib.import_module("OCP.BRepMesh")
-        _static("BRepTools", "BRepTools", "Clean")(self._shape)
+        static("BRepTools", "BRepTools", "Clean")(self._shape)
         mesh.BRepMesh_IncrementalMesh(self._shape, arrow, False, angle, False)
         return [self._face(face, number) for number, face in enumerate(self._explored(), start=1)]
 
@@ -137,7 +137,7 @@ class Shape:
     def _explored(self) -> list[Any]:
         exploring = importlib.import_module("OCP.TopExp").TopExp_Explorer
         kinds = importlib.import_module("OCP.TopAbs").TopAbs_ShapeEnum
-        cast = _static("TopoDS", "TopoDS", "Face")
+        cast = static("TopoDS", "TopoDS", "Face")
         at, faces = exploring(self._shape, kinds.TopAbs_FACE), []
         while at.More():
             faces.append(cast(at.Current()))
@@ -153,7 +153,7 @@ class Shape:
 
     def _face(self, face: Any, number: int) -> Face:
         location = importlib.import_module("OCP.TopLoc").TopLoc_Location()
-        made = _static("BRep", "BRep_Tool", "Triangulation")(face, location)
+        made = static("BRep", "BRep_Tool", "Triangulation")(face, location)
         surface = importlib.import_module("OCP.BRepAdaptor").BRepAdaptor_Surface(face, True)
         if made is None or not made.NbTriangles() or not made.HasUVNodes():
             raise DrawingError(
@@ -178,12 +178,12 @@ class Shape:
         if _kind(surface) in ("Plane", "Cylinder", "Cone", "Sphere", "Torus"):
             return surface
         convert = importlib.import_module("OCP.GeomConvert").GeomConvert_SurfToAnaSurf
-        found = convert(_static("BRep", "BRep_Tool", "Surface")(face)).ConvertToAnalytical(_RECOGNISED * self.size)
+        found = convert(static("BRep", "BRep_Tool", "Surface")(face)).ConvertToAnalytical(_RECOGNISED * self.size)
         return surface if found is None else importlib.import_module("OCP.GeomAdaptor").GeomAdaptor_Surface(found)
 
     def _size(self) -> float:
         bounds = importlib.import_module("OCP.Bnd").Bnd_Box()
-        _static("BRepBndLib", "BRepBndLib", "Add")(self._shape, bounds)
+        static("BRepBndLib", "BRepBndLib", "Add")(self._shape, bounds)
         return math.sqrt(bounds.SquareExtent()) if not bounds.IsVoid() else 1.0
 
 
@@ -192,16 +192,16 @@ def _kind(surface: Any) -> str:
     return str(surface.GetType()).rpartition("_")[2]
 
 
-def _static(module: str, name: str, function: str) -> Any:
+def static(module: str, name: str, function: str) -> Any:
     """A static function; where the wheel has others of its name, or in older wheels, it ends in _s."""
     of = getattr(importlib.import_module(f"OCP.{module}"), name)
     return getattr(of, f"{function}_s", None) or getattr(of, function)
 
 
-def _quiet() -> None:
+def quiet() -> None:
     """Keep counts of entities of OpenCASCADE, in colours, off the terminal; its failures are printed."""
     least = importlib.import_module("OCP.Message").Message_Gravity.Message_Fail
-    for printer in _static("Message", "Message", "DefaultMessenger")().Printers():
+    for printer in static("Message", "Message", "DefaultMessenger")().Printers():
         printer.SetTraceLevel(least)
 
 
@@ -234,7 +234,7 @@ def _read(path: Path) -> Any:
             cause=str(error),
             remedy='pip install "umform[cad]"',
         ) from error
-    _quiet()
+    quiet()
     done = importlib.import_module("OCP.IFSelect").IFSelect_ReturnStatus.IFSelect_RetDone
     shape = None
     if reader.ReadFile(str(path)) == done:
