@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
 
+from umform.cli.compensate import compensated
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import console, printing
 
@@ -21,6 +23,8 @@ def run_sequence(
     note: str,
     out: str | None,
     length: float | None,
+    want: Sequence[str] | None = None,
+    by: Sequence[str] | None = None,
     *,
     tolerance: float,
     overwrite: bool,
@@ -34,7 +38,8 @@ def run_sequence(
     from umform.processes.bend_sequence.foreseen import foreseen_collisions, foreseen_text
     from umform.processes.bend_sequence.form import read_sequence
 
-    sequence = read_sequence(file).sequence(sheet)
+    goals = compensated(read_sequence(file).sequence(sheet), want, by)
+    sequence = goals.case
     say = partial(typer.echo, err=True)
     tell = partial(folder_for, out, Path("results/sequence"), RESULTS, overwrite=overwrite)
     place = tell(say=lambda text: say(f"umform: {text}"))
@@ -43,13 +48,15 @@ def run_sequence(
             say(f"umform: {foreseen_text(sequence, number, hit)}")
     with staging(place, FILES):
         part = bend_sequence(sequence, tolerance=tolerance)
+        wanted: list[Path] = []
         try:
+            part, wanted = goals.added_to(part, place)
             with printing(f"the files of the part are in {place}"):
                 largest = max(done.measures.largest_force for done in part.bends)
                 total = "" if length is None else total_force(largest, length)
                 show_outcome(part, total, note, without=part.collisions)
         finally:  # even if the table cannot be printed
-            files = write_files(place, part, note)
+            files = [*write_files(place, part, note), *wanted]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if part.collisions:
         text = "umform: this part cannot be bent so: " + "; ".join(part.collisions)
