@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from umform.cli.compensate import compensated
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import console, printing
 
@@ -22,6 +24,8 @@ def run_sequence(
     note: str,
     out: str | None,
     length: float | None,
+    want: Sequence[str] | None = None,
+    by: Sequence[str] | None = None,
     *,
     tolerance: float,
     overwrite: bool,
@@ -35,7 +39,8 @@ def run_sequence(
     from umform.processes.bend_sequence.foreseen import foreseen_collisions, foreseen_text
     from umform.processes.bend_sequence.form import read_sequence
 
-    sequence = read_sequence(file).sequence(sheet)
+    goals = compensated(read_sequence(file).sequence(sheet), want, by)
+    sequence = goals.case
     say = partial(typer.echo, err=True)
     tell = partial(folder_for, out, Path("results/sequence"), RESULTS, overwrite=overwrite)
     place = tell(say=lambda text: say(f"umform: {text}"))
@@ -44,11 +49,13 @@ def run_sequence(
             say(f"umform: {foreseen_text(sequence, number, hit)}")
     with staging(place, FILES):
         part = replace(bend_sequence(sequence, tolerance=tolerance), bend_length=length)
+        wanted: list[Path] = []
         try:
+            part, wanted = goals.added_to(part, place)
             with printing(f"the files of the part are in {place}"):
                 show_outcome(part, note=note, everything=everything, without=part.collisions)
         finally:  # even if the table cannot be printed
-            files = write_files(place, part, note)
+            files = [*write_files(place, part, note), *wanted]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if part.collisions:
         text = "umform: this part cannot be bent so: " + "; ".join(part.collisions)

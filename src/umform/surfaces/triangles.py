@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,6 +31,13 @@ class Triangles:
 
     points: Floats
     triangles: Ids
+
+    @classmethod
+    def all_of(cls, parts: Sequence[Triangles]) -> Triangles:
+        """Several surfaces as one."""
+        firsts = np.cumsum([0, *(len(part.points) for part in parts[:-1])])
+        ids = [part.triangles + first for part, first in zip(parts, firsts, strict=True)]
+        return cls(np.concatenate([part.points for part in parts]), np.concatenate(ids))
 
     @property
     def corners(self) -> Floats:

@@ -23,6 +23,7 @@ from umform.problem.unloading import loading_steps
 from umform.progress import Show, progress_bar
 from umform.report.symmetry import mirrors
 from umform.results.forming.tool_distance import pose_in
+from umform.results.outcome import Annex
 from umform.studies.goals.compensate import TABLE
 from umform.studies.goals.deviation import SmoothFace, deviations
 from umform.surfaces import OffsetByField, OffsetField, Placed
@@ -124,6 +125,15 @@ class CompensatedShape:
             numbers = f"{one.largest:.4g}", f"{one.rms:.4g}", share, f"{offset:.4g}", f"{one.part:g}"
             rows.append([str(number), *numbers])
         return rows
+
+    @property
+    def annex(self) -> Annex:
+        """The runs, and whether the shape was reached."""
+        warnings = [f"the next run failed: {self.stopped}"] if self.stopped else []
+        if not self.reached:
+            reached = f"the largest deviation is {self.best.largest:.4g}, wanted {self.within:.4g}"
+            warnings.append(f"{reached}: more runs or coefficients")
+        return Annex("Compensation", self.table, warnings=warnings)
 
     def write(self, folder: str | Path) -> list[Path]:
         """Write the table of the runs, the deviations of the first and the best one, and the deck with the fields."""
