@@ -128,12 +128,14 @@ def bend(
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     tools = drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer)
     case = AirBending(**{**given, "stroke": stroke}, **tools, material=law)
+    if sequence is not None:
+        studies = bool(want or by or find or quantity)
+        check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, deck, studies)
+        how = {"tolerance": tolerance, "overwrite": overwrite, "derive": derive, "scatter_options": scatter_options}
+        run_sequence(sequence, case, note, out, length, **how)
+        return
     if scatter_options:  # refuse what is wrong before the run
         scatter_options.check(replace(case, stroke=stroke or 0.5 * case.largest_stroke))
-    if sequence is not None:
-        check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, deck)
-        run_sequence(sequence, case, note, out, length, tolerance=tolerance, overwrite=overwrite)
-        return
     if bottoming:
         check_press(angle, table, budget, stroke, force_per_metre, travel)
         case = case if travel is None else with_travel(case, travel)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,6 +13,7 @@ from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import console, printing
 
 if TYPE_CHECKING:
+    from umform.cli.scattering import ScatterOptions
     from umform.processes.air_bending.spec import AirBending
 
 
@@ -24,8 +26,11 @@ def run_sequence(
     *,
     tolerance: float,
     overwrite: bool,
+    derive: Sequence[str] | None = None,
+    scatter_options: ScatterOptions | None = None,
 ) -> None:
     """Bend the part of a file, print the results and write them; a part that collides ends with exit code 1."""
+    from umform.cli.derive import derived
     from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.processes.air_bending.remarks import total_force
@@ -35,6 +40,8 @@ def run_sequence(
     from umform.processes.bend_sequence.form import read_sequence
 
     sequence = read_sequence(file).sequence(sheet)
+    if scatter_options:  # refuse what is wrong before the run
+        scatter_options.check(sequence.some_strokes)
     say = partial(typer.echo, err=True)
     tell = partial(folder_for, out, Path("results/sequence"), RESULTS, overwrite=overwrite)
     place = tell(say=lambda text: say(f"umform: {text}"))
@@ -42,14 +49,18 @@ def run_sequence(
         for hit in hits:
             say(f"umform: {foreseen_text(sequence, number, hit)}")
     with staging(place, FILES):
-        part = bend_sequence(sequence, tolerance=tolerance)
+        part, more = bend_sequence(sequence, tolerance=tolerance), list[Path]()
         try:
+            part, more = derived(part, part.with_strokes, derive, place, part.strokes)
+            if scatter_options:
+                part, spread = scatter_options.added_to(part, part.with_strokes, place)
+                more += spread
             with printing(f"the files of the part are in {place}"):
                 largest = max(done.measures.largest_force for done in part.bends)
                 total = "" if length is None else total_force(largest, length)
                 show_outcome(part, total, note, without=part.collisions)
         finally:  # even if the table cannot be printed
-            files = write_files(place, part, note)
+            files = [*write_files(place, part, note), *more]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if part.collisions:
         text = "umform: this part cannot be bent so: " + "; ".join(part.collisions)

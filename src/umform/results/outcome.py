@@ -73,6 +73,11 @@ class Outcome(ABC):
         """The numbers that the process reports, in the order of tables."""
 
     @property
+    def main(self) -> Sequence[str]:
+        """Names of the quantities that the process is for, the first one first: what a picture shows."""
+        return [one.name for one in self.quantities[:1]]
+
+    @property
     @abstractmethod
     def stages(self) -> Mapping[str, History]:
         """The runs by their names, in order."""

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from umform.analysis.newton.bordered import Bordered
 from umform.analysis.newton.criteria import EPS
+from umform.analysis.newton.shift import Shift
 from umform.analysis.run.checkpoint import memory_of, recall
 from umform.analysis.run.going import loop_for
 from umform.analysis.steps import Step
@@ -275,9 +276,21 @@ class Shadow:
                 solver = given.solver
             else:
                 self.kept.own += given is not None and len(norms) == _CORRECTIONS + 1
-                solver = run.newton.ready_solver()
-                solver.factor(evaluation)
+                solver = factored(run, evaluation)
             u, du = evaluation.x, system.extend(solver.solve(-r))
+
+
+def factored(run: Run, evaluation: Evaluation) -> Bordered:
+    """Factors of a tangent; of that of a sheet which no tool holds any more with small springs, eq. (5.54).
+
+    Such a sheet is in equilibrium by itself, so that the springs have no force and change no solution.
+    """
+    solver = run.newton.ready_solver()
+    try:
+        solver.factor(evaluation)
+    except SingularMatrix:
+        Shift(run.model.system).factor(solver, evaluation)
+    return solver
 
 
 def reason(failure: Failed | UmformError) -> str:

@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.analysis.newton.options import NewtonOptions
-from umform.analysis.run import solve
 from umform.errors import InvalidValue, SolveError, UmformError
 from umform.io.tables import write_csv
 from umform.progress import Tick, progress_bar, silent
@@ -312,9 +311,9 @@ class _Search:
     def _plain(self, x: Floats) -> Floats:
         thing = self.at(x)
         built = thing.build()
-        result = solve(built.model, built.steps, solver=built.solver, options=built.options, frames=1, progress=False)
-        numbers = {one.name: one.value for one in thing.quantities(built, result)}
-        return self._keep(x, [one.value(numbers, result) for one in self.responses], derived=False)
+        results = built.solve(progress=False)
+        numbers = {one.name: one.value for one in thing.quantities(built, *results)}
+        return self._keep(x, [one.value(numbers, results[-1]) for one in self.responses], derived=False)
 
     def _derived(self, x: Floats) -> tuple[Floats, Floats]:
         """Results, and derivatives by the scaled parameters."""
