@@ -31,7 +31,6 @@ def test_a_model(name):
 @pytest.mark.long
 @pytest.mark.parametrize("name", CHAINS)
 def test_operations_one_after_the_other(name):
-    """The acute bend of the hem snaps off its tools, which are then taken farther away."""
     for one in compared_chain(CHAINS[name]):
         assert one.derivative < CHAINS[name].limit, one
 

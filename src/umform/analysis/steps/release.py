@@ -195,13 +195,19 @@ class Releasing:
         if held:
             target += (led.before[1] - self.force) / slope
         near = held and (led.done or abs(wanted) < _NEAR_END * led.scale)
+        start = control.value
         for left in reversed(range(_CLOSER if near else 1)):
-            take([target], [control], self.start_time + step.time * (1.0 - target / self.start_value))
-            force = control.force(run.evaluation, ranks)
-            closer = _secant(before, (target, force), wanted, target)
-            if left == 0 or abs(force - wanted) <= _CLOSE * self.scale or closer == target:
-                break
-            before, target = (target, force), closer
+            try:
+                take([target], [control], self.start_time + step.time * (1.0 - target / self.start_value))
+                force = control.force(run.evaluation, ranks)
+                closer = _secant(before, (target, force), wanted, target)
+                if left == 0 or abs(force - wanted) <= _CLOSE * self.scale or closer == target:
+                    break
+                before, target = (target, force), closer
+            except Failed:  # beyond the last contact, perhaps
+                if left == 0:
+                    raise
+                target = 0.5 * (start + target)
             saved.restore(run)
             model.evaluate(model.state)  # the blocks for the recovery of enhanced parameters
         self.before, self.force, self.done = before, force, led.done
