@@ -132,14 +132,26 @@ def bend(
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     tools = drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer)
     case = AirBending(**{**given, "stroke": stroke}, **tools, material=law)
-    if scatter_options:  # refuse what is wrong before the run
-        scatter_options.check(replace(case, stroke=stroke or 0.5 * case.largest_stroke))
     if sequence is not None:
-        check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, deck)
+        studies = bool(find or quantity)
+        check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, deck, studies)
         run_sequence(
-            sequence, case, note, out, length, want, by, tolerance=tolerance, overwrite=overwrite, everything=everything
+            sequence,
+            case,
+            note,
+            out,
+            length,
+            want,
+            by,
+            tolerance=tolerance,
+            overwrite=overwrite,
+            everything=everything,
+            derive=derive,
+            scatter_options=scatter_options,
         )
         return
+    if scatter_options:  # refuse what is wrong before the run
+        scatter_options.check(replace(case, stroke=stroke or 0.5 * case.largest_stroke))
     if bottoming:
         check_press(angle, table, budget, stroke, force_per_metre, travel)
         case = case if travel is None else with_travel(case, travel)

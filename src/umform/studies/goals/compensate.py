@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.analysis.newton.options import NewtonOptions
-from umform.analysis.run import Result, solve
+from umform.analysis.run import Result
 from umform.errors import InvalidValue, SolveError, UmformError
 from umform.io.tables import write_csv
 from umform.progress import Tick, progress_bar, silent
@@ -23,7 +23,7 @@ from umform.results.quantity import Quantity
 from umform.spec import Scalar
 from umform.studies.derivatives.derive import derivatives, known_parameter, subject_of
 from umform.studies.derivatives.responses import Response, responses
-from umform.studies.derivatives.subjects import OfCase, Subject
+from umform.studies.derivatives.subjects import Built, OfCase, Subject
 from umform.studies.goals.files import write_text, write_tools
 from umform.studies.goals.sequences import bent, is_sequence, rigid_slopes
 from umform.studies.goals.shapes import Shapes, Tools, picture
@@ -405,11 +405,14 @@ class _Search:
         if isinstance(thing, OfCase) and is_sequence(thing.case):
             return self._sequence(x)
         built = thing.build()
-        result = solve(built.model, built.steps, solver=built.solver, options=built.options, frames=1, progress=False)
-        numbers = {one.name: one.value for one in thing.quantities(built, result)}
-        return self._keep(
-            x, [one.value(numbers, result) for one in self.responses], Shapes.of(built.steps, result), result
-        )
+        results = built.solve(progress=False)
+        numbers = {one.name: one.value for one in thing.quantities(built, *results)}
+        values = [one.value(numbers, results[-1]) for one in self.responses]
+        return self._keep(x, values, self._shapes(built, results[-1]), results[-1])
+
+    def _shapes(self, built: Built, result: Result) -> Shapes | None:
+        """Shapes of a run of one operation."""
+        return None if built.after else Shapes.of(built.steps, result)
 
     def _foreseen(self, x: Floats) -> tuple[Floats, Floats]:
         """Results of a sequence of bends, and slopes of rigid legs by the scaled strokes."""
@@ -430,7 +433,7 @@ class _Search:
         by = dict(zip((one.path for one in self.parameters), x.tolist(), strict=True))
         found = derivatives(thing.given, by, list(self.want), **thing.settings)
         self.responses = list(found.measured)
-        shapes = Shapes.of(thing.build().steps, found.run)
+        shapes = self._shapes(thing.build(), found.run)
         y = self._keep(x, [one.value for one in found.responses], shapes, found.run, derived=True)
         if not np.isfinite(found.values).all():
             raise InvalidValue(
