@@ -7,7 +7,6 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from umform.analysis.steps.pace import Pace
 from umform.errors import InvalidValue
 from umform.processes.draw.spec import Draw, Turn, check_clearance, tight, unusual_pressure
 from umform.processes.limit import allowed_penetration
@@ -34,9 +33,8 @@ CLEARANCE = 1.0 / 0.78
 #: chosen otherwise, eq. (4.29). A stiff plane touches the sheet only in front of the edge of the die; the rest of the
 #: flange then lies without pressure between two planes, its contact is not determined, and Newton's method fails.
 _HOLDER, _GIVEN_WAY = 0.06, 1.0 / 100.0
-#: A pace of equal increments: no limit but their size, a fraction of the stroke.
+#: Size of equal increments, a fraction of the stroke.
 _SIZE = 1.0 / 400.0
-_EQUAL = Pace(first=_SIZE, largest=_SIZE, turn=90.0, strain=10.0, contact=1e3, iterations=1000)
 #: Tolerances that change no angle by more than a hundredth of a degree.
 _TIGHT: dict[str, Any] = {"residual": 1e-6, "increment": 1e-5}
 
@@ -108,7 +106,10 @@ class UBend(Draw):
         With increments that adapt, a small change of a parameter gives others, which change angles by up to a tenth of
         a degree.
         """
-        return replace(self, pace=_EQUAL, newton=replace(self.newton, **_TIGHT))
+        from umform.analysis.steps import Pace  # not for the help of the command
+
+        equal = Pace(first=_SIZE, largest=_SIZE, turn=90.0, strain=10.0, contact=1e3, iterations=1000)
+        return replace(self, pace=equal, newton=replace(self.newton, **_TIGHT))
 
     @property
     def title(self) -> str:
