@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from os import PathLike
 from pathlib import Path
-from typing import NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 from umform.errors import InvalidValue
 from umform.io.atomic import PendingFile
@@ -16,6 +16,9 @@ from umform.io.states.state import FormedState
 from umform.model import Model
 from umform.report.symmetry import mirrors
 from umform.results.formed import Points, formed_shells, formed_solids
+
+if TYPE_CHECKING:
+    from umform.model.transfer.trim import AtItsEnd
 
 
 class Program(NamedTuple):
@@ -51,15 +54,6 @@ PROGRAMS = {
 }
 #: Points of a shell, layers of solids.
 POINTS, LAYERS = 9, 6
-
-
-class AtItsEnd(Protocol):
-    """A run with its model in the last state."""
-
-    @property
-    def model(self) -> Model:
-        """The model."""
-        ...
 
 
 def export_state(
