@@ -15,7 +15,7 @@ from umform.io.states.radioss import radioss_lines, read_radioss
 from umform.io.states.state import FormedState
 from umform.model import Model
 from umform.report.symmetry import mirrors
-from umform.results.formed import Points, formed_shells, formed_solids
+from umform.results.formed import Points, Rule, formed_shells, formed_solids
 
 if TYPE_CHECKING:
     from umform.model.transfer.trim import AtItsEnd
@@ -36,6 +36,8 @@ class Program(NamedTuple):
         Meshes that it has, the default first.
     points : {1, 8}
         Points of a solid.
+    rule : {"gauss", "even"}
+        Rule of the points of a shell.
     """
 
     lines: Callable[[FormedState], Iterator[str]]
@@ -43,12 +45,13 @@ class Program(NamedTuple):
     suffix: str
     meshes: tuple[str, ...]
     points: Points = 1
+    rule: Rule = "gauss"
 
 
 #: The formats by name.
 PROGRAMS = {
     "dynain": Program(dynain_lines, read_dynain, ".k", ("shells", "solids")),
-    "radioss": Program(radioss_lines, read_radioss, ".sta", ("shells", "solids")),
+    "radioss": Program(radioss_lines, read_radioss, ".sta", ("shells", "solids"), rule="even"),
     "abaqus": Program(abaqus_lines, read_initial_conditions, ".inp", ("solids",)),
     "calculix": Program(calculix_lines, read_initial_conditions, ".inp", ("solids",), 8),
 }
@@ -123,7 +126,7 @@ def export_state(
     model = part if isinstance(part, Model) else part.model
     said = units or "those of the model"
     if wanted == "shells":
-        state = formed_shells(model, points, said)
+        state = formed_shells(model, points, said, program.rule)
     else:
         state = formed_solids(model, layers, program.points, said)
     if mirror:
