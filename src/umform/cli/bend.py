@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from umform.cli import bend_correct, bend_table  # noqa: F401  (they add their commands)
+from umform.cli.bends import alone, bends
 from umform.cli.check import Force
 from umform.cli.compensate import By, Want, compensated
 from umform.cli.derive import Derive, derived
@@ -21,6 +23,7 @@ from umform.cli.metal import law_of
 from umform.cli.options import (
     SHEET,
     SOLUTION,
+    All,
     Curve,
     FlowCurve,
     Material,
@@ -33,7 +36,7 @@ from umform.cli.options import (
     print_deck,
 )
 from umform.cli.outcome_screen import show_outcome
-from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.root import Debug, Overwrite, Verbose, console, printing
 from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.sequence import run_sequence
 from umform.cli.timing import Timed, show_timing
@@ -54,7 +57,8 @@ if TYPE_CHECKING:
 _GOAL, _TOOLS = "What to do", "Tools"
 
 
-@app.command()
+@bends.callback(invoke_without_command=True)
+@alone
 @given_by(Goal, AirBending, omit=("material", "punch_section", "die_section"))
 @scattering
 def bend(
@@ -90,6 +94,7 @@ def bend(
     find: Annotated[list[str] | None, Find] = None,
     quantity: Annotated[list[str] | None, Quantities] = None,
     deck: PrintDeck = False,
+    everything: All = False,
     overwrite: Overwrite = False,
     force: Force = False,
     timing: Timed = False,
@@ -107,7 +112,6 @@ def bend(
     from umform.processes.air_bending.bottoming import with_travel
     from umform.processes.air_bending.branches import FRAMES, Brake
     from umform.processes.air_bending.files import FILES, RESULTS, write_files
-    from umform.processes.air_bending.remarks import total_force
     from umform.processes.air_bending.search import bending_table
     from umform.timing import Timing, timings
 
@@ -128,17 +132,32 @@ def bend(
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     tools = drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer)
     case = AirBending(**{**given, "stroke": stroke}, **tools, material=law)
+    if sequence is not None:
+        studies = bool(find or quantity)
+        check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, deck, studies)
+        run_sequence(
+            sequence,
+            case,
+            note,
+            out,
+            length,
+            want,
+            by,
+            tolerance=tolerance,
+            overwrite=overwrite,
+            everything=everything,
+            derive=derive,
+            scatter_options=scatter_options,
+        )
+        return
     if scatter_options:  # refuse what is wrong before the run
         scatter_options.check(replace(case, stroke=stroke or 0.5 * case.largest_stroke))
-    if sequence is not None:
-        check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, deck)
-        run_sequence(sequence, case, note, out, length, tolerance=tolerance, overwrite=overwrite)
-        return
     if bottoming:
         check_press(angle, table, budget, stroke, force_per_metre, travel)
         case = case if travel is None else with_travel(case, travel)
         check_value(Goal, "force_per_metre", force_per_metre)
-    case = compensated(case, want, by)
+    goals = compensated(case, want, by)
+    case = goals.case
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
     if find or quantity:
@@ -160,9 +179,10 @@ def bend(
     with staging(place, FILES):
         with _what_was_reached(place) as rows:
             rows += bending_table(case, strokes, brake=brake) if strokes else []
-            done = replace(_bent(brake, case, angle, force_per_metre, tolerance), table=tuple(rows))
+            done = replace(_bent(brake, case, angle, force_per_metre, tolerance), table=tuple(rows), bend_length=length)
         more: list[Path] = []
         scatter: list[Path] = []
+        wanted: list[Path] = []
         try:
             if budget:
                 from umform.processes.air_bending.budget import error_budget
@@ -170,15 +190,15 @@ def bend(
                 done = replace(done, budget=error_budget(done.case, done.measures, processes=processes))
             done, more = derived(done, done.case, derive, place, None if angle is None else {"angle": "stroke"})
             done, scatter = scatter_options.added_to(done, done.case, place)
+            done, wanted = goals.added_to(done, place)
             with printing(f"the files of the bend are in {place}"):
-                total = "" if length is None else total_force(done.measures.largest_force, length)
-                show_outcome(done, total, note)
+                show_outcome(done, note=note, everything=everything)
         except KeyboardInterrupt as stop:
             stop.add_note(f"  results so far are in {place}: all but the budget")
             raise
         finally:  # even if the table cannot be printed
             with done.result.timing.files:
-                files = [*write_files(place, done, note), *more, *scatter]
+                files = [*write_files(place, done, note), *more, *scatter, *wanted]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")

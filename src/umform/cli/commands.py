@@ -23,6 +23,7 @@ FILES = {
     "draw": "draw",
     "elements": "elements",
     "export": "export",
+    "flat": "flat",
     "hem": "hem",
     "identify": "identify",
     "metal": "metals",
@@ -32,6 +33,7 @@ FILES = {
     "resume": "resume",
     "run": "run",
     "sigma": "sigma",
+    "store": "store",
     "sweep": "sweep",
     "view": "view",
 }

@@ -5,18 +5,22 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
 from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read
-from umform.cli.outcome_screen import print_table
-from umform.cli.root import Debug, Overwrite, Verbose, app, console
-from umform.cli.warnings import echo_warnings, print_warnings_once
+from umform.cli.derive import say_written
+from umform.cli.outcome_screen import show_annex
+from umform.cli.root import Debug, Overwrite, Verbose, app
+from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
 
 if TYPE_CHECKING:
+    from umform.results.outcome import Outcome
     from umform.studies.goals import Compensated, Wanted
+
+_Outcome = TypeVar("_Outcome", bound="Outcome")
 
 Want = Annotated[
     list[str] | None,
@@ -41,21 +45,36 @@ _BOUNDS = re.compile(rf"(?P<path>[^=]+)=\s*(?P<low>{_NUMBER})\s*:\s*(?P<high>{_N
 @app.command()
 def compensate(
     deck: DeckFile,
-    want: Annotated[
+    by: Annotated[
         list[str],
+        typer.Option(
+            metavar="PATH",
+            help="A parameter that follows, with bounds as tools.punch.angle=80:90; for --shape a tool with an offset "
+            "field; repeatable.",
+        ),
+    ],
+    want: Annotated[
+        list[str] | None,
         typer.Option(
             metavar="NAME=VALUE+-TOLERANCE",
             help="A measure of the deck, such as hat.theta1.released=90+-0.05, or a column of the history, such as "
             "punch_force:max; repeatable.",
         ),
-    ],
-    by: Annotated[
-        list[str],
+    ] = None,
+    shape: Annotated[
+        str | None,
         typer.Option(
-            metavar="PATH", help="A parameter that follows, with bounds as tools.punch.angle=80:90; repeatable."
+            metavar="FACES",
+            help="Instead: these faces, lower or upper, have the released shape that they have in the tools at first.",
         ),
-    ],
-    runs: Annotated[int, typer.Option(min=1, help="Largest number of runs.")] = 8,
+    ] = None,
+    within: Annotated[
+        float | None,
+        typer.Option(
+            metavar="LENGTH", help="Largest deviation of the shape; default: a tenth of that of the first run."
+        ),
+    ] = None,
+    runs: Annotated[int | None, typer.Option(min=1, help="Largest number of runs; default: 8, for a shape 4.")] = None,
     changes: Changes = None,
     out: Annotated[
         Path | None,
@@ -68,10 +87,12 @@ def compensate(
 ) -> None:
     """Find parameters for which results of a deck are the wanted ones, such as tools that compensate springback.
 
-    The first run has derivatives, so that few more are needed.
+    The first run has derivatives, so that few more are needed. For a shape, offset fields of tools follow the deviation
+    of the released part.
     """
     from umform.io.folders import folder_for
     from umform.studies.goals import compensate as find
+    from umform.studies.goals import compensate_shape as find_shape
     from umform.studies.goals.compensate import TABLE
 
     print_warnings_once()
@@ -80,23 +101,54 @@ def compensate(
         problem = read(deck, changes or (), trust)
         default = Path("results") / f"{deck.stem}-compensated"
         place = folder_for(out, default, (TABLE,), overwrite=overwrite, say=said.append)
-        paths, bounds = bounded(by)
-        found = find(problem, wanted(want), paths, bounds=bounds, most=runs)
+        if bool(want) == bool(shape) or (within is not None and not shape):
+            raise InvalidValue(
+                "either results or a shape are wanted",
+                where="--want, --shape",
+                remedy="--want NAME=VALUE+-TOLERANCE --by PATH, or --shape upper --by die --by punch [--within 0.1]",
+            )
+        most: dict[str, Any] = {} if runs is None else {"most": runs}
+        found: Any
+        if shape:
+            found = find_shape(problem, shape, by, within=within, **most)
+        else:
+            paths, bounds = bounded(by)
+            found = find(problem, wanted(want or ()), paths, bounds=bounds, **most)
     for text in said:
         typer.echo(f"umform: {text}", err=True)
-    show(found)
-    files = found.write(place)
-    console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True, markup=False)
+    show_annex(found.annex)
+    say_written(found.write(place))
     if not found.reached:
         raise typer.Exit(1)
 
 
-def compensated(case: Any, want: Sequence[str] | None, by: Sequence[str] | None) -> Any:
+class Goals:
+    """Parameters of a process for wanted results, found before its run; or none.
+
+    Attributes
+    ----------
+    case : Spec
+        The case with the parameters.
+    found : Compensated, optional
+        The runs on the way.
+    """
+
+    def __init__(self, case: Any, found: Compensated | None = None) -> None:
+        self.case, self.found = case, found
+
+    def added_to(self, outcome: _Outcome, place: Path) -> tuple[_Outcome, list[Path]]:
+        """The outcome with the runs, and their files; without any, the outcome itself."""
+        if self.found is None:
+            return outcome, []
+        return outcome.with_annex(self.found.annex), self.found.write(place)
+
+
+def compensated(case: Any, want: Sequence[str] | None, by: Sequence[str] | None) -> Goals:
     """The case of a process with parameters for wanted results; the case itself without any."""
     from umform.studies.goals import compensate as find
 
     if not want and not by:
-        return case
+        return Goals(case)
     if not want or not by:
         raise InvalidValue(
             "a wanted result needs a parameter that follows, and a parameter a wanted result",
@@ -105,17 +157,7 @@ def compensated(case: Any, want: Sequence[str] | None, by: Sequence[str] | None)
         )
     paths, bounds = bounded(by)
     found = find(case, wanted(want), paths, bounds=bounds)
-    show(found)
-    return found.subject
-
-
-def show(found: Compensated) -> None:
-    """Print the runs, and whether the results were reached."""
-    print_table(found.table, "Compensation")
-    values = ", ".join(f"{path} = {one.value:.6g} {one.unit}".rstrip() for path, one in found.parameters.items())
-    console().print(values, soft_wrap=True, markup=False)
-    if not found.reached:
-        echo_warnings(["the wanted results are not reached: more runs, wider bounds, or other parameters"])
+    return Goals(found.subject, found)
 
 
 def wanted(texts: Sequence[str]) -> dict[str, Wanted]:

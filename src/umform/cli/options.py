@@ -16,7 +16,10 @@ def option(help_text: str, panel: str, *names: str) -> Any:
     return typer.Option(*names, help=help_text, rich_help_panel=panel)
 
 
-Material = Annotated[str | None, option("Name in the library of sheet metals: `umform metal list`.", SHEET)]
+Material = Annotated[
+    str | None,
+    option("Name in the library of sheet metals (`umform metal list`), or a file such as fit/metal.toml.", SHEET),
+]
 Young = Annotated[float | None, option("Young's modulus in MPa.", SHEET)]
 Poisson = Annotated[float | None, option("Poisson's ratio.", SHEET)]
 Yield = Annotated[float | None, option("Yield stress in MPa, for linear hardening.", SHEET)]
@@ -31,6 +34,10 @@ Curve = Annotated[
     ),
 ]
 FlowCurve = Annotated[Path | None, option("Measured hardening: a CSV file of plastic strain and true stress.", SHEET)]
+All = Annotated[
+    bool,
+    typer.Option("--all", help="Print all numbers, the source of the metal, penetrations and balance of the run."),
+]
 PrintDeck = Annotated[
     bool, typer.Option("--print-deck", help="Print the problem as a deck for `umform run`, and run nothing else.")
 ]

@@ -14,8 +14,8 @@ _VALUE = r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?|\w+|'[^']*'"
 
 def options_of(command: Any) -> dict[str, str]:
     """Options of a command and its subcommands, by their Python names."""
-    below = getattr(command, "commands", {}).values() or [command]
-    return {str(parameter.name): parameter.opts[0] for each in below for parameter in each.params}
+    each = [*getattr(command, "commands", {}).values(), command]
+    return {str(parameter.name): parameter.opts[0] for one in each for parameter in one.params}
 
 
 def as_typed(text: str, options: Mapping[str, str]) -> str:

@@ -31,14 +31,14 @@ def foreseen_collisions(sequence: BendSequence) -> dict[int, list[Collision]]:
     sequence : BendSequence
         The part.
     """
-    found = {}
-    for number, bend in enumerate(sequence.bends, start=1):
-        hits = collisions(
-            sequence.case(bend), sequence.zone(bend), sequence.bodies, list(_states(sequence, number - 1))
-        )
-        if hits:
-            found[number] = hits
-    return found
+    numbers = range(1, len(sequence.bends) + 1)
+    return {number: hits for number in numbers if (hits := foreseen_at(sequence, number))}
+
+
+def foreseen_at(sequence: BendSequence, number: int) -> list[Collision]:
+    """Collisions to be expected at one bend, by its number; they depend on which bends are done, not on their order."""
+    bend = sequence.bends[number - 1]
+    return collisions(sequence.case(bend), sequence.zone(bend), sequence.bodies, list(_states(sequence, number - 1)))
 
 
 def foreseen_text(sequence: BendSequence, number: int, hit: Collision) -> str:

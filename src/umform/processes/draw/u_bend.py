@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from umform.analysis.steps.pace import Pace
 from umform.errors import InvalidValue
 from umform.processes.draw.spec import Draw, Turn, check_clearance, tight, unusual_pressure
 from umform.processes.limit import allowed_penetration
@@ -33,6 +34,11 @@ CLEARANCE = 1.0 / 0.78
 #: chosen otherwise, eq. (4.29). A stiff plane touches the sheet only in front of the edge of the die; the rest of the
 #: flange then lies without pressure between two planes, its contact is not determined, and Newton's method fails.
 _HOLDER, _GIVEN_WAY = 0.06, 1.0 / 100.0
+#: A pace of equal increments: no limit but their size, a fraction of the stroke.
+_SIZE = 1.0 / 400.0
+_EQUAL = Pace(first=_SIZE, largest=_SIZE, turn=90.0, strain=10.0, contact=1e3, iterations=1000)
+#: Tolerances that change no angle by more than a hundredth of a degree.
+_TIGHT: dict[str, Any] = {"residual": 1e-6, "increment": 1e-5}
 
 
 def _options() -> NewtonOptions:
@@ -96,10 +102,20 @@ class UBend(Draw):
                 remedy="a shorter stroke, or a longer blank",
             )
 
+    def steady(self) -> UBend:
+        """The same with equal increments and tight tolerances, so that results are smooth functions of the parameters.
+
+        With increments that adapt, a small change of a parameter gives others, which change angles by up to a tenth of
+        a degree.
+        """
+        return replace(self, pace=_EQUAL, newton=replace(self.newton, **_TIGHT))
+
     @property
     def title(self) -> str:
         """Heading of tables and pages."""
-        return f"U-bend: punch of {self.punch_width:g} mm, {self.thickness:g} mm sheet"
+        from umform.sheet_metals import sheet_text  # not for the help of the command
+
+        return f"U-bend: {sheet_text(self.material, self.thickness)}, punch of {self.punch_width:g} mm"
 
     @property
     def clearance(self) -> float:

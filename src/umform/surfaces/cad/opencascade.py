@@ -58,7 +58,7 @@ class Face:
     @cached_property
     def kind(self) -> str:
         """Plane, Cylinder, Cone, Sphere, Torus, or another word for a free form."""
-        return _kind(self.formula)
+        return kind_of(self.formula)
 
     def derivatives(self, uv: Floats) -> tuple[Floats, Floats, Floats]:
         """Points and their derivatives by both parameters, each of shape (n, 3)."""
@@ -111,7 +111,7 @@ class Shape:
 
     def __init__(self, path: str | Path, scale: float = 1.0) -> None:
         self.path = Path(path)
-        self._shape = _scaled(_read(self.path), scale)
+        self._shape = _scaled(read_shape(self.path)[0], scale)
         self.size = self._size()
         if self.path.suffix.lower() in IGES or not self._has_solid():  # loose faces have no common orientation
             self._shape = _sewn(self._shape, _SEWN * self.size)
@@ -125,7 +125,7 @@ class Shape:
             If a face cannot be triangulated.
         """
         mesh = importlib.import_module("OCP.BRepMesh")
-        _static("BRepTools", "BRepTools", "Clean")(self._shape)
+        static("BRepTools", "BRepTools", "Clean")(self._shape)
         mesh.BRepMesh_IncrementalMesh(self._shape, arrow, False, angle, False)
         return [self._face(face, number) for number, face in enumerate(self._explored(), start=1)]
 
@@ -137,7 +137,7 @@ class Shape:
     def _explored(self) -> list[Any]:
         exploring = importlib.import_module("OCP.TopExp").TopExp_Explorer
         kinds = importlib.import_module("OCP.TopAbs").TopAbs_ShapeEnum
-        cast = _static("TopoDS", "TopoDS", "Face")
+        cast = static("TopoDS", "TopoDS", "Face")
         at, faces = exploring(self._shape, kinds.TopAbs_FACE), []
         while at.More():
             faces.append(cast(at.Current()))
@@ -153,13 +153,13 @@ class Shape:
 
     def _face(self, face: Any, number: int) -> Face:
         location = importlib.import_module("OCP.TopLoc").TopLoc_Location()
-        made = _static("BRep", "BRep_Tool", "Triangulation")(face, location)
+        made = static("BRep", "BRep_Tool", "Triangulation")(face, location)
         surface = importlib.import_module("OCP.BRepAdaptor").BRepAdaptor_Surface(face, True)
         if made is None or not made.NbTriangles() or not made.HasUVNodes():
             raise DrawingError(
                 "a face cannot be triangulated",
                 where=str(self.path),
-                value=f"face {number}, a {_kind(surface)}",
+                value=f"face {number}, a {kind_of(surface)}",
                 cause="its boundary crosses itself, or leaves the surface",
                 remedy="repair the face in the program that wrote the file",
             )
@@ -175,37 +175,38 @@ class Shape:
 
     def _formula(self, face: Any, surface: Any) -> Any:
         """The surface as OpenCASCADE recognises it."""
-        if _kind(surface) in ("Plane", "Cylinder", "Cone", "Sphere", "Torus"):
+        if kind_of(surface) in ("Plane", "Cylinder", "Cone", "Sphere", "Torus"):
             return surface
         convert = importlib.import_module("OCP.GeomConvert").GeomConvert_SurfToAnaSurf
-        found = convert(_static("BRep", "BRep_Tool", "Surface")(face)).ConvertToAnalytical(_RECOGNISED * self.size)
+        found = convert(static("BRep", "BRep_Tool", "Surface")(face)).ConvertToAnalytical(_RECOGNISED * self.size)
         return surface if found is None else importlib.import_module("OCP.GeomAdaptor").GeomAdaptor_Surface(found)
 
     def _size(self) -> float:
         bounds = importlib.import_module("OCP.Bnd").Bnd_Box()
-        _static("BRepBndLib", "BRepBndLib", "Add")(self._shape, bounds)
+        static("BRepBndLib", "BRepBndLib", "Add")(self._shape, bounds)
         return math.sqrt(bounds.SquareExtent()) if not bounds.IsVoid() else 1.0
 
 
-def _kind(surface: Any) -> str:
+def kind_of(surface: Any) -> str:
     """The word of OpenCASCADE for a kind of surface."""
     return str(surface.GetType()).rpartition("_")[2]
 
 
-def _static(module: str, name: str, function: str) -> Any:
+def static(module: str, name: str, function: str) -> Any:
     """A static function; where the wheel has others of its name, or in older wheels, it ends in _s."""
     of = getattr(importlib.import_module(f"OCP.{module}"), name)
     return getattr(of, f"{function}_s", None) or getattr(of, function)
 
 
-def _quiet() -> None:
+def quiet() -> None:
     """Keep counts of entities of OpenCASCADE, in colours, off the terminal; its failures are printed."""
     least = importlib.import_module("OCP.Message").Message_Gravity.Message_Fail
-    for printer in _static("Message", "Message", "DefaultMessenger")().Printers():
+    for printer in static("Message", "Message", "DefaultMessenger")().Printers():
         printer.SetTraceLevel(least)
 
 
-def _read(path: Path) -> Any:
+def read_shape(path: Path) -> tuple[Any, str]:
+    """The shape of a STEP or IGES file in millimetres, and the unit that a STEP file names."""
     suffix = path.suffix.lower()
     if suffix not in STEP + IGES:
         raise FileProblem(
@@ -234,10 +235,11 @@ def _read(path: Path) -> Any:
             cause=str(error),
             remedy='pip install "umform[cad]"',
         ) from error
-    _quiet()
+    quiet()
     done = importlib.import_module("OCP.IFSelect").IFSelect_ReturnStatus.IFSelect_RetDone
-    shape = None
+    shape, unit = None, ""
     if reader.ReadFile(str(path)) == done:
+        unit = _unit_of(reader) if suffix in STEP else ""
         reader.TransferRoots()
         shape = reader.OneShape()
     if shape is None or shape.IsNull():
@@ -247,7 +249,13 @@ def _read(path: Path) -> Any:
             cause="it was cut off, or is of another kind than its name says",
             remedy="export it again as STEP AP214 or AP242",
         )
-    return shape
+    return shape, unit
+
+
+def _unit_of(reader: Any) -> str:
+    names = [importlib.import_module("OCP.collections").Sequence_TCollection_AsciiString() for _ in range(3)]
+    reader.FileUnits(*names)
+    return str(names[0].Value(1).ToCString()).lower() if names[0].Length() else ""
 
 
 def _scaled(shape: Any, scale: float) -> Any:

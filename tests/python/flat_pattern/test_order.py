@@ -1,0 +1,95 @@
+"""An order of the bends without collision, by sections; a part that has none; stops of the operator."""
+
+from __future__ import annotations
+
+import pytest
+from brackets import BRACKETS, strip, write
+
+from umform.flat_pattern import AllowanceTable, KFactor, Orders, Tooling, flat
+from umform.flat_pattern.operator_sheet import steps_of
+from umform.processes.bend_sequence import Bodies
+from umform.processes.bend_sequence.foreseen import foreseen_collisions
+
+UNFOLDED = [name for name, bracket in BRACKETS.items() if not bracket.refused]
+#: Offsets and lips shorter than the die needs.
+SHORT = {"joggle"}
+
+
+def orders_of(pattern, **tools):
+    return Orders(pattern, Tooling(**tools), Bodies())
+
+
+@pytest.mark.parametrize("name", UNFOLDED)
+def test_an_order_is_found_and_collides_nowhere(pattern, name):
+    made = pattern(name)
+    if name in SHORT:
+        assert made.order == () and "too short for the die" in made.warnings[-1]
+        return
+    assert sorted(made.order) == [bend.number for bend in made.bends]
+    orders = orders_of(made)
+    for number in made.order:
+        for section in orders.sections[number]:
+            numbers = [n for n in made.order if n in dict(section.places)]
+            assert not foreseen_collisions(orders.sequence(section, numbers))
+
+
+def test_a_deep_narrow_channel_has_no_order(tmp_path):
+    made = flat(write(strip([70, 24, 70], [90, 90], base=1).shape(), tmp_path / "deep.step"), allowance=KFactor(0.44))
+    assert made.order == ()
+    words = " ".join(made.warnings)
+    assert "no order of the 2 bends without collision exists" in words
+    assert "bend 1 after 2" in words and "bend 2 after 1" in words and "punch" in words
+
+
+def test_the_order_is_searched_where_not_every_order_works(pattern):
+    """Lips first: after the flanges, the punch does not fit between them."""
+    made = pattern("lipped")
+    orders = orders_of(made)
+    (section,) = orders.sections[1]
+    lips, flanges = ({section.places[k][0] for k in places} for places in ((0, 3), (1, 2)))
+    assert set(made.order[:2]) == lips
+    assert "punch" in orders.hits(min(lips), frozenset(flanges))
+
+
+@pytest.mark.parametrize(
+    ("name", "prismatic"), [("u", True), ("five", True), ("rounded corners", True), ("box", False), ("tabs", False)]
+)
+def test_prismatic_parts_are_known(pattern, name, prismatic):
+    assert orders_of(pattern(name)).is_prismatic is prismatic
+
+
+def test_short_flanges_are_warned_of(pattern):
+    words = [text for text in pattern("joggle").warnings if "shortest flat flange" in text]
+    assert len(words) == 2 and "a die of opening 12 needs" in words[0]
+
+
+def test_stops_are_flat_edges_first_then_square_flanges(pattern):
+    made = pattern("z")
+    steps = steps_of(orders_of(made))
+    assert [step.against for step in steps] == ["flat edge", "flat edge"]
+    arc = 0.5 * made.bends[0].allowance.length
+    assert [step.stop for step in steps] == pytest.approx([30.0 + arc, 30.0 + arc], abs=1e-6)
+    assert [step.turned for step in steps] == [False, True]
+    lipped = steps_of(orders_of(pattern("lipped")))
+    assert lipped[2].against.startswith("outer face of the flange of bend")
+    # From the bend line to the outer face of the lip: the outer length of the flange less half of a bend deduction.
+    deduction = 2.0 * 4.0 - lipped[2].bend.allowance.length
+    assert lipped[2].stop == pytest.approx(30.0 + 8.0 - 0.5 * deduction, abs=1e-6)
+
+
+def test_a_table_gives_the_allowance_and_is_not_extrapolated(tmp_path, step):
+    path = tmp_path / "bends.csv"
+    path.write_text("# ours\nangle,radius,thickness,allowance\n60,2,2,3.1\n90,2,2,4.4\n120,2,2,5.9\n")
+    table = AllowanceTable.read(path)
+    made = flat(step("l"), allowance=table)
+    assert made.size.max() == pytest.approx(70.0 + 4.4, abs=1e-6)
+    assert table(75.0, 2.0, 2.0).length == pytest.approx(3.75)
+    assert made.bends[0].allowance.source == "table bends.csv"
+    for bend in ((130.0, 2.0, 2.0), (90.0, 3.0, 2.0), (90.0, 2.0, 1.0)):
+        with pytest.raises(ValueError, match="no allowance for this bend"):
+            table(*bend)
+    path.write_text("angle,radius,allowance\n60,2,3.1\n")
+    with pytest.raises(OSError, match="thickness"):
+        AllowanceTable.read(path)
+    with pytest.raises(ValueError, match="DIN 6935"):
+        KFactor(44)

@@ -1,0 +1,66 @@
+"""Bends of a table: from a run, or from the store."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from umform.errors import InvalidValue
+from umform.materials import Perfect
+from umform.processes.air_bending import find_stroke
+from umform.studies.bend_table import bend, bend_key, bend_table
+
+
+def test_a_bend_is_that_of_a_search_for_its_angle(table, store):
+    part = table.parts[0]
+    one = part.bends[1]
+    found = find_stroke(part.setup.case, one.wanted, tolerance=table.tolerance)
+    assert found.measures == one.measures
+    assert found.case.stroke == one.case.stroke
+
+
+def test_a_bend_is_asked_twice_and_computed_once(table, store, monkeypatch):
+    monkeypatch.setattr("umform.studies.bend_table.stored.Brake", None)
+    setups = [part.setup for part in table.parts]
+    again = bend_table(setups, [120, 135, 150], store=store, processes=1)
+    assert table.computed == 6 and again.computed == 0
+    for part, other in zip(table.parts, again.parts, strict=True):
+        assert [one.measures for one in part.bends] == [one.measures for one in other.bends]
+
+
+def test_the_key_is_of_all_that_determines_the_bend(case):
+    changed = [
+        replace(case, thickness=1.1),
+        replace(case, punch_radius=1.6),
+        replace(case, layers=2),
+        replace(case, increment=0.01),
+        replace(case, material=replace(case.material, hardening=Perfect(200.0))),
+    ]
+    keys = [bend_key(one, 120.0) for one in (case, *changed)] + [bend_key(case, 121.0), bend_key(case, 120.0, 0.01)]
+    assert len(set(keys)) == len(keys)
+    assert bend_key(replace(case, thickness=1, stroke=2.0), 120) == keys[0]
+
+
+def test_definitions_agree(table):
+    for part in table.parts:
+        for one in part.bends:
+            R, T, theta = one.radius, one.case.thickness, math.radians(180.0 - one.measures.angle)
+            assert one.allowance == pytest.approx(theta * (R + one.k_factor * T), abs=1e-9)
+            assert one.allowance == pytest.approx(theta * (R + one.k_din * T / 2.0), abs=1e-9)
+            assert one.deduction == pytest.approx(2.0 * one.measures.setback - one.allowance, abs=1e-9)
+            assert abs(one.measures.angle - one.wanted) <= table.tolerance
+
+
+@pytest.mark.parametrize(("angle", "word"), [(14.0, "15 to 165"), (166.0, "15 to 165"), (80.0, "punch and die is 85")])
+def test_an_angle_that_no_tool_bends_is_refused(case, store, angle, word):
+    with pytest.raises(InvalidValue, match=word):
+        bend(case, angle, store=store)
+
+
+def test_an_angle_that_the_sheet_does_not_reach_leaves_the_others(table, store):
+    setup = table.parts[0].setup
+    (part,) = bend_table([setup], [85.1, 150.0], store=store, processes=1).parts
+    assert [one.wanted for one in part.bends] == [150.0] and not part.bends[0].computed
+    assert "lies against a flank" in part.failed[85.1]
