@@ -217,9 +217,9 @@ ENTRIES = {
     ),
     "cup": Entry(
         "Drawn cup",
-        "The cup of the ESAFORM benchmark 2021 with 18-node elements: halfway between its tools, which are cut, and "
+        "The cup of the ESAFORM benchmark 2021: halfway between its tools, which are cut, and "
         "after springback with its ears. A quarter is computed.",
-        ("umform draw cup --coarse --element BEND18 --material AA6016-T4 --out FOLDER",),
+        ("umform draw cup --turn 12 --around 20 --material AA6016-T4 --out FOLDER",),
         (
             Shot(
                 "draw.vtkhdf",
@@ -263,7 +263,7 @@ ENTRIES = {
     ),
 }
 #: First picture of README and site: entry, number of its shot, width in pixels, and whether with a scale.
-MONTAGE = (("cup", 1, 470, True), ("u-bend", 0, 520, True))
+MONTAGE = (("cup", 1, 430, True), ("u-bend", 0, 540, True))
 
 
 def made(name: str) -> Path:

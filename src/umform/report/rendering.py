@@ -43,6 +43,8 @@ _MARGIN = 0.02
 _DPI, _FONT, SCALE, _TALL_SCALE, _TITLE = 100, 12, 110, 420, 36
 #: Light without a direction.
 _AMBIENT = 0.42
+#: Difference of colours out of 255 that is dithered.
+_VISIBLE = 3
 #: Bytes of a file from which on it has 256 colours only.
 _LARGEST = 190_000
 #: Height over width of a picture, at most.
@@ -214,12 +216,13 @@ class Rendering:
         far[:, :, 2] = back
         sides = np.stack([edges[:, 0], edges[:, 1], far[:, 1], far[:, 0]], axis=1)
         on = (np.abs((edges - np.asarray(cut.at)) @ np.asarray(cut.normal)) < 1e-6 * np.ptp(z)).all(axis=1)
-        for some, look in ((sides[on], {"color": SECTION, "lighting": False}), (sides[~on], {"color": colour})):
+        lit = {"color": colour, "ambient": _AMBIENT}
+        for some, look in ((sides[on], {"color": SECTION, "lighting": False}), (sides[~on], lit)):
             if len(some):
                 self._add_flat(some.reshape(-1, 3), np.arange(4 * len(some)).reshape(-1, 4), look)
         behind = surface.points.copy()
         behind[:, 2] = back
-        self._add_flat(behind, surface.triangles, {"color": colour})
+        self._add_flat(behind, surface.triangles[:, ::-1], lit)
 
     def _add_flat(self, points: Floats, faces: NDArray[np.int64], look: dict[str, Any]) -> None:
         """Add faces without normals."""
@@ -382,13 +385,23 @@ def write_picture(path: Path, panels: Sequence[Panel]) -> Path:
     file = io.BytesIO()
     drawn.save(file, format="png", optimize=True)
     if file.tell() > _LARGEST:
-        palette = drawn.quantize(256, Image.Quantize.MEDIANCUT, kmeans=1)
         file = io.BytesIO()
-        few = drawn.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG)
-        colours = np.array(few.getpalette()).reshape(-1, 3)
-        colours[np.asarray(few)[0, 0]] = 255  # the background remains white
-        few.putpalette(colours.ravel().tolist())
-        few.save(file, format="png", optimize=True)
+        _few_colours(drawn).save(file, format="png", optimize=True)
     with PendingFile(path) as temporary:
         temporary.write_bytes(file.getvalue())
     return path
+
+
+def _few_colours(picture: Any) -> Any:
+    """A picture in 256 colours, dithered where the nearest of them is visibly another; white remains white."""
+    from PIL import Image
+
+    near = picture.quantize(256, Image.Quantize.MEDIANCUT, kmeans=1)
+    dithered = picture.quantize(palette=near, dither=Image.Dither.FLOYDSTEINBERG)
+    colours = np.array(near.getpalette(), dtype=np.int64).reshape(-1, 3)
+    ids = np.asarray(picture.quantize(palette=near, dither=Image.Dither.NONE))
+    off = np.abs(colours[ids] - np.asarray(picture, dtype=np.int64)).max(axis=2) > _VISIBLE
+    few = Image.fromarray(np.where(off, np.asarray(dithered), ids).astype(np.uint8), mode="P")
+    colours[ids[0, 0]] = 255
+    few.putpalette(colours.ravel().tolist())
+    return few
