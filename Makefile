@@ -133,7 +133,7 @@ peers: book  ## the same work in other codes that are installed, CalculiX first 
 	@$(BIN)/python benchmarks/peers/run.py --out benchmarks/peers/results.md --page docs/performance-codes.md $(ARGS)
 	@$(BIN)/python tools/performance_numbers.py
 
-gallery: book $(VENV)/.dev  ## pictures of formed parts and docs/gallery.md (some 5 minutes of CPU the first time)
+gallery: book $(VENV)/.dev  ## pictures of formed parts and docs/gallery.md (some 4 minutes of CPU the first time)
 	$(SAY) 'Drawing the gallery'
 	@$(BIN)/python benchmarks/gallery.py $(ARGS)
 

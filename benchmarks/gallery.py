@@ -1,6 +1,6 @@
 """Pictures of formed parts for the gallery, README and site: one after the other; what has been run is not run again.
 
-    python benchmarks/gallery.py                 # all (some 10 minutes of CPU)
+    python benchmarks/gallery.py                 # all (some 4 minutes of CPU)
     python benchmarks/gallery.py cup hem         # some
 
 Results are kept in results/gallery; a run that was stopped begins again. Needs PyVista (extra view) and the
@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import subprocess
 import sys
+import textwrap
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -313,14 +314,22 @@ def page() -> str:
     lines = [
         "# Gallery",
         "",
-        "Computed and drawn by umform. `make gallery` makes all pictures (some 10 minutes of CPU), `make gallery "
-        'ARGS="cup hem"` some;',
-        "results are kept in `results/gallery`. Meshes are coarse. Surfaces are those of the shape functions of the",
-        "elements, lines are their edges. `umform view FOLDER --png FILE` draws such a picture of any run "
-        "([looking at results](reports.md#fields-in-pyvista-and-paraview)).",
+        "Computed and drawn by umform, on coarse meshes. Surfaces are those of the shape functions of the elements, lines",
+        "are their edges. `umform view FOLDER --png FILE` draws such a picture of any run: see",
+        "[fields in PyVista](reports.md#fields-in-pyvista-and-paraview).",
+        "",
+        '`make gallery` makes all pictures (some 4 minutes of CPU), `make gallery ARGS="cup hem"` some. Results are kept',
+        "in `results/gallery`; without them a picture is run again.",
     ]
     for name, entry in ENTRIES.items():
-        lines += ["", f"## {entry.title}", "", f"![{entry.title}](images/gallery/{name}.png)", "", entry.text]
+        lines += [
+            "",
+            f"## {entry.title}",
+            "",
+            f"![{entry.title}](images/gallery/{name}.png)",
+            "",
+            *textwrap.wrap(entry.text, 118),
+        ]
         if entry.run is not None and not callable(entry.run):
             commands = [f"$ {command}" for command in entry.run]
             lines += ["", "```console", *(one.replace("FOLDER", name) for one in commands), "```"]
