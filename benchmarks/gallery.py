@@ -263,6 +263,15 @@ ENTRIES = {
         press_brake,
     ),
 }
+INTRODUCTION = (
+    "Computed and drawn by umform, on coarse meshes. Surfaces are those of the shape functions of the elements, lines "
+    "are their edges. `umform view FIELDS.vtkhdf --png FILE.png` draws such a picture of any run: see "
+    "[reports](reports.md#fields-in-pyvista-and-paraview)."
+)
+COMMAND = (
+    '`make gallery` makes all pictures (some 4 minutes of CPU), `make gallery ARGS="cup hem"` some. Results are kept '
+    "in `results/gallery`; without them a picture is run again."
+)
 #: First picture of README and site: entry, number of its shot, width in pixels, and whether with a scale.
 MONTAGE = (("cup", 1, 430, True), ("u-bend", 0, 540, True))
 
@@ -314,12 +323,9 @@ def page() -> str:
     lines = [
         "# Gallery",
         "",
-        "Computed and drawn by umform, on coarse meshes. Surfaces are those of the shape functions of the elements, lines",
-        "are their edges. `umform view FOLDER --png FILE` draws such a picture of any run: see",
-        "[fields in PyVista](reports.md#fields-in-pyvista-and-paraview).",
+        *textwrap.wrap(INTRODUCTION, 118),
         "",
-        '`make gallery` makes all pictures (some 4 minutes of CPU), `make gallery ARGS="cup hem"` some. Results are kept',
-        "in `results/gallery`; without them a picture is run again.",
+        *textwrap.wrap(COMMAND, 118),
     ]
     for name, entry in ENTRIES.items():
         lines += [
