@@ -50,6 +50,12 @@ class Triangles:
         a, b, c = np.moveaxis(self.corners, 1, 0)
         return 0.5 * np.cross(b - a, c - a)
 
+    def beyond(self, normal: ArrayLike, at: ArrayLike) -> Triangles:
+        """The part on the side of a plane to which its normal points."""
+        n = np.asarray(normal, dtype=float)
+        corners = self.corners
+        return _welded(_cut(corners, (corners - np.asarray(at)) @ n), 1e-9 * float(np.ptp(self.points, axis=0).max()))
+
 
 def grid(points: Floats) -> Triangles:
     """Two triangles for each cell of a grid of points, shape (k, m, 3); from outside, m turns left into k."""
