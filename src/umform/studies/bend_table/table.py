@@ -130,6 +130,27 @@ class Tabled:
         return replace(found, error=abs(_between(self, check.wanted).deduction - check.deduction))
 
     @property
+    def by_radius(self) -> tuple[StoredBend, ...]:
+        """Bends in the order of growing radii, as far as a radius belongs to one angle: from the smallest one on."""
+        smallest = min(range(len(self.bends)), key=lambda number: self.bends[number].radius)
+        return self.bends[smallest:]
+
+    @property
+    def remarks(self) -> list[str]:
+        """What limits the numbers: a coarse mesh, K of sharp bends, radii that several angles have."""
+        found = sorted({note for one in self.bends for note in one.notes if note.startswith("coarse")})
+        odd = [one for one in self.bends if not 0.0 <= one.k_factor <= 1.0]
+        if odd:
+            found.append(f"K is {odd[0].k_factor:.2f} at {_listed(odd)} degrees: the bend is no circle there; take BD")
+        again = self.bends[: len(self.bends) - len(self.by_radius)] if self.bends else ()
+        if again:
+            found.append(
+                f"the radius of {_listed(again)} degrees is larger than that of {self.by_radius[0].wanted:g}: tables "
+                "over the radius end there"
+            )
+        return found
+
+    @property
     def cubic_error(self) -> float | None:
         """Largest error of `at` in mm; None if it was not checked."""
         return max((self.at(one.wanted).error for one in self.checks), default=None)
@@ -140,6 +161,10 @@ class Tabled:
         known, values = [one.wanted for one in self.bends], [one.deduction for one in self.bends]
         errors = (abs(float(np.interp(one.wanted, known, values)) - one.deduction) for one in self.checks)
         return max(errors, default=None)
+
+
+def _listed(bends: Sequence[StoredBend]) -> str:
+    return ", ".join(f"{one.wanted:g}" for one in bends)
 
 
 def _interval(known: Sequence[float], angle: float) -> int:
