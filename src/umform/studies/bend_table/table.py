@@ -6,7 +6,7 @@ import bisect
 import itertools
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -301,6 +301,8 @@ def bend_table(
     store.prepare()
     task = partial(_tabled, angles=sorted(set(angles)), tolerance=tolerance, check=check, folder=store.folder)
     with progress_bar(progress) as tick:
+        if len(wanted) == 1:  # it runs in this process
+            task = partial(task, tick=lambda done: tick("bends", done))
         parts = run_all(
             task,
             list(wanted),
@@ -320,14 +322,30 @@ def _check(setup: Setup, angle: float, tolerance: float) -> None:
         raise
 
 
-def _tabled(setup: Setup, angles: Sequence[float], tolerance: float, check: bool, folder: Path) -> Tabled:
+def _tabled(
+    setup: Setup,
+    angles: Sequence[float],
+    tolerance: float,
+    check: bool,
+    folder: Path,
+    tick: Callable[[float], None] = lambda done: None,
+) -> Tabled:
     failed: dict[float, str] = {}
 
     def miss(angle: float, error: UmformError) -> None:
         failed[angle] = f"{error.what}: {error.cause}" if error.cause else error.what
 
     middles = [0.5 * (low + high) for low, high in itertools.pairwise(angles)] if check else []
-    found = bends(setup.case, [*angles, *middles], tolerance=tolerance, store=Store(folder), on_failure=miss)
+    wanted = [*angles, *middles]
+    done = itertools.count(1)
+    found = bends(
+        setup.case,
+        wanted,
+        tolerance=tolerance,
+        store=Store(folder),
+        each=lambda one: tick(next(done) / len(wanted)),
+        on_failure=miss,
+    )
     rows = tuple(one for one in found if one.wanted in angles)
     checks = tuple(one for one in found if one.wanted not in angles and one.wanted > rows[0].wanted) if rows else ()
     return Tabled(setup, rows, {angle: why for angle, why in failed.items() if angle in angles}, checks)
