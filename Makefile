@@ -32,7 +32,7 @@ export OMP_WAIT_POLICY ?= passive
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
-.PHONY: help env book dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification mutants lint lint-python lint-once lint-imports lint-types lint-page lint-stubs lint-format lint-cpp stubs \
+.PHONY: k-factor help env book dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification mutants lint lint-python lint-once lint-imports lint-types lint-page lint-stubs lint-format lint-cpp stubs \
         format docs wheel bench dome robust robust-draws balances ubend cup draws s-rail compare peers gallery clean
 
 help:  ## show this help
@@ -125,6 +125,9 @@ draws: book  ## what drawn cups and U-bends cost, and what their evaluations are
 s-rail: book  ## the S-rail of the verification book with up to 6 000 elements, three penalties (an hour)
 	$(SAY) 'Drawing the S-rail'
 	@$(BIN)/python benchmarks/s_rail.py --json build/s_rail.json $(ARGS)
+
+k-factor: env  ## K over radius / thickness from runs, for docs/k-factor.md (75 s of CPU the first time)
+	@$(BIN)/python tools/k_factor_picture.py $(ARGS)
 
 compare: env  ## compare the speed of two commits: make compare ARGS="main HEAD"
 	@$(BIN)/python benchmarks/compare.py $(ARGS)
