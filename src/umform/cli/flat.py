@@ -28,7 +28,7 @@ _NONE = ("thickness", "material", "punch_section", "die_section", "width", "widt
 @given_by(
     AirBending,
     omit=_NONE,
-    otherwise={"opening": "6 to 12 thicknesses, by the radius of the drawing"},
+    otherwise={"opening": "8 to 12 thicknesses, by the radius of the drawing"},
     opening=None,
 )
 def flat(
@@ -84,9 +84,10 @@ def flat(
         _show(pattern)
         files = write_files(place, orders, bent)
     if bent is not None:
-        errors = ", ".join(f"{error:+.3f}" for error in bent.errors)
+        errors = ", ".join(f"{round(error, 3) + 0.0:+.3f}" for error in bent.errors)
         console().print(f"Flanges of the simulation less those of the drawing: {errors} mm", soft_wrap=True)
-    console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+    names = dict.fromkeys(file.name if file.parent.name != "sequence" else "sequence/" for file in files)
+    console().print(f"Written to {place}: {', '.join(names)}", soft_wrap=True)
     if bent is not None and bent.part.collisions:
         typer.secho("umform: " + "; ".join(bent.part.collisions), fg=typer.colors.RED, err=True)
         raise typer.Exit(1)

@@ -17,7 +17,7 @@ from umform.studies.bend_table import bend as stored_bend
 #: Openings of dies in mm that shops have.
 OPENINGS = (4.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0, 32.0, 40.0, 50.0, 63.0, 80.0, 100.0, 125.0, 160.0, 200.0)
 #: Openings over the thickness that are chosen.
-NARROWEST, WIDEST = 6.0, 12.0
+NARROWEST, WIDEST = 8.0, 12.0
 #: Angle of punch and die in degrees for parts that those of the sheet do not bend far enough.
 ACUTE = 30.0
 #: Degrees below the angle of the part that the tools leave for springback.
@@ -33,7 +33,7 @@ class Tooling:
     metal: str | None = None
     """Name of the metal in the library of sheet metals."""
     opening: float | None = None
-    """Opening of the die in mm; without it, one of `OPENINGS` of 6 to 12 thicknesses whose usual inside radius, 0.16 of
+    """Opening of the die in mm; without it, one of `OPENINGS` of 8 to 12 thicknesses whose usual inside radius, 0.16 of
     the opening, is nearest to that of the drawing."""
 
     def case(self, angle: float, radius: float, thickness: float) -> AirBending:

@@ -15,6 +15,8 @@ from umform.errors import DrawingError, FileProblem
 from umform.surfaces.cad.opencascade import STEP, kind_of, read_shape, static
 from umform.surfaces.triangles import Floats
 
+#: Largest distance in mm of polylines from edges that are no lines, where none is given.
+DEVIATION = 0.01
 #: A file with more faces is no part that a press brake bends.
 MOST_FACES = 5000
 #: Largest size of a STEP file in bytes.
@@ -137,7 +139,7 @@ class Solid:
     deviation: float
 
     @classmethod
-    def read(cls, path: str | Path, deviation: float = 0.01) -> Solid:
+    def read(cls, path: str | Path, deviation: float = DEVIATION) -> Solid:
         """Read the only solid of a STEP file, by OpenCASCADE: `pip install "umform[cad]"`.
 
         Parameters
