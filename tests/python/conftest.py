@@ -40,6 +40,12 @@ def pytest_testnodedown(node, error):
         print(f"worker {node.gateway.id} ended with {process.returncode}", file=sys.stderr, flush=True)
 
 
+@pytest.fixture(scope="session", autouse=True)
+def _own_store(tmp_path_factory):
+    """Keep results in a folder of the tests, not in that of the user."""
+    os.environ["UMFORM_STORE"] = str(tmp_path_factory.mktemp("store"))
+
+
 #: One law of each kind; the plastic one yields at a strain of 0.001, so that the states of the tests are plastic.
 MATERIALS = {
     "svk": mt.SVK(E=210e3, nu=0.3),

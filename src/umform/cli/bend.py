@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from umform.cli import bend_table as _table  # noqa: F401  (adds its command)
+from umform.cli import bend_correct, bend_table  # noqa: F401  (they add their commands)
 from umform.cli.bends import alone, bends
 from umform.cli.check import Force
 from umform.cli.compensate import By, Want, compensated

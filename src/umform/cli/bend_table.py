@@ -2,23 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from umform.cli.bends import bends
 from umform.cli.given import Given, given_by
+from umform.cli.metal import by_name
 from umform.cli.options import SHEET, SOLUTION, option
+from umform.cli.outcome_screen import print_table
 from umform.cli.root import Debug, Overwrite, Verbose, console
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
 from umform.processes.air_bending.spec import AirBending
 
+if TYPE_CHECKING:
+    from umform.studies.bend_table import BendTable, Setup
+
 _TABLE, _TOOLS = "Table", "Tools"
+_FORMATS = ("csv", "json", "freecad", "inventor", "creo", "solidworks")
+StoreFolder = Annotated[Path | None, option("Folder of the store of bends; see `umform store`.", _TABLE, "--store")]
 #: Parameters of a bend that are lists here, or that a table does not have.
 _OTHERS = ("thickness", "opening", "punch_radius", "die_radius", "material", "punch_section", "die_section")
-_NONE = ("stroke", "bottoming", "rolling")
+_NONE = ("stroke", "bottoming")
 
 
 @bends.command("table")
@@ -31,8 +39,15 @@ def bend_table(
     given: Given,
     punch_radius: Annotated[str, option("Radii of the tip of the punch.", _TOOLS)] = "1.5",
     die_radius: Annotated[str, option("Radii of the shoulders of the die.", _TOOLS)] = "2",
+    tolerance: Annotated[float, option("Tolerance of the angles in degrees.", _TABLE)] = 0.005,
+    check: Annotated[
+        bool, option("Measure the error between each two angles by a run in their middle.", _TABLE, "--check")
+    ] = False,
+    formats: Annotated[
+        str, option(f"Files to write: {', '.join(_FORMATS)}; with commas between them.", _TABLE, "--format")
+    ] = "csv,json",
     out: Annotated[str | None, option("Folder for the files; default: results/bend-table.", _TABLE)] = None,
-    store: Annotated[Path | None, option("Folder of the store of results; see `umform store`.", _TABLE)] = None,
+    store: StoreFolder = None,
     jobs: Annotated[int | None, option("Setups at a time; default: as many as processors.", SOLUTION)] = None,
     overwrite: Overwrite = False,
     verbose: Verbose = 0,
@@ -40,15 +55,13 @@ def bend_table(
 ) -> None:
     """Bend tables for CAD systems: radius, K-factor, allowance, deduction, force, stroke; every number from a run.
 
-    Bends of the store are not computed again: the same command continues a stopped table. See docs/bend-tables.md.
+    Bends in the store are not computed again: the same command continues a stopped table. See docs/bend-tables.md.
     """
     from umform.io.folders import folder_for
-    from umform.io.store import Store
-    from umform.studies.bend_table import bend_table as run
     from umform.studies.bend_table import setups
-    from umform.studies.bend_table.formats import table_csv
 
     print_warnings_once()
+    names = checked_formats(formats)
     lists = {
         "thicknesses": values_of(thickness, "--thickness"),
         "openings": values_of(opening, "--opening"),
@@ -56,18 +69,83 @@ def bend_table(
         "die_radii": values_of(die_radius, "--die-radius"),
     }
     case = AirBending(**{**given, **{name: lists[many][0] for name, many in _ONE.items()}})
-    wanted = setups([name.strip() for name in material.split(",")], case, **lists)
-    place = folder_for(
-        out,
-        Path("results/bend-table"),
-        ["bends.csv"],
-        overwrite=overwrite,
-        say=lambda text: typer.echo(f"umform: {text}", err=True),
-    )
-    table = run(wanted, values_of(angle, "--angle"), store=Store(store), processes=jobs)
-    place.mkdir(parents=True, exist_ok=True)
-    files = table_csv.write(table, place)
+    with by_name("--material"):
+        wanted = setups([name.strip() for name in material.split(",")], case, **lists)
+    angles = values_of(angle, "--angle")
+    place = folder_for(out, Path("results/bend-table"), files_of(wanted, names), overwrite=overwrite, say=say)
+    issue(wanted, angles, place, names, tolerance, check, store, jobs)
+
+
+def checked_formats(text: str) -> list[str]:
+    """Names of formats from a list with commas."""
+    from umform.studies.bend_table.formats import check_formats
+
+    names = [name.strip() for name in text.split(",")]
+    try:
+        check_formats(names)
+    except InvalidValue as error:
+        error.where = "--format"
+        raise
+    return names
+
+
+def files_of(wanted: Sequence[Setup], formats: Sequence[str]) -> list[str]:
+    """Names of the files of a table."""
+    from umform.studies.bend_table.formats import file_names
+
+    return file_names(wanted, formats)
+
+
+def say(text: str) -> None:
+    """Print a remark on standard error."""
+    typer.echo(f"umform: {text}", err=True)
+
+
+def issue(
+    wanted: Sequence[Setup],
+    angles: Sequence[float],
+    place: Path,
+    formats: Sequence[str],
+    tolerance: float,
+    check: bool,
+    store: Path | None,
+    jobs: int | None,
+    notes: Sequence[str] = (),
+) -> None:
+    """Compute a table, write and show it; what could not be computed ends the command with exit code 1."""
+    from umform.io.store import Store
+    from umform.studies.bend_table import bend_table as run
+    from umform.studies.bend_table import write_table
+
+    try:
+        table = run(wanted, angles, tolerance=tolerance, check=check, notes=notes, store=Store(store), processes=jobs)
+    except KeyboardInterrupt as stop:
+        stop.add_note("  the bends so far are in the store: the same command continues")
+        raise
+    files = write_table(table, place, formats)
+    print_table(_rows(table))
+    count = sum(len(part.bends) + len(part.checks) for part in table.parts)
+    typer.echo(f"{count} bends, {table.computed} computed now, {count - table.computed} from the store")
+    for text in sorted({note for part in table.parts for one in part.bends for note in one.notes if "coarse" in note}):
+        say(f"warning: {text}")
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+    for which, why in table.failed.items():
+        say(f"not computed: {which}: {why}")
+    if table.failed:
+        raise typer.Exit(1)
+
+
+def _rows(table: BendTable) -> list[list[str]]:
+    """The table as it is printed."""
+    header = ["bends", "angle", "R, mm", "K", "BA, mm", "BD, mm", "force, kN/m", "springback", "stroke, mm"]
+    rows = [header]
+    for part in table.parts:
+        for one in part.bends:
+            m = one.measures
+            numbers = [one.wanted, m.radius, m.k_factor, m.bend_allowance, m.bend_deduction, m.largest_force]
+            texts = [f"{value:.{n}f}" for value, n in zip(numbers, (1, 3, 3, 3, 3, 1), strict=True)]
+            rows.append([part.setup.name, *texts, f"{m.springback:.2f}", f"{m.stroke:.3f}"])
+    return rows
 
 
 _ONE = {"thickness": "thicknesses", "opening": "openings", "punch_radius": "punch_radii", "die_radius": "die_radii"}

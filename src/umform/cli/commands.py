@@ -32,6 +32,7 @@ FILES = {
     "resume": "resume",
     "run": "run",
     "sigma": "sigma",
+    "store": "store",
     "sweep": "sweep",
     "view": "view",
 }

@@ -55,9 +55,9 @@ def law_of(
                 cause="an option of a law of your own, such as --yield-stress or --curve, beside the name",
                 remedy="leave one of them out; `umform metal show NAME` lists the numbers of a name",
             )
-        from umform.sheet_metals import get
+        from umform.problem.metal_file import metal_of
 
-        metal = get(name, thickness)
+        metal = metal_of(name, thickness)
         return metal.law, metal.note
     if not own:
         typer.echo(f"umform: warning: no --material: {_NO_MATERIAL}", err=True)

@@ -16,7 +16,10 @@ def option(help_text: str, panel: str, *names: str) -> Any:
     return typer.Option(*names, help=help_text, rich_help_panel=panel)
 
 
-Material = Annotated[str | None, option("Name in the library of sheet metals: `umform metal list`.", SHEET)]
+Material = Annotated[
+    str | None,
+    option("Name in the library of sheet metals (`umform metal list`), or a file such as fit/metal.toml.", SHEET),
+]
 Young = Annotated[float | None, option("Young's modulus in MPa.", SHEET)]
 Poisson = Annotated[float | None, option("Poisson's ratio.", SHEET)]
 Yield = Annotated[float | None, option("Yield stress in MPa, for linear hardening.", SHEET)]

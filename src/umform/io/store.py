@@ -10,6 +10,7 @@ import os
 import sys
 import time
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,6 +24,8 @@ log = logging.getLogger("umform")
 VARIABLE = "UMFORM_STORE"
 #: Version of the layout of an entry.
 _LAYOUT = 1
+#: Age in seconds from which on an unfinished file has no process that writes it.
+_ABANDONED = 3600.0
 
 
 def store_folder() -> Path:
@@ -209,6 +212,10 @@ class Store:
             if not keep:
                 path.unlink(missing_ok=True)
                 removed += 1
+        for path in self.folder.glob("[0-9a-f][0-9a-f]/.*.json"):  # what killed processes have left
+            with suppress(OSError):
+                if now - path.stat().st_mtime > _ABANDONED:
+                    path.unlink()
         return removed
 
     def _files(self) -> list[Path]:

@@ -1,6 +1,23 @@
 """Bend tables for CAD systems: every number is from a run, and is kept in a store."""
 
+from umform.studies.bend_table.correct import Corrected, correct
+from umform.studies.bend_table.formats import FORMATS, write_table
 from umform.studies.bend_table.stored import StoredBend, bend, bend_key, bends
-from umform.studies.bend_table.table import BendTable, Setup, Tabled, bend_table, setups
+from umform.studies.bend_table.table import BendTable, Between, Setup, Tabled, bend_table, setups
 
-__all__ = ["BendTable", "Setup", "StoredBend", "Tabled", "bend", "bend_key", "bend_table", "bends", "setups"]
+__all__ = [
+    "FORMATS",
+    "BendTable",
+    "Between",
+    "Corrected",
+    "Setup",
+    "StoredBend",
+    "Tabled",
+    "bend",
+    "bend_key",
+    "bend_table",
+    "bends",
+    "correct",
+    "setups",
+    "write_table",
+]

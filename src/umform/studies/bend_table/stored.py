@@ -73,23 +73,33 @@ class StoredBend:
 
     @property
     def k_din(self) -> float:
-        """The factor of DIN 6935: the neutral line is k T / 2 from the inner face."""
+        """Factor of DIN 6935: the neutral line is k T / 2 from the inner face."""
         return 2.0 * self.measures.k_factor
 
     @property
     def allowance(self) -> float:
-        """Bend allowance in mm: flat length less the straight legs."""
+        """Bend allowance BA in mm: flat length less the straight legs."""
         return self.measures.bend_allowance
 
     @property
     def deduction(self) -> float:
-        """Bend deduction in mm: 2 (leg + outside setback) less the flat length."""
+        """Bend deduction BD in mm: sides to where the lines of the outer faces meet, less the flat length."""
         return self.measures.bend_deduction
 
     @property
     def tangent_deduction(self) -> float:
-        """The same with flanges measured to the tangent of the bend, as of acute parts in DIN 6935: 2 (leg + R + T)."""
+        """Bend deduction with sides to the tangent across the bend, as DIN 6935 has it below 90 degrees."""
         return 2.0 * (self.radius + self.case.thickness) - self.allowance
+
+    @property
+    def outside(self) -> float:
+        """Length of each side of the run in mm, to where the lines of the outer faces meet."""
+        return self.measures.leg + self.measures.setback
+
+    @property
+    def flat_length(self) -> float:
+        """Length of the flat sheet of the run in mm."""
+        return 2.0 * self.outside - self.deduction
 
 
 def bend(

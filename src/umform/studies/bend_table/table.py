@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
+import bisect
 import itertools
+import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from umform.errors import InvalidValue, UmformError
 from umform.io.store import Store
 from umform.pool import check_processes, run_all
+from umform.problem.metal_file import metal_of
 from umform.processes.air_bending.spec import AirBending
 from umform.progress import Show, progress_bar
-from umform.sheet_metals import get
 from umform.studies.bend_table.stored import TOLERANCE, StoredBend, bends, check_bend
+
+#: Angle of punch and die that is not part of the names of files.
+_USUAL = AirBending.die_angle
 
 
 @dataclass(frozen=True)
@@ -34,10 +42,38 @@ class Setup:
     case: AirBending
 
     @property
-    def name(self) -> str:
-        """Name that differs for setups of other sizes, fit for files."""
+    def tools(self) -> str:
+        """Name of the metal in these tools, fit for files."""
         case = self.case
-        return f"{self.metal}-t{case.thickness:g}-V{case.opening:g}-r{case.punch_radius:g}-d{case.die_radius:g}"
+        metal = re.sub(r"[^A-Za-z0-9.]+", "-", self.metal)
+        sharp = "" if case.die_angle == case.punch_angle == _USUAL else f"-{case.die_angle:g}-{case.punch_angle:g}deg"
+        return f"{metal}-V{case.opening:g}-r{case.punch_radius:g}-d{case.die_radius:g}{sharp}"
+
+    @property
+    def name(self) -> str:
+        """The same with the thickness."""
+        return f"{self.tools}-t{self.case.thickness:g}"
+
+
+@dataclass(frozen=True)
+class Between:
+    """Numbers of a bend between two bends of a table.
+
+    Attributes
+    ----------
+    angle, radius, k_factor, allowance, deduction : float
+        As of a `StoredBend`.
+    error : float
+        Error of allowance and deduction in mm, measured by a run in the middle between the two bends; 0 for a bend of
+        the table.
+    """
+
+    angle: float
+    radius: float
+    k_factor: float
+    allowance: float
+    deduction: float
+    error: float
 
 
 @dataclass(frozen=True)
@@ -52,11 +88,78 @@ class Tabled:
         From sharp to flat.
     failed : dict of float to str
         Angles without a bend, and the reason.
+    checks : tuple of StoredBend
+        Bends in the middle of each interval, if they were asked for.
     """
 
     setup: Setup
     bends: tuple[StoredBend, ...]
     failed: dict[float, str]
+    checks: tuple[StoredBend, ...] = ()
+
+    def at(self, angle: float) -> Between:
+        """A bend of the table, or the cubic through four of them of radius and K.
+
+        Raises
+        ------
+        InvalidValue
+            The angle is beyond the table, or the intervals were not checked.
+        """
+        known = [one.wanted for one in self.bends]
+        if not known or not known[0] <= angle <= known[-1]:
+            raise InvalidValue(
+                "the angle is beyond the table, which is not extrapolated",
+                where="angle",
+                value=angle,
+                cause=f"the bends of {self.setup.name} have {known[0]:g} to {known[-1]:g} degrees" if known else "",
+                remedy="add the angle to the table",
+            )
+        if angle in known:
+            one = self.bends[known.index(angle)]
+            return Between(angle, one.radius, one.k_factor, one.allowance, one.deduction, 0.0)
+        check = next((one for one in self.checks if _interval(known, one.wanted) == _interval(known, angle)), None)
+        if check is None:
+            raise InvalidValue(
+                "the error between the angles of the table is not known",
+                where="angle",
+                value=angle,
+                cause="the intervals were not checked by runs",
+                remedy="bend_table(..., check=True), `umform bend table --check`, or add the angle",
+            )
+        found = _between(self, angle)
+        return replace(found, error=abs(_between(self, check.wanted).deduction - check.deduction))
+
+    @property
+    def cubic_error(self) -> float | None:
+        """Largest error of `at` in mm; None if it was not checked."""
+        return max((self.at(one.wanted).error for one in self.checks), default=None)
+
+    @property
+    def linear_error(self) -> float | None:
+        """Largest error in mm of deductions that a CAD system interpolates linearly over the angle."""
+        known, values = [one.wanted for one in self.bends], [one.deduction for one in self.bends]
+        errors = (abs(float(np.interp(one.wanted, known, values)) - one.deduction) for one in self.checks)
+        return max(errors, default=None)
+
+
+def _interval(known: Sequence[float], angle: float) -> int:
+    return bisect.bisect_left(known, angle)
+
+
+def _between(part: Tabled, angle: float) -> Between:
+    """Radius and K by the polynomial through the four nearest bends on both sides, the rest by its definition."""
+    known = [one.wanted for one in part.bends]
+    first = min(max(_interval(known, angle) - 2, 0), max(len(known) - 4, 0))
+    near = part.bends[first : first + 4]
+    weights = [
+        math.prod((angle - other.wanted) / (one.wanted - other.wanted) for other in near if other is not one)
+        for one in near
+    ]
+    radius = sum(weight * one.radius for weight, one in zip(weights, near, strict=True))
+    k = sum(weight * one.k_factor for weight, one in zip(weights, near, strict=True))
+    T, theta = part.setup.case.thickness, math.radians(180.0 - angle)
+    allowance = theta * (radius + k * T)
+    return Between(angle, radius, k, allowance, 2.0 * (radius + T) * math.tan(0.5 * theta) - allowance, math.nan)
 
 
 @dataclass(frozen=True)
@@ -69,15 +172,25 @@ class BendTable:
         One for each setup.
     tolerance : float
         Tolerance of the angles in degrees.
+    notes : tuple of str
+        Lines for the head of each file, such as what a measured bend has corrected.
     """
 
     parts: tuple[Tabled, ...]
     tolerance: float
+    notes: tuple[str, ...] = ()
 
     @property
     def computed(self) -> int:
         """Number of bends that were not in the store."""
-        return sum(one.computed for part in self.parts for one in part.bends)
+        return sum(one.computed for part in self.parts for one in (*part.bends, *part.checks))
+
+    @property
+    def failed(self) -> dict[str, str]:
+        """Bends that are missing, and the reasons."""
+        return {
+            f"{part.setup.name}, {angle:g} degrees": why for part in self.parts for angle, why in part.failed.items()
+        }
 
 
 def setups(
@@ -89,7 +202,9 @@ def setups(
     punch_radii: Sequence[float] = (),
     die_radii: Sequence[float] = (),
 ) -> list[Setup]:
-    """All combinations of metals of the library, thicknesses and tools; what is not given is that of the case.
+    """All combinations of metals, thicknesses and tools; what is not given is that of the case.
+
+    Metals are names of the library, or paths of files of `umform bend correct` or `umform metal fit`.
 
     Raises
     ------
@@ -105,7 +220,7 @@ def setups(
     chosen = [sorted(set(values)) or [getattr(case, name)] for name, values in lists.items()]
     found = []
     for metal, sizes in itertools.product(metals, itertools.product(*chosen)):
-        sheet = get(metal, sizes[0])
+        sheet = metal_of(metal, sizes[0])
         changes: dict[str, Any] = dict(zip(lists, sizes, strict=True))
         found.append(Setup(sheet.name, replace(case, **changes, material=sheet.law)))
     return found
@@ -116,6 +231,8 @@ def bend_table(
     angles: Sequence[float],
     *,
     tolerance: float = TOLERANCE,
+    check: bool = False,
+    notes: Sequence[str] = (),
     store: Store | None = None,
     processes: int | None = None,
     progress: Show = None,
@@ -133,6 +250,10 @@ def bend_table(
         Angles between the legs in degrees, 15 to 165.
     tolerance : float
         Tolerance of the angles in degrees.
+    check : bool
+        Measure the error of interpolation by a run in the middle between each two angles.
+    notes : sequence of str
+        Lines for the head of each file.
     store : Store, optional
         Default: that of the user.
     processes : int, optional
@@ -153,7 +274,7 @@ def bend_table(
             _check(setup, angle, tolerance)
     store = Store() if store is None else store
     store.prepare()
-    task = partial(_tabled, angles=sorted(set(angles)), tolerance=tolerance, folder=store.folder)
+    task = partial(_tabled, angles=sorted(set(angles)), tolerance=tolerance, check=check, folder=store.folder)
     with progress_bar(progress) as tick:
         parts = run_all(
             task,
@@ -163,7 +284,7 @@ def bend_table(
             processes=processes,
             tick=lambda done: tick("bends", done),
         )
-    return BendTable(tuple(parts), tolerance)
+    return BendTable(tuple(parts), tolerance, tuple(notes))
 
 
 def _check(setup: Setup, angle: float, tolerance: float) -> None:
@@ -174,14 +295,17 @@ def _check(setup: Setup, angle: float, tolerance: float) -> None:
         raise
 
 
-def _tabled(setup: Setup, angles: Sequence[float], tolerance: float, folder: Path) -> Tabled:
+def _tabled(setup: Setup, angles: Sequence[float], tolerance: float, check: bool, folder: Path) -> Tabled:
     failed: dict[float, str] = {}
 
     def miss(angle: float, error: UmformError) -> None:
         failed[angle] = f"{error.what}: {error.cause}" if error.cause else error.what
 
-    found = bends(setup.case, angles, tolerance=tolerance, store=Store(folder), on_failure=miss)
-    return Tabled(setup, tuple(found), failed)
+    middles = [0.5 * (low + high) for low, high in itertools.pairwise(angles)] if check else []
+    found = bends(setup.case, [*angles, *middles], tolerance=tolerance, store=Store(folder), on_failure=miss)
+    rows = tuple(one for one in found if one.wanted in angles)
+    checks = tuple(one for one in found if one.wanted not in angles and one.wanted > rows[0].wanted) if rows else ()
+    return Tabled(setup, rows, {angle: why for angle, why in failed.items() if angle in angles}, checks)
 
 
 def _raise(setup: Setup, error: Exception) -> Tabled:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 
 import pytest
 
@@ -49,7 +50,11 @@ def test_prunes_entries_of_other_versions_and_old_ones(store, monkeypatch):
     store.put(old, "sum", {}, {}, 1)
     store.put(new, "sum", {}, {}, 2)
     assert store.prune() == 1 and store.get(new) is not None and store.get(old) is None
-    assert store.prune(older_than=1.0) == 0 and store.prune(older_than=-1.0) == 1
+    left = store.path(new).with_name(".left.json")
+    left.touch()
+    os.utime(left, (0.0, 0.0))
+    assert store.prune(older_than=1.0) == 0 and not left.exists()
+    assert store.prune(older_than=-1.0) == 1
 
 
 def test_folder_is_that_of_the_variable_or_of_the_cache(monkeypatch, tmp_path):

@@ -1,1 +1,87 @@
-"""File formats of bend tables."""
+"""File formats of bend tables: a module for each, with `write` and `read`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from umform.errors import InvalidValue
+from umform.studies.bend_table.formats import creo, freecad, inventor, solidworks, table_csv, table_json
+from umform.studies.bend_table.table import BendTable, Setup
+
+
+@dataclass(frozen=True)
+class Format:
+    """A file format.
+
+    Attributes
+    ----------
+    write : callable
+        Writes the files of a table into a folder.
+    file : callable
+        Name of the file of a setup.
+    """
+
+    write: Callable[[BendTable, Path], list[Path]]
+    file: Callable[[Setup], str]
+
+
+#: Formats by name.
+FORMATS = {
+    "csv": Format(table_csv.write, lambda setup: "bends.csv"),
+    "json": Format(table_json.write, lambda setup: "bends.json"),
+    "freecad": Format(freecad.write, lambda setup: f"{setup.name}.FCStd"),
+    "inventor": Format(inventor.write, lambda setup: f"{setup.tools}.inventor.txt"),
+    "creo": Format(creo.write, lambda setup: f"{setup.name}.bnd"),
+    "solidworks": Format(solidworks.write, lambda setup: f"{setup.name}.solidworks.txt"),
+}
+
+
+def file_names(wanted: Iterable[Setup], formats: Iterable[str]) -> list[str]:
+    """Names of the files of a table."""
+    setups = list(wanted)
+    return sorted({FORMATS[name].file(setup) for name in formats for setup in setups})
+
+
+def check_formats(names: Iterable[str]) -> None:
+    """Refuse a format that does not exist.
+
+    Raises
+    ------
+    InvalidValue
+    """
+    for name in names:
+        if name not in FORMATS:
+            raise InvalidValue(
+                "there is no such format of bend tables",
+                where="format",
+                value=name,
+                cause="a typing mistake, or another CAD system",
+                remedy=f"of {', '.join(FORMATS)}; csv has all numbers",
+            )
+
+
+def write_table(table: BendTable, folder: Path, formats: Iterable[str] = ("csv", "json")) -> list[Path]:
+    """Write a table into a folder.
+
+    Parameters
+    ----------
+    table : BendTable
+        The table.
+    folder : Path
+        It is made if it is missing.
+    formats : iterable of str
+        Of ``FORMATS``.
+
+    Raises
+    ------
+    InvalidValue
+        There is no such format.
+    FileProblem
+        A file cannot be written.
+    """
+    formats = list(formats)
+    check_formats(formats)
+    folder.mkdir(parents=True, exist_ok=True)
+    return [path for name in formats for path in FORMATS[name].write(table, folder)]

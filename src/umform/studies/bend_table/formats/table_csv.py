@@ -7,6 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from umform.io.atomic import PendingFile
+from umform.studies.bend_table.formats.reading import Reading
+from umform.studies.bend_table.head import head
 from umform.studies.bend_table.stored import StoredBend
 from umform.studies.bend_table.table import BendTable, Setup
 
@@ -39,9 +41,21 @@ def write(table: BendTable, folder: Path) -> list[Path]:
     """Write bends.csv."""
     path = folder / "bends.csv"
     with PendingFile(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
+        file.writelines(f"# {line}\n" for line in head(table, *table.parts))
         rows = csv.writer(file, lineterminator="\n")
         rows.writerow(COLUMNS)
         for part in table.parts:
             for one in part.bends:
                 rows.writerow([value(part.setup, one) for value in COLUMNS.values()])
     return [path]
+
+
+def read(path: Path) -> dict[tuple[str, float, float, float], Reading]:
+    """Tables by metal, thickness, opening and radius of the punch: deductions over the angle."""
+    lines = [line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+    found: dict[tuple[str, float, float, float], Reading] = {}
+    for row in csv.DictReader(lines):
+        thickness, opening, radius = (float(row[f"{name} mm"]) for name in ("thickness", "opening", "punch_radius"))
+        part = found.setdefault((row["metal"], thickness, opening, radius), Reading(thickness, {}))
+        part.deductions[float(row["angle degrees"])] = float(row["bend_deduction mm"])
+    return found
