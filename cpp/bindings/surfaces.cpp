@@ -7,6 +7,7 @@
 #include "umform/surfaces/extruded.hpp"
 #include "umform/surfaces/led_around.hpp"
 #include "umform/surfaces/offset.hpp"
+#include "umform/surfaces/offset_field.hpp"
 #include "umform/surfaces/placed.hpp"
 #include "umform/surfaces/plane.hpp"
 #include "umform/surfaces/revolved.hpp"
@@ -147,6 +148,27 @@ void bind_shapes(nb::module_& m) {
         },
         nb::arg("tool"), nb::arg("distance"), nb::arg("side"),
         "The tool grown by a distance (side 1), or all that is farther from it (side -1).");
+    m.def(
+        "offset_by_field",
+        [](std::shared_ptr<Surface> tool, const Input& axes, const Input& values) -> std::shared_ptr<Surface> {
+            require(axes.ndim() == 2 && axes.shape(0) > 0 && axes.shape(0) <= 3 && axes.shape(1) == 6,
+                    "axes must have shape (n, 6), n from 1 to 3");
+            std::vector<SplineField::Axis> along;
+            std::size_t count = 1;
+            for (std::size_t i = 0; i < axes.shape(0); ++i) {
+                const double* a = axes.data() + 6 * i;
+                require(a[4] > 0.0 && a[5] >= 1.0, "an axis needs a distance above 0 and 1 or more coefficients");
+                along.push_back({{a[0], a[1], a[2]}, a[3], a[4], static_cast<int>(a[5])});
+                count *= along.back().count;
+            }
+            require(values.size() == count, "there must be a value for each coefficient");
+            return std::make_shared<OffsetByField>(std::move(tool),
+                                                   SplineField{along, {values.data(), values.data() + count}});
+        },
+        nb::arg("tool"), nb::arg("axes"), nb::arg("values"),
+        nb::sig("def offset_by_field(tool: Surface, axes: NDArray[float64], values: NDArray[float64]) -> Surface"),
+        "The tool grown by a cubic B-spline over its directions (n, 6): direction, place of the first coefficient, "
+        "distance of two, number. The last direction runs fastest in the values.");
     m.def(
         "placed",
         [](std::shared_ptr<Surface> tool, const Input& Q, Vec3 shift) -> std::shared_ptr<Surface> {

@@ -47,12 +47,15 @@ if TYPE_CHECKING:
     from umform.model.supports.axes import cylindrical as cylindrical
     from umform.model.supports.axes import turned as turned
     from umform.model.transfer.trim import Trim as Trim
+    from umform.report.state_files import export_state as export_state
     from umform.results import fields as fields
     from umform.studies.derivatives import Derivatives as Derivatives
     from umform.studies.derivatives import derivatives as derivatives
     from umform.studies.goals import Compensated as Compensated
+    from umform.studies.goals import CompensatedShape as CompensatedShape
     from umform.studies.goals import Wanted as Wanted
     from umform.studies.goals import compensate as compensate
+    from umform.studies.goals import compensate_shape as compensate_shape
     from umform.studies.identification import Identified as Identified
     from umform.studies.identification import MeasuredCurve as MeasuredCurve
     from umform.studies.identification import MeasuredNumber as MeasuredNumber
@@ -67,6 +70,7 @@ if TYPE_CHECKING:
     from umform.surfaces import Cylinder as Cylinder
     from umform.surfaces import Extruded as Extruded
     from umform.surfaces import LedAround as LedAround
+    from umform.surfaces import OffsetField as OffsetField
     from umform.surfaces import Plane as Plane
     from umform.surfaces import Profile as Profile
     from umform.surfaces import Punch as Punch
@@ -105,6 +109,7 @@ _HOME = {
         "Cylinder",
         "Extruded",
         "LedAround",
+        "OffsetField",
         "Plane",
         "Profile",
         "Punch",
@@ -120,9 +125,10 @@ _HOME = {
         "read_tool",
         "write_tool",
     ),
+    "umform.report.state_files": ("export_state",),
     "umform.flat_pattern": ("flat",),
     "umform.studies.derivatives": ("Derivatives", "derivatives"),
-    "umform.studies.goals": ("Compensated", "Wanted", "compensate"),
+    "umform.studies.goals": ("Compensated", "CompensatedShape", "Wanted", "compensate", "compensate_shape"),
     "umform.studies.scatter": ("Scatter", "Scattered", "scatter"),
     "umform.studies.identification": ("Identified", "MeasuredCurve", "MeasuredNumber", "Sought", "identify"),
     "umform.studies.sweep": ("Sweep", "sweep"),

@@ -216,6 +216,11 @@ def offset(tool: Surface, distance: float, side: int) -> Surface:
     The tool grown by a distance (side 1), or all that is farther from it (side -1).
     """
 
+def offset_by_field(tool: Surface, axes: NDArray[float64], values: NDArray[float64]) -> Surface:
+    """
+    The tool grown by a cubic B-spline over its directions (n, 6): direction, place of the first coefficient, distance of two, number. The last direction runs fastest in the values.
+    """
+
 def placed(tool: Surface, matrix: NDArray[float64], shift: Sequence[float]) -> Surface: ...
 
 class Connectivity:

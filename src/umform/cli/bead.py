@@ -16,6 +16,7 @@ from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
 from umform.cli.options import (
     SOLUTION,
+    All,
     Curve,
     FlowCurve,
     Material,
@@ -64,6 +65,7 @@ def bead(
     by: By = None,
     derive: Derive = None,
     deck: PrintDeck = False,
+    everything: All = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
@@ -100,7 +102,7 @@ def bead(
             drawn, more = derived(drawn, case, derive, place)
             drawn, scatter = scatter_options.added_to(drawn, case, place)
             with printing(f"the files of the bead are in {place}"):
-                show_outcome(drawn, f"equivalent: {in_python(drawn)}", note)
+                show_outcome(drawn, f"equivalent: {in_python(drawn)}", note=note, everything=everything)
         finally:  # even if the table cannot be printed
             with drawn.result.timing.files:
                 files = [*write_files(place, drawn, note), *more, *scatter]

@@ -23,6 +23,7 @@ from umform.cli.metal import law_of
 from umform.cli.options import (
     SHEET,
     SOLUTION,
+    All,
     Curve,
     FlowCurve,
     Material,
@@ -93,6 +94,7 @@ def bend(
     find: Annotated[list[str] | None, Find] = None,
     quantity: Annotated[list[str] | None, Quantities] = None,
     deck: PrintDeck = False,
+    everything: All = False,
     overwrite: Overwrite = False,
     force: Force = False,
     timing: Timed = False,
@@ -110,7 +112,6 @@ def bend(
     from umform.processes.air_bending.bottoming import with_travel
     from umform.processes.air_bending.branches import FRAMES, Brake
     from umform.processes.air_bending.files import FILES, RESULTS, write_files
-    from umform.processes.air_bending.remarks import total_force
     from umform.processes.air_bending.search import bending_table
     from umform.timing import Timing, timings
 
@@ -135,7 +136,7 @@ def bend(
         scatter_options.check(replace(case, stroke=stroke or 0.5 * case.largest_stroke))
     if sequence is not None:
         check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, deck)
-        run_sequence(sequence, case, note, out, length, tolerance=tolerance, overwrite=overwrite)
+        run_sequence(sequence, case, note, out, length, tolerance=tolerance, overwrite=overwrite, everything=everything)
         return
     if bottoming:
         check_press(angle, table, budget, stroke, force_per_metre, travel)
@@ -163,7 +164,7 @@ def bend(
     with staging(place, FILES):
         with _what_was_reached(place) as rows:
             rows += bending_table(case, strokes, brake=brake) if strokes else []
-            done = replace(_bent(brake, case, angle, force_per_metre, tolerance), table=tuple(rows))
+            done = replace(_bent(brake, case, angle, force_per_metre, tolerance), table=tuple(rows), bend_length=length)
         more: list[Path] = []
         scatter: list[Path] = []
         try:
@@ -174,8 +175,7 @@ def bend(
             done, more = derived(done, done.case, derive, place, None if angle is None else {"angle": "stroke"})
             done, scatter = scatter_options.added_to(done, done.case, place)
             with printing(f"the files of the bend are in {place}"):
-                total = "" if length is None else total_force(done.measures.largest_force, length)
-                show_outcome(done, total, note)
+                show_outcome(done, note=note, everything=everything)
         except KeyboardInterrupt as stop:
             stop.add_note(f"  results so far are in {place}: all but the budget")
             raise

@@ -22,6 +22,7 @@ FILES = {
     "derive": "derive",
     "draw": "draw",
     "elements": "elements",
+    "export": "export",
     "flat": "flat",
     "hem": "hem",
     "identify": "identify",

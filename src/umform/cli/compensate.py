@@ -16,7 +16,7 @@ from umform.cli.warnings import echo_warnings, print_warnings_once
 from umform.errors import InvalidValue
 
 if TYPE_CHECKING:
-    from umform.studies.goals import Compensated, Wanted
+    from umform.studies.goals import Compensated, CompensatedShape, Wanted
 
 Want = Annotated[
     list[str] | None,
@@ -41,21 +41,36 @@ _BOUNDS = re.compile(rf"(?P<path>[^=]+)=\s*(?P<low>{_NUMBER})\s*:\s*(?P<high>{_N
 @app.command()
 def compensate(
     deck: DeckFile,
-    want: Annotated[
+    by: Annotated[
         list[str],
+        typer.Option(
+            metavar="PATH",
+            help="A parameter that follows, with bounds as tools.punch.angle=80:90; for --shape a tool with an offset "
+            "field; repeatable.",
+        ),
+    ],
+    want: Annotated[
+        list[str] | None,
         typer.Option(
             metavar="NAME=VALUE+-TOLERANCE",
             help="A measure of the deck, such as hat.theta1.released=90+-0.05, or a column of the history, such as "
             "punch_force:max; repeatable.",
         ),
-    ],
-    by: Annotated[
-        list[str],
+    ] = None,
+    shape: Annotated[
+        str | None,
         typer.Option(
-            metavar="PATH", help="A parameter that follows, with bounds as tools.punch.angle=80:90; repeatable."
+            metavar="FACES",
+            help="Instead: these faces, lower or upper, have the released shape that they have in the tools at first.",
         ),
-    ],
-    runs: Annotated[int, typer.Option(min=1, help="Largest number of runs.")] = 8,
+    ] = None,
+    within: Annotated[
+        float | None,
+        typer.Option(
+            metavar="LENGTH", help="Largest deviation of the shape; default: a tenth of that of the first run."
+        ),
+    ] = None,
+    runs: Annotated[int | None, typer.Option(min=1, help="Largest number of runs; default: 8, for a shape 4.")] = None,
     changes: Changes = None,
     out: Annotated[
         Path | None,
@@ -68,10 +83,12 @@ def compensate(
 ) -> None:
     """Find parameters for which results of a deck are the wanted ones, such as tools that compensate springback.
 
-    The first run has derivatives, so that few more are needed.
+    The first run has derivatives, so that few more are needed. For a shape, offset fields of tools follow the deviation
+    of the released part.
     """
     from umform.io.folders import folder_for
     from umform.studies.goals import compensate as find
+    from umform.studies.goals import compensate_shape as find_shape
     from umform.studies.goals.compensate import TABLE
 
     print_warnings_once()
@@ -80,11 +97,25 @@ def compensate(
         problem = read(deck, changes or (), trust)
         default = Path("results") / f"{deck.stem}-compensated"
         place = folder_for(out, default, (TABLE,), overwrite=overwrite, say=said.append)
-        paths, bounds = bounded(by)
-        found = find(problem, wanted(want), paths, bounds=bounds, most=runs)
+        if bool(want) == bool(shape) or (within is not None and not shape):
+            raise InvalidValue(
+                "either results or a shape are wanted",
+                where="--want, --shape",
+                remedy="--want NAME=VALUE+-TOLERANCE --by PATH, or --shape upper --by die --by punch [--within 0.1]",
+            )
+        most: dict[str, Any] = {} if runs is None else {"most": runs}
+        found: Any
+        if shape:
+            found = find_shape(problem, shape, by, within=within, **most)
+        else:
+            paths, bounds = bounded(by)
+            found = find(problem, wanted(want or ()), paths, bounds=bounds, **most)
     for text in said:
         typer.echo(f"umform: {text}", err=True)
-    show(found)
+    if shape:
+        show_shape(found)
+    else:
+        show(found)
     files = found.write(place)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True, markup=False)
     if not found.reached:
@@ -116,6 +147,17 @@ def show(found: Compensated) -> None:
     console().print(values, soft_wrap=True, markup=False)
     if not found.reached:
         echo_warnings(["the wanted results are not reached: more runs, wider bounds, or other parameters"])
+
+
+def show_shape(found: CompensatedShape) -> None:
+    """Print the runs, and whether the shape was reached."""
+    print_table(found.table, "Compensation")
+    if found.stopped:
+        echo_warnings([f"the next run failed: {found.stopped}"])
+    if not found.reached:
+        echo_warnings(
+            [f"the largest deviation is {found.best.largest:.4g}, wanted {found.within:.4g}: more runs or coefficients"]
+        )
 
 
 def wanted(texts: Sequence[str]) -> dict[str, Wanted]:

@@ -17,6 +17,7 @@ from umform.cli.metal import law_of
 from umform.cli.options import (
     SHEET,
     SOLUTION,
+    All,
     Curve,
     FlowCurve,
     Material,
@@ -113,6 +114,7 @@ def cup(
     by: By = None,
     derive: Derive = None,
     deck: PrintDeck = False,
+    everything: All = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
@@ -134,7 +136,19 @@ def cup(
     if deck:
         print_deck(case)
         return
-    _run(case, draw, out, "cup", note, limit_curve, derive, scatter_options, overwrite=overwrite, timing=timing)
+    _run(
+        case,
+        draw,
+        out,
+        "cup",
+        note,
+        limit_curve,
+        derive,
+        scatter_options,
+        overwrite=overwrite,
+        timing=timing,
+        everything=everything,
+    )
 
 
 @group.command()
@@ -165,6 +179,7 @@ def u(
     by: By = None,
     derive: Derive = None,
     deck: PrintDeck = False,
+    everything: All = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
@@ -187,7 +202,19 @@ def u(
         return
     three = not coarse if extrapolate is None else extrapolate
     how = extrapolated if three else draw
-    _run(case, how, out, "u-bend", note, limit_curve, derive, scatter_options, overwrite=overwrite, timing=timing)
+    _run(
+        case,
+        how,
+        out,
+        "u-bend",
+        note,
+        limit_curve,
+        derive,
+        scatter_options,
+        overwrite=overwrite,
+        timing=timing,
+        everything=everything,
+    )
 
 
 def _on_mesh(spec: type[Cup | UBend], given: Given, coarse: bool, fine: bool) -> Given:
@@ -240,6 +267,7 @@ def _run(
     *,
     overwrite: bool,
     timing: bool,
+    everything: bool,
 ) -> None:
     """Draw, print, write."""
     from umform.io.folders import folder_for
@@ -265,7 +293,7 @@ def _run(
             if drawn.released:
                 drawn, scatter = scatter_options.added_to(drawn, case, place)
             with printing(f"the files of the part are in {place}"):
-                show_outcome(drawn, note)
+                show_outcome(drawn, note=note, everything=everything)
         finally:  # even if the table cannot be printed
             with drawn.result.timing.files:
                 files = [*write_files(place, drawn, note, blank), *more, *scatter]

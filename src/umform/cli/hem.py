@@ -10,7 +10,7 @@ import typer
 
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
-from umform.cli.options import Curve, FlowCurve, Material, Modulus, Poisson, Yield, Young
+from umform.cli.options import All, Curve, FlowCurve, Material, Modulus, Poisson, Yield, Young
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.warnings import print_warnings_once
@@ -49,6 +49,7 @@ def hem(
     hardening_modulus: Modulus = None,
     curve: Curve = None,
     flow_curve: FlowCurve = None,
+    everything: All = False,
     overwrite: Overwrite = False,
     verbose: Verbose = 0,
     debug: Debug = False,
@@ -74,7 +75,7 @@ def hem(
         done = hemming(case)
         try:
             with printing(f"the files of the hem are in {place}"):
-                show_outcome(done, note)
+                show_outcome(done, note=note, everything=everything)
         finally:  # even if the table cannot be printed
             files = write_files(place, done, note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)

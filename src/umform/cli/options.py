@@ -34,6 +34,10 @@ Curve = Annotated[
     ),
 ]
 FlowCurve = Annotated[Path | None, option("Measured hardening: a CSV file of plastic strain and true stress.", SHEET)]
+All = Annotated[
+    bool,
+    typer.Option("--all", help="Print all numbers, the source of the metal, penetrations and balance of the run."),
+]
 PrintDeck = Annotated[
     bool, typer.Option("--print-deck", help="Print the problem as a deck for `umform run`, and run nothing else.")
 ]

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 _TEXT = ("quantity", "outcome", "unit")
 
 
-def show_outcome(outcome: Outcome, *more: str, without: Iterable[str] = ()) -> None:
+def show_outcome(outcome: Outcome, *more: str, note: str, everything: bool, without: Iterable[str] = ()) -> None:
     """Print an outcome.
 
     Parameters
@@ -24,19 +24,28 @@ def show_outcome(outcome: Outcome, *more: str, without: Iterable[str] = ()) -> N
     outcome : Outcome
         What a process reports.
     more : str
-        Further notes, such as the source of the material data; empty ones are left out.
+        Further notes; empty ones are left out.
+    note : str
+        Source of the material data; may be empty.
+    everything : bool
+        Print all numbers and checks, and the note; otherwise the leading numbers, and what is beyond a limit.
     without : iterable of str
         Warnings that are printed elsewhere.
     """
     screen = console()
-    for number, (title, rows) in enumerate(outcome.tables.items()):
+    tables = outcome.tables if everything else outcome.short_tables
+    for number, (title, rows) in enumerate(tables.items()):
         print_table(rows, title if number else outcome.title)
-    for note in filter(None, (*outcome.all_notes, *more)):
-        screen.print(note, soft_wrap=True, markup=False)
-    show_checks(screen, outcome.stages)
+    for text in filter(None, (*outcome.all_notes, *more, note if everything else "")):
+        screen.print(text, soft_wrap=True, markup=False)
+    show_checks(screen, outcome.stages, everything=everything)
     echo_warnings(text for text in outcome.warnings if text not in without)
     for annex in outcome.annexes:
         show_annex(annex)
+    if not everything:
+        screen.print(
+            "all numbers, the source of the metal, penetrations and balance: --all, or the report", style="dim"
+        )
 
 
 def show_annex(annex: Annex) -> None:

@@ -11,13 +11,14 @@ if TYPE_CHECKING:
     from umform.results.history import History
 
 
-def show_checks(screen: Console, stages: Mapping[str, History]) -> None:
-    """Print a line for each contact and one for the balance, of each run by its name."""
+def show_checks(screen: Console, stages: Mapping[str, History], *, everything: bool = True) -> None:
+    """Print a line for each contact and one for the balance, of each run by its name; or only of limits not kept."""
     from umform.results.balanced import balanced
     from umform.results.penetration import stage_penetrations
 
     def show(text: str, kept: bool) -> None:
-        screen.print(text, soft_wrap=True, markup=False, style=None if kept else "bold red")
+        if everything or not kept:
+            screen.print(text, soft_wrap=True, markup=False, style=None if kept else "bold red")
 
     for stage, rows in stage_penetrations(stages).items():
         which = f"{stage}, " if len(stages) > 1 else ""

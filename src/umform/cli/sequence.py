@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -24,11 +25,11 @@ def run_sequence(
     *,
     tolerance: float,
     overwrite: bool,
+    everything: bool,
 ) -> None:
     """Bend the part of a file, print the results and write them; a part that collides ends with exit code 1."""
     from umform.io.folders import folder_for
     from umform.io.staging import staging
-    from umform.processes.air_bending.remarks import total_force
     from umform.processes.bend_sequence import bend_sequence
     from umform.processes.bend_sequence.files import FILES, RESULTS, write_files
     from umform.processes.bend_sequence.foreseen import foreseen_collisions, foreseen_text
@@ -42,12 +43,10 @@ def run_sequence(
         for hit in hits:
             say(f"umform: {foreseen_text(sequence, number, hit)}")
     with staging(place, FILES):
-        part = bend_sequence(sequence, tolerance=tolerance)
+        part = replace(bend_sequence(sequence, tolerance=tolerance), bend_length=length)
         try:
             with printing(f"the files of the part are in {place}"):
-                largest = max(done.measures.largest_force for done in part.bends)
-                total = "" if length is None else total_force(largest, length)
-                show_outcome(part, total, note, without=part.collisions)
+                show_outcome(part, note=note, everything=everything, without=part.collisions)
         finally:  # even if the table cannot be printed
             files = write_files(place, part, note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)

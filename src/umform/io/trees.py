@@ -94,6 +94,16 @@ def read_tree(path: str | os.PathLike[str], kind: str, *, part: str | None = Non
     return tree
 
 
+def kind_of(path: str | os.PathLike[str]) -> str:
+    """What a tree in a file is; empty if the file has none."""
+    import h5py
+
+    if not h5py.is_hdf5(path):
+        return ""
+    with h5py.File(path, "r") as file:
+        return str(file.attrs.get("kind", ""))
+
+
 def _problem(path: str | os.PathLike[str], what: str, cause: str) -> FileProblem:
     return FileProblem(what, where=str(path), cause=cause, remedy="check the path; use an older copy, or start again")
 

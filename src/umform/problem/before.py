@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 #: Tables of the previous deck.
 TAKEN = ("mesh", "material", "element")
-_KIND = "state of a umform model"
+STATE_KIND = "state of a umform model"
 
 
 class Before(Part):
@@ -64,7 +64,7 @@ class Before(Part):
                 cause="it was not run yet, has ended early, or its output has no state = true",
                 remedy=f"state = true in [output] of {self.deck}, then umform run {self.deck} --out {path.parent.name}",
             )
-        tree = read_tree(path, _KIND)
+        tree = read_tree(path, STATE_KIND)
         bodies = {body.key: {name: values.shape for name, values in body.state().items()} for body in model.bodies}
         there = {key: {name: values.shape for name, values in one.items()} for key, one in tree["bodies"].items()}
         other = [key for key in TAKEN if tree.get("tables", {}).get(key) != _written(tables)[key]]
@@ -95,7 +95,7 @@ class Before(Part):
         FileProblem
             If the state does not have them.
         """
-        found = read_tree(folder / self.state, _KIND).get("contacts", {}) if self.keep else {}
+        found = read_tree(folder / self.state, STATE_KIND).get("contacts", {}) if self.keep else {}
         if missing := [name for name in self.keep if name not in found]:
             raise FileProblem(
                 "the state has no contact with friction of this name",
@@ -179,8 +179,8 @@ class Cut(Part):
         return Trim(profile_of(self.line, folder), self.view, self.formed, self.edge)
 
 
-def write_state(model: Model, path: File, tables: Mapping[str, Any]) -> None:
-    """Write displacements, the history of all bodies, and the data of this deck, for the next operation."""
+def write_state(model: Model, path: File, tables: Mapping[str, Any], note: Mapping[str, Any] | None = None) -> None:
+    """Write displacements, the history of all bodies, the data of this deck, and a note to build the model again."""
     state = model.system.snapshot()
     bodies = {body.key: state.terms[body.key] for body in model.bodies}
     with_friction = {pair.name: KeptContact.of(pair) for pair in model.system.pairs_of_tools() if pair.has_friction}
@@ -195,7 +195,7 @@ def write_state(model: Model, path: File, tables: Mapping[str, Any]) -> None:
     }
     tree = {"points": model.mesh.points, "u": state.u, "time": state.time, "began": state.began, "bodies": bodies}
     tree |= {"contacts": contacts} if contacts else {}
-    write_tree(path, {**tree, "tables": _written(tables)}, _KIND)
+    write_tree(path, {**tree, "tables": _written(tables), "note": dict(note or {})}, STATE_KIND)
 
 
 def _written(tables: Mapping[str, Any]) -> dict[str, str]:

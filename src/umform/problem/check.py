@@ -27,7 +27,7 @@ from umform.problem.references import references
 from umform.problem.resolution import resolution
 from umform.problem.steps import Move
 from umform.sheet_metals import get
-from umform.surfaces import CadTool, Offset, Placed, Triangulated
+from umform.surfaces import CadTool, Offset, OffsetByField, Placed, Triangulated
 
 #: Mean number of iterations of an increment.
 _ITERATIONS = 4
@@ -105,7 +105,7 @@ def drawings(problem: Prepared) -> Iterator[Finding]:
     """Report on tools from drawings."""
     for name, tool in problem.tools.items():
         own: object = tool
-        while isinstance(own, Placed | Offset):
+        while isinstance(own, Placed | Offset | OffsetByField):
             own = own.tool
         if isinstance(own, CadTool | Triangulated):
             yield ok(f"tool {name}", str(own))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from umform.analysis.run.checkpoint import read_note
+from umform.analysis.run.checkpoint import CHECKPOINT_KIND, read_note
 from umform.errors import FileProblem
 from umform.problem.problem import Problem
 
@@ -49,8 +49,8 @@ class Kept:
         }
 
     @classmethod
-    def read(cls, checkpoint: Path, trust: bool = False) -> Kept:
-        """Content of the note of a checkpoint; its deck may name classes of Python if it is trusted.
+    def read(cls, checkpoint: Path, trust: bool = False, kind: str = CHECKPOINT_KIND) -> Kept:
+        """Content of the note of a checkpoint, or of a state; its deck may name classes of Python if it is trusted.
 
         Raises
         ------
@@ -59,7 +59,7 @@ class Kept:
         DeckError
             If the deck in it is no longer valid.
         """
-        note = read_note(checkpoint)
+        note = read_note(checkpoint, kind)
         if "deck" not in note:
             raise FileProblem(
                 "the checkpoint has no deck",

@@ -21,6 +21,7 @@ from umform.io.staging import Staging
 from umform.io.tables import write_csv
 from umform.model.contact.encounter import sheet_thickness
 from umform.problem.before import write_state
+from umform.problem.kept import Kept
 from umform.problem.measured import TABLE, Taken, data_files, picture_files
 from umform.problem.prepared import Prepared
 from umform.problem.problem import Problem
@@ -72,7 +73,8 @@ def write(deck: Problem, problem: Prepared, result: Result, stage: Staging, *, w
     if wanted.vtkhdf:
         result.write(waiting / "fields.vtkhdf")
     if wanted.state and whole:
-        write_state(problem.model, waiting / STATE, deck.source.data)
+        note = Kept(deck, stage.folder).note(stage.folder / STATE)
+        write_state(problem.model, waiting / STATE, deck.source.data, note)
     files = stage.commit([COPY, *_DATA, *data_files(waiting, stage.folder)])
     drawn: dict[str, Figure] = {}
     if wanted.pictures:

@@ -14,7 +14,7 @@ from umform.problem.profiles import ReadProfile
 from umform.problem.reading import write_as
 from umform.spec import OneOf, check_fields
 from umform.spec.known import known
-from umform.surfaces import Direction, Drawing, Profile, Tool, ToolSpec
+from umform.surfaces import Direction, Drawing, OffsetField, Profile, Tool, ToolSpec
 from umform.surfaces.directions import Point
 
 ORIGIN = (0.0, 0.0, 0.0)
@@ -36,6 +36,8 @@ class Posed:
     """Outward offset of the tool; a sheet of this thickness fits between it and the drawn one."""
     other_side: bool = False
     """The tool is the region beyond this distance: the punch for a die."""
+    offset_field: OffsetField | None = None
+    """Further outward offset, which varies over the tool."""
     shared: bool = False
     """One tool for all contacts with it, with its name in the history; by default each contact has its own."""
 
@@ -55,6 +57,8 @@ class Posed:
             tool = tool.counterpart(self.offset)
         elif self.offset:
             tool = tool.offset(self.offset)
+        if self.offset_field is not None:
+            tool = tool.offset(self.offset_field)
         if self.rotation == ORIGIN and self.translation == ORIGIN:
             return tool
         x, y, z = (math.radians(angle) for angle in self.rotation)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from base64 import b64encode
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from html import escape
 from importlib.resources import files
@@ -20,6 +20,7 @@ from umform.plotting import COLOURS, history_picture, shape_picture
 from umform.report import parts
 from umform.report.scene import Scene, scene_of
 from umform.report.symmetry import modelled_part, whole
+from umform.report.words import column_text
 from umform.results.leading import leading_controls
 from umform.results.shape import Shape
 
@@ -83,7 +84,7 @@ class Live:
         scene, columns = scene_of(result), {**result.table(), **(more or {})}
         known = drawn or {}
         shape = _shape(result, scene, stills, known.get("shape"))
-        curves = _curves(result, stills, first, known.get("curve"))
+        curves = _curves(result, columns, stills, first, known.get("curve"))
         return cls(shape, curves, _table(columns), tuple(scene.notes), _scripts(scene))
 
 
@@ -118,7 +119,9 @@ def _shape(result: History, scene: Scene, stills: bool, drawn: Figure | None) ->
     return _filled("shape.html", still=still, fields=options, last=str(scene.frames - 1), **hidden)
 
 
-def _curves(result: History, stills: bool, first: tuple[str, str] | None, drawn: Figure | None) -> str:
+def _curves(
+    result: History, columns: Iterable[str], stills: bool, first: tuple[str, str] | None, drawn: Figure | None
+) -> str:
     """Curves of the history, or a still for each control; above them what their forces refer to."""
     pairs = [(control.name, f"{control.name}_force") for control in leading_controls(result)]
     known = [drawn] if pairs and drawn is not None else []
@@ -129,14 +132,15 @@ def _curves(result: History, stills: bool, first: tuple[str, str] | None, drawn:
     shown = pairs if stills else []
     figures = [*known, *(history_picture(result, x, [y]) for x, y in shown[len(known) :])]
     text = "\n".join(
-        parts.figure(figure, f"{y} over {x}, all converged increments.")
+        parts.figure(figure, f"{column_text(y)} over {column_text(x)}, all converged increments.")
         for figure, (x, y) in zip(figures, shown, strict=False)
     )
     x, y = first or (pairs[0] if pairs else ("time", result.columns()[-1]))
     colours = escape(json.dumps(COLOURS))
+    labels = escape(json.dumps({name: column_text(name) for name in columns}))
     part = "" if first else modelled_part(result.model)
     said = parts.note(f"{part[0].upper()}{part[1:]}.") if part else ""
-    return said + _filled("curves.html", still=text, x=escape(x), y=escape(y), colours=colours)
+    return said + _filled("curves.html", still=text, x=escape(x), y=escape(y), colours=colours, labels=labels)
 
 
 def _table(columns: Mapping[str, NDArray[float64]]) -> str:

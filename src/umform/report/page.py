@@ -13,6 +13,7 @@ from umform.report.materials import material_text
 from umform.report.repeats import counted
 from umform.report.versions import versions
 from umform.results.balanced import LIMIT, Balanced, balanced
+from umform.results.outcome import MEASURES
 from umform.results.penetration import stage_penetrations
 
 if TYPE_CHECKING:
@@ -89,30 +90,28 @@ def write_report(
 def _parts(result: History, live: Live, deck: str, note: str, more: Iterable[str]) -> Iterator[str]:
     for message in counted(result.warnings):
         yield parts.note(message, bad=True)
-    yield parts.heading("Shape")
     yield live.shape
     yield from map(parts.note, live.notes)
     yield parts.heading("Curves")
     yield live.curves
     yield from more
     if result.events:
-        yield parts.heading("Events")
-        yield parts.items(counted(result.events))
-    yield parts.heading("History")
-    yield _end_values(result)
-    yield live.table
-    yield parts.heading("Settings")
-    if note:
-        yield parts.paragraph(note)
-    yield parts.pairs(settings(result))
+        yield parts.section("Events", [parts.items(counted(result.events))], opened=True)
+    yield parts.section("History", [_end_values(result), live.table])
+    yield parts.section("Settings", [parts.paragraph(note) if note else "", parts.pairs(settings(result))])
     if deck:
-        yield parts.heading("Deck")
-        yield parts.folded("The input of this run", deck)
+        yield parts.section("Deck", [parts.lines(deck)])
     yield from closing({"run": result}, result)
 
 
 def outcome_parts(
-    outcome: Outcome, middle: Iterable[str], parameters: Mapping[str, object], note: str, *, model: str = "Model"
+    outcome: Outcome,
+    picture: str,
+    middle: Iterable[str],
+    parameters: Mapping[str, object],
+    note: str,
+    *,
+    model: str = "Model",
 ) -> Iterator[str]:
     """The report of a process.
 
@@ -120,6 +119,8 @@ def outcome_parts(
     ----------
     outcome : Outcome
         What the process reports.
+    picture : str
+        The part, for the first screen.
     middle : iterable of str
         What only this process has, behind the numbers.
     parameters : mapping of str to object
@@ -131,17 +132,18 @@ def outcome_parts(
     """
     for message in counted(outcome.warnings):
         yield parts.note(message, bad=True)
-    for title, (header, *rows) in outcome.tables.items():
-        yield parts.heading(title)
-        yield parts.table(header, rows)
-    yield from map(parts.note, outcome.all_notes)
+    yield parts.first_screen(outcome.leading, picture)
+    if outcome.all_notes:
+        yield parts.items(outcome.all_notes)
     yield from middle
+    for title, (header, *rows) in outcome.tables.items():
+        shown = len(outcome.leading) == len(outcome.quantities) or title != MEASURES  # on the first screen, or here
+        yield parts.section(title, [parts.table(header, rows)], opened=shown)
     for annex in outcome.annexes:
         yield from annex_parts(annex)
     yield from parameter_parts(parameters, note)
     main = list(outcome.stages.values())[-1]
-    yield parts.heading(model)
-    yield parts.pairs(settings(main))
+    yield parts.section(model, [parts.pairs(settings(main))])
     yield from closing(outcome.stages, main)
 
 
@@ -159,22 +161,18 @@ def annex_parts(annex: Annex) -> Iterator[str]:
 
 def parameter_parts(values: Mapping[str, object], note: str) -> Iterator[str]:
     """The parameters of a process, with the source of its material data."""
-    yield parts.heading("Parameters")
-    if note:
-        yield parts.paragraph(note)
-    yield parts.pairs({name.replace("_", " "): value for name, value in values.items()})
+    given = parts.pairs({name.replace("_", " "): value for name, value in values.items() if value is not None})
+    yield parts.section("Parameters", [parts.paragraph(note) if note else "", given])
 
 
 def closing(stages: Mapping[str, History], main: History) -> Iterator[str]:
     """The end of every report: contacts and balance of each stage, the time of the main one, and versions."""
     if any(result.model.contacts for result in stages.values()):
-        yield parts.heading("Contacts")
-        yield from contacts(stages)
+        kept = all(one.kept for rows in stage_penetrations(stages).values() for one in rows.values())
+        yield parts.section("Contacts", contacts(stages), opened=not kept)
     yield from balance_parts({stage: balanced(result) for stage, result in stages.items()})
-    yield parts.heading("Where the time went")
-    yield time_spent(main)
-    yield parts.heading("Versions")
-    yield parts.pairs(versions())
+    yield parts.section("Where the time went", [time_spent(main)])
+    yield parts.section("Versions", [parts.pairs(versions())])
 
 
 def _end_values(result: History) -> str:
@@ -208,13 +206,13 @@ def settings(result: History) -> dict[str, object]:
     model = result.model
     options = ", ".join(f"{name}={value}" for name, value in model.bodies.only.element.options.items())
     rows: dict[str, object] = {
-        "mesh": model.mesh,
+        "mesh": f"{len(model.mesh.points)} nodes, {len(model.mesh.connectivity)} elements {model.mesh.cell}",
         "element": f"{model.bodies.only.element.name} ({options})" if options else model.bodies.only.element.name,
         "thickness points": f"{model.bodies.only.thickness_points} {model.bodies.only.thickness_rule}",
         "material": material_text(model.bodies.only.material),
         "degrees of freedom": f"{model.supports.unknown_count} unknown of {model.u.size}",
     }
-    return rows | {f"contact {pair.name}": str(pair.tool.surface) for pair in model.contacts}
+    return rows | {f"contact {pair.name}": pair.tool.surface for pair in model.contacts}
 
 
 def contacts(stages: Mapping[str, History]) -> Iterator[str]:
@@ -229,9 +227,11 @@ def balance_parts(balances: Mapping[str, Balanced | None]) -> Iterator[str]:
     """Balances of runs by name, a column for each; a drift beyond its limit is marked."""
     found = {name: one for name, one in balances.items() if one is not None}
     if found:
-        yield parts.heading("Balance of forces and energies")
-        yield _balance_table(found)
-        yield parts.paragraph(_BALANCE)
+        yield parts.section(
+            "Balance of forces and energies",
+            [_balance_table(found), parts.paragraph(_BALANCE)],
+            opened=any(one.quantity.missed for one in found.values()),
+        )
 
 
 def _balance_table(found: Mapping[str, Balanced]) -> str:

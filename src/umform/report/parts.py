@@ -15,7 +15,8 @@ import umform
 from umform.errors import InvalidValue
 from umform.io.atomic import PendingFile
 from umform.plotting import inline_svg
-from umform.results.quantity import Bad
+from umform.report.words import text_of
+from umform.results.quantity import Bad, Quantity
 
 
 def heading(text: str) -> str:
@@ -49,7 +50,9 @@ def _cell(text: str) -> str:
 
 def pairs(values: Mapping[str, object]) -> str:
     """Names and values, one a row."""
-    rows = "\n".join(f"<tr><th>{escape(name)}</th><td>{escape(str(value))}</td></tr>" for name, value in values.items())
+    rows = "\n".join(
+        f"<tr><th>{escape(name)}</th><td>{escape(text_of(value))}</td></tr>" for name, value in values.items()
+    )
     return f'<div class="wide"><table class="pairs">\n{rows}\n</table></div>'
 
 
@@ -58,9 +61,43 @@ def figure(picture: Figure, caption: str) -> str:
     return f"<figure><div>{inline_svg(picture)}</div><figcaption>{escape(caption)}</figcaption></figure>"
 
 
+def side_by_side(figures: Iterable[str]) -> str:
+    """Pictures in two columns where there is room."""
+    return f'<div class="pictures">{"".join(figures)}</div>'
+
+
+def first_screen(numbers: Sequence[Quantity], picture: str) -> str:
+    """The numbers that are read first, beside the picture of the part."""
+    return f'<section class="first">{cards(numbers)}<div>{picture}</div></section>'
+
+
+def cards(numbers: Iterable[Quantity]) -> str:
+    """Numbers in large letters, with their errors."""
+    return '<dl class="cards">' + "".join(map(_card, numbers)) + "</dl>"
+
+
+def _card(one: Quantity) -> str:
+    error = "" if one.band is None else f" <small>{escape(one.error_text)}</small>"
+    unit = "°" if one.unit == "degrees" else f" <small>{escape(one.unit)}</small>" if one.unit else ""
+    mark = ' class="bad"' if one.missed else ""
+    hint = f"<dd><small>{escape(one.hint)}</small></dd>" if one.hint else ""
+    return f"<div{mark}><dt>{escape(one.label)}</dt><dd>{escape(one.text)}{error}{unit}</dd>{hint}</div>"
+
+
+def section(title: str, content: Iterable[str], *, opened: bool = False) -> str:
+    """A part with a heading that opens at a click; printing opens it."""
+    state = " open" if opened else ""
+    return f'<details class="part"{state}><summary><h2>{escape(title)}</h2></summary>{"".join(content)}</details>'
+
+
+def lines(text: str) -> str:
+    """A text with its lines."""
+    return f"<pre>{escape(text)}</pre>"
+
+
 def folded(title: str, text: str) -> str:
     """A long text in a collapsed block, with its lines."""
-    return f"<details><summary>{escape(title)}</summary><pre>{escape(text)}</pre></details>"
+    return folded_part(title, lines(text))
 
 
 def folded_part(title: str, content: str) -> str:

@@ -16,7 +16,8 @@ def leading_controls(result: History) -> list[Control]:
 
     A load is its own force: its curve is a straight line, and it is not among them.
     """
-    works = {control: work(result, control.name) for control in result.model.controls}
+    known = set(result.columns())  # without controls that were added after the run
+    works = {control: work(result, control.name) for control in result.model.controls if control.name in known}
     return sorted((control for control, value in works.items() if value > 0.0), key=lambda c: -works[c])
 
 

@@ -20,6 +20,8 @@ from umform.results.run_record import run_record
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+#: Heading of the table of all quantities.
+MEASURES = "Measures"
 #: File of the quantities of an outcome.
 QUANTITIES = "quantities.csv"
 
@@ -73,6 +75,12 @@ class Outcome(ABC):
         """The numbers that the process reports, in the order of tables."""
 
     @property
+    def leading(self) -> list[Quantity]:
+        """The few numbers that are shown first: those that are marked, and those beyond a limit; without marks, all."""
+        found = self.quantities
+        return [one for one in found if one.leading or one.missed] if any(one.leading for one in found) else found
+
+    @property
     @abstractmethod
     def stages(self) -> Mapping[str, History]:
         """The runs by their names, in order."""
@@ -101,7 +109,13 @@ class Outcome(ABC):
     @property
     def tables(self) -> dict[str, list[list[str]]]:
         """Tables for people by their headings: a header, then rows of cells."""
-        return {"Measures": table(self.quantities)}
+        return {MEASURES: table(self.quantities)}
+
+    @property
+    def short_tables(self) -> dict[str, list[list[str]]]:
+        """The tables with the leading numbers only."""
+        found = self.tables
+        return found | {MEASURES: table(self.leading)} if MEASURES in found else found
 
     @property
     def checks(self) -> list[Quantity]:

@@ -67,6 +67,8 @@ class Quantity:
         What the number is for.
     digits : int
         Significant digits of a number without `decimals` and error.
+    leading : bool
+        Whether it is one of the few numbers that are shown first.
     """
 
     label: str
@@ -80,6 +82,7 @@ class Quantity:
     slack: float = 0.0
     hint: str = ""
     digits: int = 4
+    leading: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "name", self.name or self.label)

@@ -14,7 +14,7 @@ from umform.sheet_metals.cyclic_fit import fit_chaboche, fit_cycles, fit_tests, 
 from umform.sheet_metals.directional_fit import Directions, balanced, fit_hill48, fit_yld2004, uniaxial
 from umform.sheet_metals.flow_curve import read_flow_curve
 from umform.sheet_metals.least_squares import Fit
-from umform.sheet_metals.library import cards, get, limits, names, of_certificate
+from umform.sheet_metals.library import cards, get, limits, name_of, names, of_certificate, sheet_text
 from umform.sheet_metals.modulus_fit import fit_falling_modulus
 from umform.sheet_metals.sheet_metal import SheetMetal
 from umform.sheet_metals.tensile_test import (
@@ -49,9 +49,11 @@ __all__ = [
     "fit_yoshida_uemori",
     "get",
     "limits",
+    "name_of",
     "names",
     "of_certificate",
     "read_flow_curve",
+    "sheet_text",
     "swift_from_tensile_test",
     "tensile_test",
     "tension_test",

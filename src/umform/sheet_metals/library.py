@@ -12,7 +12,7 @@ from importlib import resources
 from typing import Any
 
 from umform.errors import InvalidValue
-from umform.materials import J2, Hardening
+from umform.materials import J2, Hardening, Metal
 from umform.sheet_metals.cards import card_rows, made_card
 from umform.sheet_metals.sheet_metal import SheetMetal
 from umform.sheet_metals.tensile_test import swift_from_tensile_test, voce_from_tensile_test
@@ -75,6 +75,23 @@ def get(name: str, thickness: float | None = None) -> SheetMetal:
         remedy=f"choose one of {', '.join((*names(), *cards()))}, or make a law from a certificate: "
         "swift_from_tensile_test",
     )
+
+
+def name_of(law: object) -> str:
+    """Name of the metal whose law this is; empty if the library has none."""
+    if not isinstance(law, J2 | Metal):
+        return ""
+    rows = card_rows() if isinstance(law, Metal) else _data()
+    young = "E" if isinstance(law, Metal) else "young"
+    near = [name for name, row in rows.items() if float(row[young]) == law.E]  # to derive a curve takes milliseconds
+    ranges = [(name, n) for name in near for n in range(len(rows[name].get("thicker", [])) + 1)]
+    return next((name for name, n in ranges if _made(name, n).law == law), "")
+
+
+def sheet_text(law: object, thickness: float) -> str:
+    """A sheet in a title: "DC04, 2 mm", or "2 mm sheet" if the library does not know its law."""
+    name = name_of(law)
+    return f"{name}, {thickness:g} mm" if name else f"{thickness:g} mm sheet"
 
 
 def _plain(name: str) -> str:

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from umform.surfaces.drawing import Drawing, read_tool
     from umform.surfaces.files import write_tool
     from umform.surfaces.led_around import LedAround
+    from umform.surfaces.offset_field import OffsetField
     from umform.surfaces.press_brake import Punch, UDie, VDie, WipingDie
     from umform.surfaces.profile import Profile
     from umform.surfaces.segments import Arc, Line
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from umform.surfaces.sizes import tool_sizes
     from umform.surfaces.solids import Box, Torus
     from umform.surfaces.swept import Extruded, Revolved
-    from umform.surfaces.tool import Offset, Placed, Surface, Tool, ToolSpec
+    from umform.surfaces.tool import Offset, OffsetByField, Placed, Surface, Tool, ToolSpec
     from umform.surfaces.triangles import Triangles
     from umform.surfaces.triangulated import Triangulated
     from umform.surfaces.user import GapFunction, UserSurface
@@ -39,6 +40,8 @@ __all__ = [
     "LedAround",
     "Line",
     "Offset",
+    "OffsetByField",
+    "OffsetField",
     "Placed",
     "Plane",
     "Profile",
@@ -76,6 +79,8 @@ _HOME = {
     "LedAround": "led_around",
     "Line": "segments",
     "Offset": "tool",
+    "OffsetByField": "tool",
+    "OffsetField": "offset_field",
     "Placed": "tool",
     "Plane": "simple",
     "Profile": "profile",

@@ -14,7 +14,8 @@ from umform import _core
 from umform.errors import InvalidValue
 from umform.spec import check_fields
 from umform.surfaces.directions import Direction, Point, point, rotation_matrix, unit_vector
-from umform.surfaces.triangles import Box3, Floats, Triangles
+from umform.surfaces.offset_field import RIGHT, OffsetField
+from umform.surfaces.triangles import Box3, Floats, Triangles, halved
 
 
 @runtime_checkable
@@ -89,15 +90,16 @@ class Tool(ABC):
         """
         return _mirrored(self, normal, point)
 
-    def offset(self, distance: float) -> Offset:
+    def offset(self, distance: float | OffsetField) -> Tool:
         """The tool offset outward by a distance, or inward by a negative one.
 
         Parameters
         ----------
-        distance : float
-            Offset of its surface. Convex edges become round, concave radii below the distance vanish.
+        distance : float or OffsetField
+            Offset of its surface, which may vary over it. Convex edges become round, concave radii below the distance
+            vanish.
         """
-        return Offset(self, distance)
+        return OffsetByField(self, distance) if isinstance(distance, OffsetField) else Offset(self, distance)
 
     def counterpart(self, thickness: float) -> Offset:
         """The region beyond a sheet that lies on the tool: the punch for a die.
@@ -270,6 +272,50 @@ class Offset(Tool):
         """Those of the tool and the distance; unknown on the other side."""
         if isinstance(self.tool, Tool) and not self.other_side:
             yield from (max(radius + self.distance, 0.0) for radius in self.tool.convex_radii())
+
+
+@dataclass(frozen=True)
+class OffsetByField(Tool):
+    """A tool grown by a field: its surface is where the distance to the tool is the value of the field. eq. (4.264)
+
+    Made by :meth:`Tool.offset`. Its gap is the exact distance to this surface, with its unit normal and Hessian.
+
+    Parameters
+    ----------
+    tool : Surface
+        The tool.
+    field : OffsetField
+        The offset, in the frame of the tool.
+    """
+
+    tool: Surface
+    field: OffsetField
+
+    def kernel(self) -> _core.Surface:
+        """The surface as the kernels take it."""
+        return self.field.kernel(self.tool.kernel())
+
+    def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
+        """Those of the tool, as small as the field needs, moved to the surface."""
+        if not isinstance(self.tool, Tool):
+            return super().facets(centre, reach, chord)  # by samples
+        largest = float(np.abs(self.field.values).max())
+        own = halved(self.tool.facets(centre, reach + largest, chord), self.field.edge(chord))
+        kernel, points = self.kernel(), own.points
+        for _ in range(3):
+            g, n, _ = kernel.gap(np.ascontiguousarray(points))
+            points = points - g[:, None] * n
+        return Triangles(points, own.triangles)
+
+    def along(self) -> Point | None:
+        """That of the tool, if the field does not vary along it."""
+        own = self.tool.along() if isinstance(self.tool, Tool) else None
+        varies = own and any(abs(np.dot(unit_vector(one), own)) > RIGHT for one in self.field.along)
+        return None if varies else own
+
+    def convex_radii(self) -> Iterator[float]:
+        """Those of the tool: the field changes them little."""
+        return self.tool.convex_radii() if isinstance(self.tool, Tool) else super().convex_radii()
 
 
 def _moved(tool: Surface, translation: Point, rotation: Point) -> Placed:

@@ -52,6 +52,34 @@ def grid(points: Floats) -> Triangles:
     return Triangles(points.reshape(-1, 3), np.vstack([np.c_[a, b, c], np.c_[a, c, d]]))
 
 
+def halved(surface: Triangles, longest: float) -> Triangles:
+    """A surface with all edges halved that are longer than a length; neighbours stay joined."""
+    points, triangles = surface.points, surface.triangles
+    while True:
+        ends = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=2)
+        long = np.linalg.norm(points[ends[:, :, 0]] - points[ends[:, :, 1]], axis=2) > longest
+        if not long.any():
+            return Triangles(points, triangles)
+        edges, ids = np.unique(ends[long], axis=0, return_inverse=True)
+        middle = np.full(long.shape, -1)
+        middle[long] = len(points) + ids.ravel()
+        points = np.concatenate([points, points[edges].mean(axis=1)])
+        count = long.sum(axis=1)
+        parts = [triangles[count == 0]]
+        for number, first in ((1, long.argmax(axis=1)), (2, (long.argmin(axis=1) + 1) % 3), (3, np.zeros_like(count))):
+            rows = count == number
+            order = (first[rows, None] + np.arange(3)) % 3
+            a, b, c = np.take_along_axis(triangles[rows], order, axis=1).T
+            m, n, p = np.take_along_axis(middle[rows], order, axis=1).T
+            pieces = {
+                1: ((a, m, c), (m, b, c)),
+                2: ((m, b, n), (a, m, n), (a, n, c)),
+                3: ((a, m, p), (m, b, n), (p, n, c), (m, n, p)),
+            }
+            parts += [np.stack(piece, axis=1) for piece in pieces[number]]
+        triangles = np.concatenate(parts)
+
+
 def across(axis: Point) -> tuple[Point, Point]:
     """Two unit vectors that are a right-handed frame with the axis."""
     a = np.array(axis)

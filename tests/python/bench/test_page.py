@@ -284,11 +284,10 @@ def test_shape_follows_the_run_in_its_frame(visit):
     frame.evaluate("(one) => { one.dataset.first = 'yes'; }")
     page.wait_for_selector("[data-measure=stroke]")
     assert frame.get_attribute("data-first") == "yes"  # it was not loaded again
-    time_of = page.frame_locator("iframe").locator("#shape-time")
     job = page.evaluate("location.hash.split('/')[1]")
     asked = "(job) => fetch(`/api/jobs/${job}`).then((answer) => answer.json()).then((one) => one.live.increments)"
     increments = page.evaluate(asked, job)
-    time_of.filter(has_text=f"increment {increments} ").wait_for(state="attached")
+    page.frame_locator("iframe").locator(f"#shape-time[data-row='{increments}']").wait_for(state="attached")
 
 
 def test_job_goes_on_when_the_browser_is_killed(visit, browser, link):

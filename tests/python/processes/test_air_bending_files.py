@@ -229,7 +229,7 @@ def test_a_sheet_that_springs_back_flat_gives_what_is_known(stroke, ratio, tmp_p
     done = CliRunner().invoke(app, typed)
     assert done.exit_code == 0, done.output
     assert "K-factor and what follows cannot be determined" in done.stderr
-    assert re.search(r"K-factor .*–", done.stdout)
+    assert re.search(r"bend deduction .*–", done.stdout)
     record = json.loads((tmp_path / "bend.json").read_text())
     measures = record["measures"]
     assert measures["angle"] == 180.0
@@ -242,11 +242,14 @@ def test_a_sheet_that_springs_back_flat_gives_what_is_known(stroke, ratio, tmp_p
 
 
 def test_the_command_takes_a_metal_of_the_library(tmp_path):
-    done = CliRunner().invoke(app, ["bend", "--stroke", "1", "--material", "DC04", *TYPED, "--out", str(tmp_path)])
+    typed = ["bend", "--all", "--stroke", "1", "--material", "DC04", *TYPED, "--length", "500", "--out", str(tmp_path)]
+    done = CliRunner().invoke(app, typed)
     assert done.exit_code == 0, done.output
     assert "DC04: EN 10130" in done.output
-    assert "DC04: EN 10130" in (tmp_path / "report.html").read_text()
+    page = (tmp_path / "report.html").read_text()
+    assert "DC04: EN 10130" in page and "Air bending: DC04" in page and "on a bend length of 500 mm" in page
     record = json.loads((tmp_path / "bend.json").read_text())
+    assert record["total_force"] == pytest.approx(500.0 * record["measures"]["largest_force"])
     reached = re.findall(r"contact (\w+): penetration up to (\S+), 0.01 allowed;", done.output)
     assert [name for name, _ in reached] == ["die", "punch"]
     assert max(float(depth) for _, depth in reached) == pytest.approx(record["penetration"], rel=1e-2)

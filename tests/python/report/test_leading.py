@@ -17,6 +17,7 @@ class Rows(dict):
 
     def __init__(self, **columns):
         super().__init__({name: np.array(values, dtype=float) for name, values in columns.items()})
+        self.columns = self.keys
         self.model = SimpleNamespace(controls=[Named(name) for name in columns if f"{name}_force" in columns])
 
 
@@ -30,6 +31,12 @@ def test_the_control_with_the_largest_work_is_first_and_a_load_is_none():
     punch = {"punch": [0, 0, 10], "punch_force": [0, 0, -100]}
     still = {"still": [2, 2, 2], "still_force": [0, 5, 9]}
     assert leading(**hold, **lid, **punch, **still) == ["punch", "lid"]
+
+
+def test_a_control_that_was_added_after_the_run_is_none():
+    rows = Rows(tool=[0, 1], tool_force=[0, 3])
+    rows.model.controls.append(Named("tool_left"))
+    assert [control.name for control in leading_controls(rows)] == ["tool"]
 
 
 def test_a_tool_that_moves_without_force_counts():

@@ -91,7 +91,7 @@ def test_many_faces_are_pixels(result):
 
 def test_page_shows_what_belongs_in_it(page, result):
     assert page.count("<svg") == 3  # two stills and the curves with a cursor
-    for word in ("ANS3DEAS", "punch_force", "Cylinder", "penalty 100", uf.__version__, "numpy", "end of step 2"):
+    for word in ("ANS3DEAS", "punch force", "cylinder:", "penalty 100", uf.__version__, "numpy", "end of step 2"):
         assert word in page
     assert f"{result['punch_force'].min():.6g}" in page
 

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+from dataclasses import replace
 
 import pytest
 
@@ -54,7 +55,7 @@ def pulled():
 
 
 def test_the_terminal_shows_it(pulled, capsys):
-    show_outcome(pulled, "the material")
+    show_outcome(pulled, note="the material", everything=True)
     shown = capsys.readouterr()
     row = next(line for line in shown.out.splitlines() if "largest force" in line)
     assert row.split()[-1] == "N" and "MISSED 2 times over" in row
@@ -63,8 +64,18 @@ def test_the_terminal_shows_it(pulled, capsys):
     assert "it is short" in shown.err
 
 
+def test_the_terminal_shows_the_leading_numbers_and_what_is_beyond_a_limit(pulled, capsys):
+    few = [replace(one, leading=one.name == "length") for one in pulled.quantities]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Pulled, "quantities", [*few, Quantity("width", "mm", 3, value=1.0)])
+        show_outcome(pulled, note="the material", everything=False)
+    shown = capsys.readouterr().out
+    assert "length" in shown and "largest force" in shown and "width" not in shown  # the force is beyond its limit
+    assert "the material" not in shown and "contact table" not in shown and "--all" in shown
+
+
 def test_the_page_shows_it(pulled, tmp_path):
-    page = parts.write_html(tmp_path / "a.html", pulled.title, "", outcome_parts(pulled, (), {}, "")).read_text()
+    page = parts.write_html(tmp_path / "a.html", pulled.title, "", outcome_parts(pulled, "", (), {}, "")).read_text()
     force = pulled["force"].text
     assert f'<td>largest force</td><td class="bad">{force}</td>' in page
     assert "<td>length</td><td>10.100</td><td>± 0.002</td><td>mm</td>" in page and "it is short" in page

@@ -216,7 +216,7 @@ class Locator {
         }
         far_[e] = 0;
         if (!culls_) return;
-        least_[e] = undefined ? -std::numeric_limits<double>::infinity() : least;
+        least_[e] = undefined ? -std::numeric_limits<double>::infinity() : least - surface_->above();
         for (int a = 0; a < Nodes; ++a) located_at_[e][a] = z_[local_[e][a]];
     }
 

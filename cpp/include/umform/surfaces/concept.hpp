@@ -38,6 +38,8 @@ class Surface {
         gap(count, x, g, n, H);
     }
     virtual bool is_distance() const = 0;
+    /// By how much a gap may be more than the distance; the way of the point bounds the rest of its change.
+    virtual double above() const { return 0.0; }
     /// Whether several threads may ask at a time, each for some of the points.
     virtual bool is_concurrent() const = 0;
 };

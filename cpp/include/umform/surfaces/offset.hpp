@@ -12,6 +12,7 @@ class Offset final : public Surface {
         : tool_(std::move(tool)), distance_(distance), side_(side) {}
 
     bool is_distance() const override { return tool_->is_distance(); }
+    double above() const override { return tool_->above(); }
     bool is_concurrent() const override { return tool_->is_concurrent(); }
 
     bool searches() const override { return tool_->searches(); }

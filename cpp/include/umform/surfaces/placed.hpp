@@ -13,6 +13,7 @@ class Placed final : public Surface {
     Placed(std::shared_ptr<const Surface> tool, const Mat3& Q, const Vec3& c) : tool_(std::move(tool)), Q_(Q), c_(c) {}
 
     bool is_distance() const override { return tool_->is_distance(); }
+    double above() const override { return tool_->above(); }
     bool is_concurrent() const override { return tool_->is_concurrent(); }
 
     bool searches() const override { return tool_->searches(); }

@@ -28,7 +28,7 @@ from umform.results.history import History
 from umform.results.records import Iteration
 from umform.solvers.protocol import Remembering
 
-_KIND = "checkpoint of umform"
+CHECKPOINT_KIND = "checkpoint of umform"
 
 #: Large checkpoints may take at most one part in this number of the time.
 _SHARE = 20
@@ -96,7 +96,7 @@ class Checkpoints:
             tree["follower"] = run.follower.memory()
         try:
             if self._writes:
-                write_tree(self.path, tree, _KIND)
+                write_tree(self.path, tree, CHECKPOINT_KIND)
         except FileProblem as problem:
             if problem.cause != self.problem:  # warn once
                 run.result.warn(f"no checkpoint was written to {self.path}: {problem.cause}; what was there stays")
@@ -115,18 +115,18 @@ def read_checkpoint(path: str | PathLike[str]) -> dict[str, Any]:
     FileProblem
         If the file cannot be read, is damaged, or is no checkpoint.
     """
-    return read_tree(path, _KIND)
+    return read_tree(path, CHECKPOINT_KIND)
 
 
-def read_note(path: str | PathLike[str]) -> dict[str, Any]:
-    """The note of a checkpoint, without the state, which may be large.
+def read_note(path: str | PathLike[str], kind: str = CHECKPOINT_KIND) -> dict[str, Any]:
+    """The note of a checkpoint, or of another file with one, without the state, which may be large.
 
     Raises
     ------
     FileProblem
         If the file cannot be read, or is no checkpoint.
     """
-    return read_tree(path, _KIND, part="note")
+    return read_tree(path, kind, part="note")
 
 
 def _problem_of_writing(path: Path) -> FileProblem | None:

@@ -14,11 +14,12 @@ from umform.processes.air_bending.brake import force_per_width, loading
 from umform.processes.air_bending.changes import Budget
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.measures import Measures, measure
-from umform.processes.air_bending.remarks import remarks, tools_text
+from umform.processes.air_bending.remarks import remarks, tools_text, total_force
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.spec import AirBending
 from umform.results.outcome import Outcome
 from umform.results.quantity import Quantity, in_rows, quantities_of
+from umform.sheet_metals import sheet_text
 
 Floats = NDArray[np.float64]
 #: Penetration, relative to the thickness, that is reported.
@@ -83,6 +84,8 @@ class AirBend(Outcome):
         Bending table: other strokes, if they were asked for.
     budget : Budget, optional
         Error budget, if it was asked for.
+    bend_length : float, optional
+        Length of the bend in mm for the total force; the model does not know it.
     """
 
     case: AirBending
@@ -97,6 +100,7 @@ class AirBend(Outcome):
     result: Result
     table: tuple[Measures, ...] = ()
     budget: Budget | None = None
+    bend_length: float | None = None
 
     @classmethod
     def of(cls, case: AirBending, result: Result, loaded: Loaded, measures: Measures) -> Self:
@@ -122,22 +126,25 @@ class AirBend(Outcome):
 
     @property
     def total_force(self) -> float | None:
-        """Largest force on the whole width in N; None in plane strain."""
-        return None if self.case.width is None else self.measures.largest_force * self.case.width
+        """Largest force in N on the length of the bend, or on the whole width; None without either."""
+        length = self.case.width if self.bend_length is None else self.bend_length
+        return None if length is None else self.measures.largest_force * length
 
     @property
     def title(self) -> str:
         """Heading of tables and pages."""
         case = self.case
-        return f"Air bending: {case.thickness:g} mm sheet, {case.opening:g} mm opening, {self['angle'].full_text}"
+        sheet = sheet_text(case.material, case.thickness)
+        return f"Air bending: {sheet}, {case.opening:g} mm opening, {self['angle'].full_text}"
 
     @property
     def quantities(self) -> list[Quantity]:
-        """The measures, and the force on the width if it is finite."""
+        """The measures, and the force on the length of the bend or on the width."""
         found = quantities_of(self.measures, None if self.budget is None else self.budget.bands)
         if self.total_force is not None:
-            force = Quantity("force on the width", "kN", 2, name="force_on_width", value=self.total_force / 1e3)
-            found.insert(3, force)
+            wide = self.bend_length is None
+            label, name = ("force on the width", "force_on_width") if wide else ("total force", "total_force")
+            found.insert(3, Quantity(label, "kN", 2, name=name, value=self.total_force / 1e3, leading=True))
         return found
 
     @property
@@ -152,7 +159,8 @@ class AirBend(Outcome):
         """Tools, force by the rule of the shop, remarks."""
         low, high = shop_forces(self.case)
         rule = f"the rule of the shop, 1.33 to 1.42 Rm t²/V, gives {low:.1f} to {high:.1f} N/mm"
-        return [tools_text(self.case), rule, *remarks(self.case, self.measures)]
+        total = [] if self.bend_length is None else [total_force(self.measures.largest_force, self.bend_length)]
+        return [tools_text(self.case), rule, *remarks(self.case, self.measures), *total]
 
     @property
     def stages(self) -> dict[str, Result]:

@@ -19,21 +19,21 @@ class Measures:
     Their order is that of tables; docs/air-bending.md defines them.
     """
 
-    stroke: Annotated[float, Quantity("stroke", "mm", 3)]
+    stroke: Annotated[float, Quantity("stroke", "mm", 3, leading=True)]
     """Travel of the punch from first contact with the sheet."""
     force: Annotated[float, Quantity("force at the stroke", "N/mm", 1)]
     """Force of the punch per length of bend at the stroke."""
-    largest_force: Annotated[float, Quantity("largest force", "N/mm", 1, hint="choose the press by it")]
+    largest_force: Annotated[float, Quantity("largest force", "N/mm", 1, hint="choose the press by it", leading=True)]
     """The largest force up to there."""
     loaded_angle: Annotated[float, Quantity("angle under load", "degrees", 2)]
     """Angle between the legs under load."""
-    angle: Annotated[float, Quantity("angle", "degrees", 2)]
+    angle: Annotated[float, Quantity("angle", "degrees", 2, leading=True)]
     """The same after unloading."""
-    springback: Annotated[float, Quantity("springback", "degrees", 2)]
+    springback: Annotated[float, Quantity("springback", "degrees", 2, leading=True)]
     """Their difference."""
     springback_ratio: Annotated[float, Quantity("springback ratio", "", 4)]
     """Bend angle (180 degrees less the angle) after unloading over that under load."""
-    radius: Annotated[float, Quantity("inside radius", "mm", 3)]
+    radius: Annotated[float, Quantity("inside radius", "mm", 3, leading=True)]
     """Inside radius after unloading, of the best-fit circle."""
     smallest_radius: Annotated[float, Quantity("smallest radius", "mm", 3)]
     """The smallest local one."""
@@ -43,7 +43,7 @@ class Measures:
     """K in bend allowance = bend angle (radius + K thickness)."""
     bend_allowance: Annotated[float, Quantity("bend allowance", "mm", 3)]
     """Flat length less two legs."""
-    bend_deduction: Annotated[float, Quantity("bend deduction", "mm", 3)]
+    bend_deduction: Annotated[float, Quantity("bend deduction", "mm", 3, leading=True)]
     """2 (leg + setback) less the flat length."""
     setback: Annotated[float, Quantity("outside setback", "mm", 3)]
     """Setback of the outer faces."""

@@ -14,6 +14,7 @@ from umform.report import parts
 from umform.report.live import Live, style
 from umform.report.materials import material_text
 from umform.report.page import outcome_parts
+from umform.report.words import column_text
 
 #: Column of the chart: the force of the table of measures.
 _FORCE = "force_per_mm"
@@ -38,28 +39,28 @@ def write_page(path: Path, bend: AirBend, figures: Mapping[str, Figure], deck: s
     kind = "plane strain" if bend.case.width is None else f"{bend.case.width:g} mm wide"
     lead = f"{kind}; {bend.iterations} Newton iterations in {bend.seconds:.1f} s"
     live = Live.of(bend.result, stills=False, more={_FORCE: bend.force}, first=("stroke", _FORCE))
-    content = outcome_parts(bend, _parts(live, figures, deck), parameters(bend.case), note)
+    given = parameters(bend.case)
+    content = outcome_parts(bend, live.shape, _parts(live, figures, deck), given, note)
     return parts.write_html(path, bend.title, lead, content, style=style(), scripts=live.scripts)
 
 
 def _parts(live: Live, figures: Mapping[str, Figure], deck: str) -> Iterator[str]:
-    yield parts.figure(figures["drawing"], "What is measured.")
+    yield from map(parts.note, live.notes)
+    yield parts.side_by_side(
+        [
+            parts.figure(figures["drawing"], "What is measured."),
+            parts.figure(figures["shape"], "The sheet and its tools in true proportion."),
+        ]
+    )
     yield parts.heading("Curves")
     yield parts.figure(figures["curve"], "Force and angle over the stroke.")
-    yield live.curves
-    yield parts.paragraph(
-        f"{_FORCE}: force of the punch in N per mm of bend, that of the table of measures. Other forces are those of "
-        "the modelled part of the sheet."
+    about = (
+        f"{column_text(_FORCE)}: force of the punch in N per mm of bend, that of the table of measures. Other forces "
+        "are those of the modelled part of the sheet."
     )
-    yield parts.heading("Shape")
-    yield parts.figure(figures["shape"], "The sheet and its tools in true proportion.")
-    yield live.shape
-    yield from map(parts.note, live.notes)
-    yield parts.heading("History")
-    yield live.table
+    yield parts.section("History", [live.curves, parts.paragraph(about), live.table])
     if deck:
-        yield parts.heading("Deck")
-        yield parts.folded("The input of this bend, for umform run", deck)
+        yield parts.section("Deck", [parts.lines(deck)])
 
 
 def parameters(case: AirBending) -> dict[str, object]:

@@ -29,13 +29,12 @@ def write_page(path: Path, part: Part, picture: Figure, note: str = "") -> Path:
         Source of the material data; may be empty.
     """
     given = parameters(part.sequence.sheet)
-    content = outcome_parts(part, _parts(part, picture), given, note, model="Model of the last bend")
+    shape = parts.figure(picture, "Each bend under load in its tools, and the part after the last one.")
+    content = outcome_parts(part, shape, _parts(part), given, note, model="Model of the last bend")
     return parts.write_html(path, part.title, f"plane strain; {part.seconds:.1f} s", content)
 
 
-def _parts(part: Part, picture: Figure) -> Iterator[str]:
-    yield parts.heading("Shape")
-    yield parts.figure(picture, "Each bend under load in its tools, and the part after the last one.")
+def _parts(part: Part) -> Iterator[str]:
     yield parts.heading("Force")
     yield parts.figure(curves(part), "Force of the punch per mm of bend over the stroke, with unloading.")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,12 +11,13 @@ from numpy.typing import NDArray
 from umform.analysis.run import Result
 from umform.problem.problem import Problem
 from umform.processes.air_bending.measures import Measures
-from umform.processes.air_bending.remarks import coarse_mesh, extrapolated, tools_text
+from umform.processes.air_bending.remarks import coarse_mesh, extrapolated, tools_text, total_force
 from umform.processes.bend_sequence.collisions import Collision
 from umform.processes.bend_sequence.sides import Sides, Strip
 from umform.processes.bend_sequence.spec import Bend, BendSequence
 from umform.results.outcome import Outcome
 from umform.results.quantity import Quantity, prefixed, quantities_of, side_by_side, table
+from umform.sheet_metals import sheet_text
 
 Floats = NDArray[np.float64]
 
@@ -84,10 +86,13 @@ class Part(Outcome):
         The parameters.
     bends : tuple of BendDone
         Its bends, in their order.
+    bend_length : float, optional
+        Length of the bends in mm for the total force; the model does not know it.
     """
 
     sequence: BendSequence
     bends: tuple[BendDone, ...]
+    bend_length: float | None = None
 
     @property
     def strip(self) -> Strip:
@@ -136,12 +141,13 @@ class Part(Outcome):
     def title(self) -> str:
         """Heading of tables and pages."""
         sheet = self.sequence.sheet
-        return f"Part of {len(self.bends)} bends: {sheet.thickness:g} mm sheet, {self.sequence.length:g} mm long"
+        text = sheet_text(sheet.material, sheet.thickness)
+        return f"Part of {len(self.bends)} bends: {text}, {self.sequence.length:g} mm long"
 
     @property
     def of_bends(self) -> dict[str, list[Quantity]]:
         """Measures of each bend by its number, and its angle after the last bend."""
-        last = Quantity("angle after the last bend", "degrees", 2, name="final_angle")
+        last = Quantity("angle after the last bend", "degrees", 2, name="final_angle", leading=True)
         return {
             f"{number}": [*quantities_of(done.measures), replace(last, value=angle)]
             for number, (done, angle) in enumerate(zip(self.bends, self.angles, strict=True), start=1)
@@ -168,7 +174,15 @@ class Part(Outcome):
     @property
     def tables(self) -> dict[str, list[list[str]]]:
         """The bends side by side; the part."""
-        header, *rows = side_by_side(self.of_bends, "bend")
+        return self._tables(self.of_bends)
+
+    @property
+    def short_tables(self) -> dict[str, list[list[str]]]:
+        """The same with the leading numbers of the bends."""
+        return self._tables({name: [one for one in row if one.leading] for name, row in self.of_bends.items()})
+
+    def _tables(self, columns: Mapping[str, list[Quantity]]) -> dict[str, list[list[str]]]:
+        header, *rows = side_by_side(columns, "bend")
         bends = [done.bend for done in self.bends]
         placed = [
             ["position", *(f"{bend.position:g}" for bend in bends), "mm"],
@@ -182,7 +196,9 @@ class Part(Outcome):
         sheet = self.sequence.sheet
         strain = max(done.measures.outer_strain for done in self.bends)
         tools = dict.fromkeys(tools_text(self.sequence.case(done.bend)) for done in self.bends)
-        return [*tools, *coarse_mesh(sheet), *extrapolated(sheet, strain)]
+        force = max(done.measures.largest_force for done in self.bends)
+        total = [] if self.bend_length is None else [total_force(force, self.bend_length)]
+        return [*tools, *coarse_mesh(sheet), *extrapolated(sheet, strain), *total]
 
     @property
     def stages(self) -> dict[str, Result]:

@@ -92,7 +92,9 @@ class Cup(Draw):
     @property
     def title(self) -> str:
         """Heading of tables and pages."""
-        return f"Cup: punch of {2.0 * self.punch_radius:g} mm, {self.thickness:g} mm sheet"
+        from umform.sheet_metals import sheet_text  # not for the help of the command
+
+        return f"Cup: {sheet_text(self.material, self.thickness)}, punch of {2.0 * self.punch_radius:g} mm"
 
     def _check_tools(self) -> None:
         wanted = self.punch_radius + CLEARANCE * self.thickness

@@ -271,7 +271,7 @@ class Drawn(Outcome):
         found, punch, after = self.fields, self.punch_force, self.punch_force_after
         torn, bands = tears_from(self.result), self._bands
         rows = [
-            Quantity(FORCE, "kN", value=punch.value / 1000.0),
+            Quantity(FORCE, "kN", value=punch.value / 1000.0, leading=True),
             Quantity("at a stroke of", "mm", value=punch.stroke),
             *(
                 []
@@ -282,20 +282,33 @@ class Drawn(Outcome):
                 ]
             ),
             Quantity("largest holder force", "kN", value=float(self.forces["holder"].max()) / 1000.0),
-            Quantity("draw-in, mean", "mm", value=float(self.outline.draw_in.mean())),
-            Quantity("largest thinning", "%", value=float(found["thinning"].max())),
+            Quantity("draw-in, mean", "mm", value=float(self.outline.draw_in.mean()), leading=True),
+            Quantity("largest thinning", "%", value=float(found["thinning"].max()), leading=True),
             Quantity("largest thickening", "%", value=float(-found["thinning"].min())),
             Quantity("largest major strain", value=float(found["major_middle"].max())),
-            Quantity("margin to the forming limit", value=float(found["limit_margin"].min()), limit=0.0, at_least=True),
+            Quantity(
+                "margin to the forming limit",
+                value=float(found["limit_margin"].min()),
+                limit=0.0,
+                at_least=True,
+                leading=True,
+            ),
             Quantity("work of friction", "% of the work", value=self.friction_share),
             *([Quantity("stroke at the forming limit", "mm", value=torn)] if math.isfinite(torn) else []),
-            *([] if self.released is None else [Quantity("largest springback", "mm", value=self.springback.largest)]),
+            *(
+                []
+                if self.released is None
+                else [Quantity("largest springback", "mm", value=self.springback.largest, leading=True)]
+            ),
             *(self._of_cup() if isinstance(self.case, Cup) else self._of_u_bend()),
         ]
         return [replace(one, band=bands.get(one.name)) for one in rows]
 
     def _of_cup(self) -> list[Quantity]:
-        heights = [Quantity(name, "mm", value=height) for name, height in self.ears.heights().items()]
+        heights = [
+            Quantity(name, "mm", value=height, leading=name.endswith("mean"))
+            for name, height in self.ears.heights().items()
+        ]
         if not self.has_ears:
             return heights
         waves = [Quantity(name, "mm", value=amplitude) for name, amplitude in self.ears.waves().items()]
@@ -305,9 +318,9 @@ class Drawn(Outcome):
         if self.angles is None:
             return []
         return [
-            Quantity("theta1", "degrees", value=self.angles.theta1),
-            Quantity("theta2", "degrees", value=self.angles.theta2),
-            Quantity("radius of the wall", "mm", value=self.angles.radius),
+            Quantity("theta1", "degrees", value=self.angles.theta1, leading=True),
+            Quantity("theta2", "degrees", value=self.angles.theta2, leading=True),
+            Quantity("radius of the wall", "mm", value=self.angles.radius, leading=True),
         ]
 
     @property

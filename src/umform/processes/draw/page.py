@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from itertools import chain
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -13,8 +12,10 @@ from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.u_bend import UBend
 from umform.processes.draw.words import before_the_run, parameters
 from umform.report import parts
+from umform.report.live import Live, style
 from umform.report.materials import material_text
 from umform.report.page import outcome_parts
+from umform.report.symmetry import modelled_part
 
 _CAPTIONS = {
     "blank": "Mesh of the blank over the sizes that keep the angle of an element over the radii of the tools.",
@@ -48,10 +49,19 @@ def write_page(path: Path, drawn: Drawn, figures: Mapping[str, Figure], note: st
     """
     elements = len(drawn.result.model.mesh.connectivity)
     lead = f"{elements} elements; {drawn.iterations} Newton iterations in {drawn.seconds:.1f} s"
-    figured = (parts.figure(figure, _CAPTIONS[name]) for name, figure in figures.items())
-    middle = chain(figured, [parts.paragraph(before_the_run(drawn.case))])
+    live = Live.of(drawn.result, stills=False, first=("stroke", "stroke_force"))
     given = parameters(drawn.case) | _texts(drawn.case)
-    return parts.write_html(path, drawn.title, lead, outcome_parts(drawn, middle, given, note))
+    content = outcome_parts(drawn, live.shape, _middle(drawn, live, figures), given, note)
+    return parts.write_html(path, drawn.title, lead, content, style=style(), scripts=live.scripts)
+
+
+def _middle(drawn: Drawn, live: Live, figures: Mapping[str, Figure]) -> Iterator[str]:
+    yield from map(parts.note, live.notes)
+    shown = [name for name in figures if name != "blank"]
+    yield parts.side_by_side(parts.figure(figures[name], _CAPTIONS[name]) for name in shown)
+    mesh = [parts.figure(figures["blank"], _CAPTIONS["blank"]), parts.paragraph(before_the_run(drawn.case))]
+    yield parts.section("Mesh", mesh)
+    yield parts.section("History", [parts.paragraph(modelled_part(drawn.result.model)), live.curves, live.table])
 
 
 def _texts(case: Cup | UBend) -> dict[str, str]:

@@ -99,7 +99,9 @@ class UBend(Draw):
     @property
     def title(self) -> str:
         """Heading of tables and pages."""
-        return f"U-bend: punch of {self.punch_width:g} mm, {self.thickness:g} mm sheet"
+        from umform.sheet_metals import sheet_text  # not for the help of the command
+
+        return f"U-bend: {sheet_text(self.material, self.thickness)}, punch of {self.punch_width:g} mm"
 
     @property
     def clearance(self) -> float:

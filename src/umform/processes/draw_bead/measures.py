@@ -14,6 +14,7 @@ from umform.processes.draw_bead.spec import DrawBead
 from umform.results import fields
 from umform.results.outcome import Outcome
 from umform.results.quantity import Quantity, quantities_of
+from umform.sheet_metals import sheet_text
 
 Floats = NDArray[np.float64]
 
@@ -41,17 +42,17 @@ class Drawn(Outcome):
     way: Floats
     restraint_curve: Floats
     uplift_curve: Floats
-    restraint: Annotated[float, Quantity("restraining force", "N/mm", 1)]
+    restraint: Annotated[float, Quantity("restraining force", "N/mm", 1, leading=True)]
     """Mean over the steady part of the travel, which begins when the exiting sheet has passed the whole bead."""
     restraint_spread: Annotated[float, Quantity("its spread, half of largest less smallest", "N/mm", 1)]
     """Half of the range of the force over this part: ripple due to the mesh."""
-    uplift: Annotated[float, Quantity("uplift force", "N/mm", 1)]
+    uplift: Annotated[float, Quantity("uplift force", "N/mm", 1, leading=True)]
     """Mean over the steady part."""
     uplift_spread: Annotated[float, Quantity("its spread", "N/mm", 1)]
     """Half of the range over this part."""
-    closing_force: Annotated[float, Quantity("largest force to close", "N/mm", 1)]
+    closing_force: Annotated[float, Quantity("largest force to close", "N/mm", 1, leading=True)]
     """Largest force to close the tools."""
-    thinning: Annotated[float, Quantity("thinning out", "%", 2)]
+    thinning: Annotated[float, Quantity("thinning out", "%", 2, leading=True)]
     """Relative loss of thickness of the sheet that has passed the whole bead."""
     friction_share: Annotated[float, Quantity("share of friction in the work", "%", 1)]
     """Work of friction relative to that of the force, on the steady part."""
@@ -94,7 +95,8 @@ class Drawn(Outcome):
     @property
     def title(self) -> str:
         """Heading of tables and pages."""
-        return f"Draw bead: {self.case.thickness:g} mm sheet, {self['restraint'].full_text}"
+        sheet = sheet_text(self.case.material, self.case.thickness)
+        return f"Draw bead: {sheet}, {self['restraint'].full_text}"
 
     @property
     def quantities(self) -> list[Quantity]:

@@ -31,11 +31,10 @@ def write_page(path: Path, drawn: Drawn, figures: Mapping[str, Figure], note: st
     """
     lead = f"plane strain; {drawn.iterations} Newton iterations in {drawn.seconds:.1f} s"
     given = parameters(drawn) | {"material": material_text(drawn.case.material)}
-    return parts.write_html(path, drawn.title, lead, outcome_parts(drawn, _parts(drawn, figures), given, note))
+    shape = parts.figure(figures["shape"], "The sheet in the bead at the end.")
+    return parts.write_html(path, drawn.title, lead, outcome_parts(drawn, shape, _parts(drawn, figures), given, note))
 
 
 def _parts(drawn: Drawn, figures: Mapping[str, Figure]) -> Iterator[str]:
     yield parts.figure(figures["curve"], "Forces over the way of the strip; steady where the line is dashed.")
-    yield parts.figure(figures["shape"], "The sheet in the bead at the end.")
-    yield parts.heading("Equivalent bead")
-    yield parts.folded("Table of a deck", in_deck(drawn))
+    yield parts.section("Equivalent bead, as a table of a deck", [parts.lines(in_deck(drawn))])

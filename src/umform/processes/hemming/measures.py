@@ -18,6 +18,7 @@ from umform.processes.bend_sequence.sides import Strip
 from umform.processes.hemming.spec import Hemming
 from umform.results.outcome import Outcome
 from umform.results.quantity import Quantity, quantities_of
+from umform.sheet_metals import sheet_text
 
 Floats = NDArray[np.float64]
 
@@ -28,21 +29,21 @@ class HemMeasures:
 
     force: Annotated[float, Quantity("force", "N/mm", 1)]
     """Force of the plate per length of hem at the end of its travel."""
-    largest_force: Annotated[float, Quantity("largest force", "N/mm", 1)]
+    largest_force: Annotated[float, Quantity("largest force", "N/mm", 1, leading=True)]
     """The largest one."""
     loaded_height: Annotated[float, Quantity("height under load", "mm", 3)]
     """Outer height of the hem with the plate on it."""
-    height: Annotated[float, Quantity("height", "mm", 3)]
+    height: Annotated[float, Quantity("height", "mm", 3, leading=True)]
     """The same after unloading."""
-    springback: Annotated[float, Quantity("springback", "mm", 3)]
+    springback: Annotated[float, Quantity("springback", "mm", 3, leading=True)]
     """Their difference."""
-    tip_gap: Annotated[float, Quantity("gap at the tip", "mm", 3)]
+    tip_gap: Annotated[float, Quantity("gap at the tip", "mm", 3, leading=True)]
     """Gap between flange and base at the tip of the flange, after unloading."""
-    loop_gap: Annotated[float, Quantity("largest gap", "mm", 3)]
+    loop_gap: Annotated[float, Quantity("largest gap", "mm", 3, leading=True)]
     """The largest one."""
     angle: Annotated[float, Quantity("angle of the flange", "degrees", 2)]
     """Angle between flange and base after unloading; positive: it opens towards the tip."""
-    outer_strain: Annotated[float, Quantity("outer strain", "", 4)]
+    outer_strain: Annotated[float, Quantity("outer strain", "", 4, leading=True)]
     """Largest mean logarithmic strain of an element along the outer face."""
     thinning: Annotated[float, Quantity("smallest thickness ratio", "", 4)]
     """Smallest thickness relative to that of the flat sheet."""
@@ -88,7 +89,8 @@ class Hem(Outcome):
     def title(self) -> str:
         """Heading of tables and pages."""
         case = self.case
-        return f"Hem: {case.sheet.thickness:g} mm sheet, gap {case.gap:g} mm, {'insert' if case.insert else 'open'}"
+        sheet = sheet_text(case.sheet.material, case.sheet.thickness)
+        return f"Hem: {sheet}, gap {case.gap:g} mm, {'insert' if case.insert else 'open'}"
 
     @property
     def quantities(self) -> list[Quantity]:

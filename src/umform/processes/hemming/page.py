@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -27,13 +26,9 @@ def write_page(path: Path, hem: Hem, picture: Figure, note: str = "") -> Path:
     note : str
         Source of the material data; may be empty.
     """
-    content = outcome_parts(hem, _parts(picture), _given(hem), note, model="Model of the flattening")
+    drawn = parts.figure(picture, "Force of the plate per mm of hem, and the hem after unloading.")
+    content = outcome_parts(hem, drawn, (), _given(hem), note, model="Model of the flattening")
     return parts.write_html(path, hem.title, f"plane strain; {hem.seconds:.1f} s", content)
-
-
-def _parts(picture: Figure) -> Iterator[str]:
-    yield parts.heading("Force and section")
-    yield parts.figure(picture, "Force of the plate per mm of hem, and the hem after unloading.")
 
 
 def _given(hem: Hem) -> dict[str, object]:

@@ -5,10 +5,11 @@ const PLOT = { left: 76, right: 20, top: 16, bottom: 48 };
 class Curves {
   constructor(table, colours) {
     Object.assign(this, { table, colours, svg: element("curves-plot"), row: null, frame: null });
-    const { x, y } = this.svg.dataset;
+    const { x, y, labels } = this.svg.dataset;
+    this.labels = JSON.parse(labels);
     this.shown = [y];
     for (const id of ["curves-x", "curves-y"]) {
-      element(id).append(...table.names.map((name) => new Option(name, name)));
+      element(id).append(...table.names.map((name) => new Option(this.label(name), name)));
     }
     element("curves-x").value = x;
     element("curves-x").addEventListener("change", () => this.show());
@@ -27,6 +28,16 @@ class Curves {
     });
     new ResizeObserver(() => this.resize()).observe(this.svg);
     this.resize();
+  }
+
+  // What a column is called, and where a row lies on the abscissa.
+  label(name) {
+    return this.labels[name] ?? name;
+  }
+
+  text(row) {
+    const x = element("curves-x").value;
+    return `${this.label(x)} ${digits(this.table.columns[x][row])}`;
   }
 
   // One unit of the picture is one pixel of the page, so that its letters are as large as all others.
@@ -83,7 +94,7 @@ class Curves {
     }
     const middle = (PLOT.left + width - PLOT.right) / 2;
     const name = this.make("text", { x: middle, y: height - 8, class: "name", "text-anchor": "middle" });
-    name.append(element("curves-x").value);
+    name.append(this.label(element("curves-x").value));
     const lines = this.shown.map((column, i) => {
       const points = this.table.columns[column].map((y, k) => [this.at.x(along[k]), this.at.y(y)]);
       return this.make("path", { d: path(points), class: "curve", stroke: this.colour(i) });
@@ -104,10 +115,10 @@ class Curves {
       const button = document.createElement("button");
       const [swatch, name, value, cross] = ["i", "span", "output", "b"].map((tag) => document.createElement(tag));
       swatch.style.background = this.colour(i);
-      name.textContent = column;
+      name.textContent = this.label(column);
       cross.textContent = "×";
       button.type = "button";
-      button.title = `take ${column} out`;
+      button.title = `take ${this.label(column)} out`;
       button.disabled = this.shown.length === 1;
       button.append(swatch, name, value, cross);
       button.addEventListener("click", () => {
@@ -124,7 +135,7 @@ class Curves {
     const row = this.row ?? this.frame;
     const x = element("curves-x").value;
     this.marks.replaceChildren();
-    element("curves-at").textContent = row === null ? "" : `increment ${row} · ${x} ${digits(this.table.columns[x][row])}`;
+    element("curves-at").textContent = row === null ? "" : this.text(row);
     this.shown.forEach((column, i) => {
       const value = row === null ? NaN : this.table.columns[column][row];
       const output = element("curves-names").children[i].querySelector("output");

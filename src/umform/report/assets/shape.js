@@ -224,9 +224,10 @@ class ShapeView {
       tool.look(element("shape-tools").value);
     }
     this.legend(range);
-    const { row, time } = this.head.frames[this.frame];
+    const { row } = this.head.frames[this.frame];
     element("shape-frame").value = this.frame;
-    element("shape-time").textContent = `frame ${this.frame} of ${this.count - 1} · increment ${row} · time ${digits(time)}`;
+    element("shape-time").textContent = `${window.umform.curves.text(row)} · ${this.frame} of ${this.count - 1}`;
+    element("shape-time").dataset.row = row;
     document.dispatchEvent(new CustomEvent("frame", { detail: row }));
     this.draw();
   }

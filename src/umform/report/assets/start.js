@@ -22,8 +22,9 @@ function fillTable(table) {
 // A later state of the same run, in place: what was chosen stays.
 async function renew(packed, table) {
   const { shape, curves } = window.umform;
-  if (shape) shape.renew(await unpacked(packed));
-  curves.renew(table);
+  const scene = shape && (await unpacked(packed));
+  curves.renew(table); // the frames of the scene are rows of it
+  if (shape) shape.renew(scene);
 }
 
 async function start() {

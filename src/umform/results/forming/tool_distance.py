@@ -13,8 +13,11 @@ Floats = NDArray[np.float64]
 
 
 def pose_in(tool: Tool, row: Mapping[str, float]) -> tuple[Floats, Floats]:
-    """Rotation and shift of a tool in a row of a history."""
-    return tool.pose({way: row[way.name] for way in tool.ways}, row["time"])
+    """Rotation and shift of a tool in a row of a history.
+
+    Ways that were added to the tool after the run, such as by opening it, are zero in it.
+    """
+    return tool.pose({way: row.get(way.name, 0.0) for way in tool.ways}, row["time"])
 
 
 def distance_from(tool: Tool, x: Floats, row: Mapping[str, float] | None = None) -> Floats:

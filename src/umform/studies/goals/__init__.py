@@ -1,5 +1,6 @@
 """Parameters for wanted results: strokes, forces and tools that compensate springback. docs/goals.md"""
 
 from umform.studies.goals.compensate import Compensated, Trial, Wanted, compensate
+from umform.studies.goals.shape import CompensatedShape, ShapeTrial, compensate_shape
 
-__all__ = ["Compensated", "Trial", "Wanted", "compensate"]
+__all__ = ["Compensated", "CompensatedShape", "ShapeTrial", "Trial", "Wanted", "compensate", "compensate_shape"]

@@ -1,0 +1,77 @@
+"""``umform export``: the state of a formed part for other programs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from umform.cli.check import Trust, deck_errors
+from umform.cli.root import Debug, Overwrite, app
+
+
+@app.command()
+def export(
+    run: Annotated[
+        Path,
+        typer.Argument(
+            metavar="RUN", help="Folder of a run with state = true under [output], its state.h5, or a checkpoint."
+        ),
+    ],
+    to: Annotated[
+        str, typer.Option(metavar="PROGRAM", help="dynain (LS-DYNA), radioss (OpenRadioss), abaqus or calculix.")
+    ] = "dynain",
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="The file; default: the name of the deck, with .k, .sta or .inp."),
+    ] = None,
+    stage: Annotated[
+        str | None,
+        typer.Option(metavar="NAME", help="Deck of an earlier operation of the same part; default: the run itself."),
+    ] = None,
+    mesh: Annotated[
+        str | None,
+        typer.Option(
+            metavar="shells|solids", help="Middle surface, or layers of solids; default: what the format has."
+        ),
+    ] = None,
+    points: Annotated[int, typer.Option(help="Points through the thickness of shells.")] = 9,
+    layers: Annotated[int, typer.Option(help="Layers of solids through each element.")] = 6,
+    mirror: Annotated[
+        bool, typer.Option("--mirror", help="Add the mirror images of a modelled half or quarter.")
+    ] = False,
+    units: Annotated[
+        str | None, typer.Option(metavar="TEXT", help="Units in the head of the file; default: those of the deck.")
+    ] = None,
+    overwrite: Overwrite = False,
+    trust: Trust = False,
+    debug: Debug = False,
+) -> None:
+    """Write the state of a formed part for LS-DYNA, OpenRadioss, Abaqus or CalculiX: mesh, thickness, stresses.
+
+    The state is that at the end of a run. Keywords, order of points and limits: docs/other-programs.md.
+    """
+    from umform.errors import FileProblem, InvalidValue
+    from umform.problem.finished import finished
+    from umform.report.state_files import PROGRAMS, export_state
+
+    if to not in PROGRAMS:
+        raise InvalidValue("unknown program", where="to", value=to, remedy="one of " + ", ".join(PROGRAMS))
+    with deck_errors():
+        part = finished(run, stage, trust)
+    path = out or Path(part.name).with_suffix(PROGRAMS[to].suffix)
+    if path.exists() and not overwrite:
+        raise FileProblem("the file exists", where=str(path), remedy="--out another file, or --overwrite")
+    state = export_state(
+        part.model,
+        path,
+        to,
+        mesh=mesh,
+        points=points,
+        layers=layers,
+        mirror=mirror,
+        units=part.units if units is None else units,
+    )
+    kind = "shells" if state.shells else "solids"
+    typer.echo(f"Written to {path}: {len(state.points)} nodes, {len(state.cells)} {kind}")
