@@ -34,14 +34,17 @@ _NONE = ("thickness", "material", "punch_section", "die_section", "width", "widt
 def flat(
     part: Annotated[Path, typer.Argument(metavar="PART.step", help="STEP file of one bent part.")],
     given: Given,
-    metal: Annotated[str | None, option("Name in the library of sheet metals: `umform metal list`.", SHEET)] = None,
+    metal: Annotated[str | None, option("Name of `umform metal list`, or a file of a metal (.toml).", SHEET)] = None,
     k_factor: Annotated[
         float | None,
         option("K by ANSI in place of computed bends: the neutral line at K t from the inner face.", _LENGTHS),
     ] = None,
     table: Annotated[
         Path | None,
-        option("CSV file in place of computed bends; columns angle, radius, thickness, allowance.", _LENGTHS),
+        option(
+            "CSV file in place of computed bends: of `umform bend table`, or angle, radius, thickness, allowance.",
+            _LENGTHS,
+        ),
     ] = None,
     store: Annotated[Path | None, option("Folder of the store of computed bends.", _LENGTHS)] = None,
     bend: Annotated[

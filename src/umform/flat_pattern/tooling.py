@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any
 
-from umform.flat_pattern.allowance import Allowance
+from umform.flat_pattern.allowance import Allowance, outside
 from umform.io.store import Store
+from umform.problem.metal_file import metal_of
 from umform.processes.air_bending.formulas import INNER_RADIUS
 from umform.processes.air_bending.spec import AirBending
-from umform.sheet_metals import get
 from umform.studies.bend_table import bend as stored_bend
 
 #: Openings of dies in mm that shops have.
@@ -31,7 +30,7 @@ class Tooling:
     sheet: AirBending = field(default_factory=AirBending)
     """Mesh and tools, and the metal if none is named; the thickness is that of the part."""
     metal: str | None = None
-    """Name of the metal in the library of sheet metals."""
+    """Name of the metal in the library of sheet metals, or the path of a file of one."""
     opening: float | None = None
     """Opening of the die in mm; without it, one of `OPENINGS` of 8 to 12 thicknesses whose usual inside radius, 0.16 of
     the opening, is nearest to that of the drawing."""
@@ -62,7 +61,7 @@ class Tooling:
 
 @lru_cache(maxsize=16)
 def _law(metal: str, thickness: float) -> Any:
-    return get(metal, thickness).law
+    return metal_of(metal, thickness).law
 
 
 @dataclass(frozen=True)
@@ -89,7 +88,7 @@ class ComputedBends:
         """
         case = self.tooling.case(angle, radius, thickness)
         found = stored_bend(case, 180.0 - angle, store=self.store)
-        drawn = 2.0 * (radius + thickness) * math.tan(math.radians(0.5 * angle))
+        drawn = 2.0 * outside(angle, radius, thickness)
         words = [
             self.tooling.metal or "",
             f"V {case.opening:g}",
