@@ -86,6 +86,10 @@ def flat(
         bent = bend_part(orders) if bend else None
         _show(pattern)
         files = write_files(place, orders, bent)
+    if pattern.order and not orders.is_prismatic:
+        console().print(
+            "It is checked in cuts across each bend line; flanges at the ends of the lines are not looked at."
+        )
     if bent is not None:
         errors = ", ".join(f"{round(error, 3) + 0.0:+.3f}" for error in bent.errors)
         console().print(f"Flanges of the simulation less those of the drawing: {errors} mm", soft_wrap=True)

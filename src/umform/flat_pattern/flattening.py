@@ -13,7 +13,7 @@ from umform.flat_pattern.pattern import FlatPattern, pattern_of
 from umform.flat_pattern.tooling import ComputedBends, Tooling
 from umform.io.store import Store
 from umform.processes.bend_sequence.spec import Bodies
-from umform.surfaces.cad.solid import DEVIATION
+from umform.surfaces.cad.read_solid import DEVIATION
 
 #: Part of the inside radius of the drawing by which that of an air bend differs without a warning.
 _RADIUS = 0.25
