@@ -28,20 +28,23 @@ _NONE = ("thickness", "material", "punch_section", "die_section", "width", "widt
 @given_by(
     AirBending,
     omit=_NONE,
-    otherwise={"opening": "6 to 12 thicknesses, by the radius of the drawing"},
+    otherwise={"opening": "8 to 12 thicknesses, by the radius of the drawing"},
     opening=None,
 )
 def flat(
     part: Annotated[Path, typer.Argument(metavar="PART.step", help="STEP file of one bent part.")],
     given: Given,
-    metal: Annotated[str | None, option("Name in the library of sheet metals: `umform metal list`.", SHEET)] = None,
+    metal: Annotated[str | None, option("Name of `umform metal list`, or a file of a metal (.toml).", SHEET)] = None,
     k_factor: Annotated[
         float | None,
         option("K by ANSI in place of computed bends: the neutral line at K t from the inner face.", _LENGTHS),
     ] = None,
     table: Annotated[
         Path | None,
-        option("CSV file in place of computed bends; columns angle, radius, thickness, allowance.", _LENGTHS),
+        option(
+            "CSV file in place of computed bends: of `umform bend table`, or angle, radius, thickness, allowance.",
+            _LENGTHS,
+        ),
     ] = None,
     store: Annotated[Path | None, option("Folder of the store of computed bends.", _LENGTHS)] = None,
     bend: Annotated[
@@ -83,10 +86,15 @@ def flat(
         bent = bend_part(orders) if bend else None
         _show(pattern)
         files = write_files(place, orders, bent)
+    if pattern.order and not orders.is_prismatic:
+        console().print(
+            "It is checked in cuts across each bend line; flanges at the ends of the lines are not looked at."
+        )
     if bent is not None:
-        errors = ", ".join(f"{error:+.3f}" for error in bent.errors)
+        errors = ", ".join(f"{round(error, 3) + 0.0:+.3f}" for error in bent.errors)
         console().print(f"Flanges of the simulation less those of the drawing: {errors} mm", soft_wrap=True)
-    console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+    names = dict.fromkeys(file.name if file.parent.name != "sequence" else "sequence/" for file in files)
+    console().print(f"Written to {place}: {', '.join(names)}", soft_wrap=True)
     if bent is not None and bent.part.collisions:
         typer.secho("umform: " + "; ".join(bent.part.collisions), fg=typer.colors.RED, err=True)
         raise typer.Exit(1)

@@ -11,9 +11,12 @@ from typing import Protocol
 import numpy as np
 
 from umform.errors import FileProblem, InvalidValue
+from umform.studies.bend_table.formats import table_csv
+from umform.studies.bend_table.formats.reading import Reading
 
 #: Part by which radius and thickness of a row of a table may differ from those of a bend.
 _ROW = 0.01
+_COLUMNS = ("angle", "radius", "thickness", "allowance")
 
 
 @dataclass(frozen=True)
@@ -92,8 +95,8 @@ class AllowanceTable:
     """Name of the file."""
 
     @classmethod
-    def read(cls, path: str | Path) -> AllowanceTable:
-        """Read a CSV file with the columns angle, radius, thickness, allowance.
+    def read(cls, path: str | Path) -> AllowanceTable | DeductionTable:
+        """Read a CSV file with the columns angle, radius, thickness, allowance, or bends.csv of `umform bend table`.
 
         Raises
         ------
@@ -102,20 +105,20 @@ class AllowanceTable:
         """
         path = Path(path)
         try:
-            with path.open(newline="", encoding="utf-8-sig") as file:
-                lines = csv.DictReader(line for line in file if not line.startswith("#"))
-                rows = tuple(
-                    (float(x["angle"]), float(x["radius"]), float(x["thickness"]), float(x["allowance"])) for x in lines
-                )
+            text = path.read_text(encoding="utf-8-sig")
+            lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
+            if lines and "bend_deduction mm" in lines[0]:
+                return DeductionTable(tuple(table_csv.read(path).values()), path.name)
+            rows = [tuple(float(row[name]) for name in _COLUMNS) for row in csv.DictReader(lines)]
         except (OSError, UnicodeDecodeError, KeyError, TypeError, ValueError) as error:
             raise FileProblem(
                 "this table of bend allowances cannot be read",
                 where=str(path),
                 cause=f"the column {error} is missing" if isinstance(error, KeyError) else str(error),
-                remedy="a CSV file with the columns angle, radius, thickness, allowance; degrees by which the sheet is "
-                "bent, and mm",
+                remedy=f"a CSV file with the columns {', '.join(_COLUMNS)}; degrees by which the sheet is bent, mm; or "
+                "bends.csv of `umform bend table`",
             ) from error
-        return cls(rows, path.name)
+        return cls(tuple((a, r, t, length) for a, r, t, length in rows), path.name)
 
     def __call__(self, angle: float, radius: float, thickness: float) -> Allowance:
         """The allowance of a bend; its radius and thickness must be in the table, its angle within it."""
@@ -125,13 +128,50 @@ class AllowanceTable:
             if abs(r - radius) <= _ROW * radius and abs(t - thickness) <= _ROW * thickness
         )
         if not fits or not fits[0][0] - 1e-6 <= angle <= fits[-1][0] + 1e-6:
-            have = f"{fits[0][0]:g} to {fits[-1][0]:g} degrees" if fits else "no row of this radius and thickness"
-            raise InvalidValue(
-                "the table has no allowance for this bend",
-                where=self.name,
-                value=f"{angle:.4g} degrees, inside radius {radius:.4g}, thickness {thickness:.4g}",
-                cause=f"it has {have}; nothing is extrapolated",
-                remedy="add rows to the table, or --k-factor",
+            have = (
+                f"it has {fits[0][0]:g} to {fits[-1][0]:g} degrees" if fits else "no row of this radius and thickness"
             )
+            raise _not_in_table(self.name, angle, radius, thickness, have)
         length = float(np.interp(angle, [a for a, _ in fits], [b for _, b in fits]))
         return Allowance(length, f"table {self.name}", radius)
+
+
+@dataclass(frozen=True)
+class DeductionTable:
+    """Bend deductions of `umform bend table`, linear between its angles; the radius of the drawing does not matter.
+
+    Made by :meth:`AllowanceTable.read`.
+    """
+
+    readings: tuple[Reading, ...]
+    """Deductions over the angle between the legs, one for each sheet and tools."""
+    name: str
+    """Name of the file."""
+
+    def __call__(self, angle: float, radius: float, thickness: float) -> Allowance:
+        """The allowance of a bend; the table must have one set of tools for its thickness, and reach its angle."""
+        fits = [one for one in self.readings if abs(one.thickness - thickness) <= _ROW * thickness]
+        if len(fits) != 1:
+            have = f"{len(fits)} metals and tools have this thickness; give a table of one of them"
+            raise _not_in_table(self.name, angle, radius, thickness, have)
+        known = sorted(fits[0].deductions)
+        if not known[0] - 1e-6 <= 180.0 - angle <= known[-1] + 1e-6:
+            have = f"it has angles between the legs from {known[0]:g} to {known[-1]:g} degrees"
+            raise _not_in_table(self.name, angle, radius, thickness, have)
+        length = fits[0].flat_length(180.0 - angle, radius, (outside(angle, radius, thickness),) * 2)
+        return Allowance(length, f"table {self.name}", radius)
+
+
+def outside(angle: float, radius: float, thickness: float) -> float:
+    """Outside setback (R + t) tan(angle / 2) of a bend, in mm."""
+    return (radius + thickness) * math.tan(math.radians(0.5 * angle))
+
+
+def _not_in_table(name: str, angle: float, radius: float, thickness: float, have: str) -> InvalidValue:
+    return InvalidValue(
+        "the table has no allowance for this bend",
+        where=name,
+        value=f"bent by {angle:.4g} degrees, inside radius {radius:.4g}, thickness {thickness:.4g}",
+        cause=f"{have}; nothing is extrapolated",
+        remedy="add rows to the table, or --k-factor",
+    )

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from itertools import pairwise
 
 from umform.errors import InvalidValue
+from umform.flat_pattern.allowance import outside
 from umform.flat_pattern.order import Orders
 from umform.flat_pattern.pattern import FlatBend, FlatPattern
 from umform.processes.air_bending.goal import Goal
@@ -79,5 +79,4 @@ def bend_part(orders: Orders, *, tolerance: float = Goal.tolerance, progress: Sh
 
 def deduction(bend: FlatBend, pattern: FlatPattern) -> float:
     """Bend deduction of the drawing in mm: 2 (R + t) tan(angle / 2) less the allowance."""
-    setback = (bend.radius + pattern.thickness) * math.tan(math.radians(0.5 * bend.angle))
-    return 2.0 * setback - bend.allowance.length
+    return 2.0 * outside(bend.angle, bend.radius, pattern.thickness) - bend.allowance.length

@@ -13,6 +13,7 @@ from umform.flat_pattern.pattern import FlatPattern, pattern_of
 from umform.flat_pattern.tooling import ComputedBends, Tooling
 from umform.io.store import Store
 from umform.processes.bend_sequence.spec import Bodies
+from umform.surfaces.cad.read_solid import DEVIATION
 
 #: Part of the inside radius of the drawing by which that of an air bend differs without a warning.
 _RADIUS = 0.25
@@ -26,7 +27,7 @@ def flat(
     tooling: Tooling | None = None,
     bodies: Bodies | None = None,
     store: Store | None = None,
-    deviation: float = 0.01,
+    deviation: float = DEVIATION,
 ) -> FlatPattern:
     """The flat pattern of the sheet-metal part of a STEP file, and an order of its bends.
 
@@ -95,11 +96,15 @@ def flat(
 
 
 def _radii(pattern: FlatPattern) -> list[str]:
+    """Warnings of inside radii that differ from the drawing, those of equal bends in one."""
+    found = dict[tuple[float, float], list[str]]()
+    for bend in pattern.bends:
+        if abs(bend.allowance.radius - bend.radius) > _RADIUS * bend.radius:
+            found.setdefault((bend.radius, round(bend.allowance.radius, 3)), []).append(str(bend.number))
     return [
-        f"bend {bend.number} gets an inside radius of {bend.allowance.radius:.3g} mm from this die, not the "
-        f"{bend.radius:.3g} mm of the drawing; its outer lengths are those of the drawing"
-        for bend in pattern.bends
-        if abs(bend.allowance.radius - bend.radius) > _RADIUS * bend.radius
+        f"bends {', '.join(numbers)}: the die gives an inside radius of {made:.3g} mm, not the {drawn:.3g} mm of the "
+        "drawing; the outer lengths are those of the drawing"
+        for (drawn, made), numbers in found.items()
     ]
 
 

@@ -17,7 +17,7 @@ from umform.flat_pattern.contour import Contour, contours_of
 from umform.flat_pattern.folding import largest_distance
 from umform.flat_pattern.skin import Skin, skin_of
 from umform.flat_pattern.unfold import BendMap, Unfolded, unfold
-from umform.surfaces.cad.solid import Solid
+from umform.surfaces.cad.read_solid import DEVIATION, read_solid
 
 Floats = NDArray[np.float64]
 
@@ -120,7 +120,7 @@ class FlatPattern:
         return np.asarray(x.max(axis=0) - x.min(axis=0))
 
 
-def pattern_of(path: str | Path, allowance: AllowanceProvider, *, deviation: float = 0.01) -> FlatPattern:
+def pattern_of(path: str | Path, allowance: AllowanceProvider, *, deviation: float = DEVIATION) -> FlatPattern:
     """Unfold the part of a STEP file.
 
     Parameters
@@ -137,7 +137,7 @@ def pattern_of(path: str | Path, allowance: AllowanceProvider, *, deviation: flo
     FileProblem, DrawingError
         If the file cannot be read, or the part is no bent sheet of one thickness.
     """
-    skin = skin_of(Solid.read(path, deviation))
+    skin = skin_of(read_solid(path, deviation))
     flat = unfold(skin, allowance)
     curves, away = contours_of(flat)
     outer, holes = curves[0], tuple(curves[1:])

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any
 
-from umform.flat_pattern.allowance import Allowance
+from umform.flat_pattern.allowance import Allowance, outside
 from umform.io.store import Store
+from umform.problem.metal_file import metal_of
 from umform.processes.air_bending.formulas import INNER_RADIUS
 from umform.processes.air_bending.spec import AirBending
-from umform.sheet_metals import get
 from umform.studies.bend_table import bend as stored_bend
 
 #: Openings of dies in mm that shops have.
 OPENINGS = (4.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0, 32.0, 40.0, 50.0, 63.0, 80.0, 100.0, 125.0, 160.0, 200.0)
 #: Openings over the thickness that are chosen.
-NARROWEST, WIDEST = 6.0, 12.0
+NARROWEST, WIDEST = 8.0, 12.0
 #: Angle of punch and die in degrees for parts that those of the sheet do not bend far enough.
 ACUTE = 30.0
 #: Degrees below the angle of the part that the tools leave for springback.
@@ -31,9 +30,9 @@ class Tooling:
     sheet: AirBending = field(default_factory=AirBending)
     """Mesh and tools, and the metal if none is named; the thickness is that of the part."""
     metal: str | None = None
-    """Name of the metal in the library of sheet metals."""
+    """Name of the metal in the library of sheet metals, or the path of a file of one."""
     opening: float | None = None
-    """Opening of the die in mm; without it, one of `OPENINGS` of 6 to 12 thicknesses whose usual inside radius, 0.16 of
+    """Opening of the die in mm; without it, one of `OPENINGS` of 8 to 12 thicknesses whose usual inside radius, 0.16 of
     the opening, is nearest to that of the drawing."""
 
     def case(self, angle: float, radius: float, thickness: float) -> AirBending:
@@ -62,7 +61,7 @@ class Tooling:
 
 @lru_cache(maxsize=16)
 def _law(metal: str, thickness: float) -> Any:
-    return get(metal, thickness).law
+    return metal_of(metal, thickness).law
 
 
 @dataclass(frozen=True)
@@ -89,7 +88,7 @@ class ComputedBends:
         """
         case = self.tooling.case(angle, radius, thickness)
         found = stored_bend(case, 180.0 - angle, store=self.store)
-        drawn = 2.0 * (radius + thickness) * math.tan(math.radians(0.5 * angle))
+        drawn = 2.0 * outside(angle, radius, thickness)
         words = [
             self.tooling.metal or "",
             f"V {case.opening:g}",

@@ -15,7 +15,7 @@ from umform.flat_pattern import KFactor, flat
 from umform.flat_pattern.folding import folded_points
 from umform.flat_pattern.skin import skin_of
 from umform.flat_pattern.unfold import unfold
-from umform.surfaces.cad.solid import Solid
+from umform.surfaces.cad.read_solid import read_solid
 from umform.surfaces.segments import Arc
 
 K = 0.44
@@ -88,7 +88,7 @@ def test_the_deviation_of_polylines_can_be_chosen(step, pattern):
 
 def test_folding_uses_the_angles_of_the_bends(step):
     """A wrong angle is noticed: the folded pattern is no longer the part."""
-    laid = unfold(skin_of(Solid.read(step("u"))), KFactor(K))
+    laid = unfold(skin_of(read_solid(step("u"))), KFactor(K))
     first = next(place for place, lay in laid.maps.items() if hasattr(lay, "allowance"))
     bent = replace(laid.maps[first], angle=laid.maps[first].angle - 0.01)
     folded, drawn = folded_points(replace(laid, maps={**laid.maps, first: bent}))

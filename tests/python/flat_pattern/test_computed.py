@@ -52,10 +52,10 @@ def test_the_flat_length_leaves_the_outer_lengths_of_the_drawing(computed, tooli
     for angle in (90.0, 60.0):
         outer += 2.0 * 4.0 * math.tan(math.radians(0.5 * angle))
         case = tooling.case(angle, 2.0, 2.0)
-        assert case.thickness == 2.0 and case.opening == 12.0
+        assert case.thickness == 2.0 and case.opening == 16.0
         deductions += stored_bend(case, 180.0 - angle, store=store).deduction
     assert computed.size.max() == pytest.approx(110.0 + outer - deductions, abs=1e-9)
-    assert all("DC04, V 12" in bend.allowance.source for bend in computed.bends)
+    assert all("DC04, V 16" in bend.allowance.source for bend in computed.bends)
     assert all(bend.allowance.stroke > 1.0 and bend.allowance.force > 10.0 for bend in computed.bends)
 
 

@@ -93,3 +93,18 @@ def test_a_table_gives_the_allowance_and_is_not_extrapolated(tmp_path, step):
         AllowanceTable.read(path)
     with pytest.raises(ValueError, match="DIN 6935"):
         KFactor(44)
+
+
+def test_a_table_of_bend_table_gives_deductions(tmp_path, step):
+    """What `umform bend table` writes: deductions over the angle between the legs, for one set of tools."""
+    path = tmp_path / "bends.csv"
+    head = "metal,thickness mm,opening mm,punch_radius mm,angle degrees,bend_deduction mm\n"
+    rows = "DC04,2,16,1.5,90,3.8\nDC04,2,16,1.5,120,1.9\n"
+    path.write_text("# of umform\n" + head + rows)
+    made = flat(step("l"), allowance=AllowanceTable.read(path))
+    assert made.size.max() == pytest.approx(44.0 + 34.0 - 3.8, abs=1e-6)  # outer lengths less the deduction
+    with pytest.raises(ValueError, match="from 90 to 120"):
+        AllowanceTable.read(path)(100.0, 2.0, 2.0)
+    path.write_text(head + rows + "DC04,2,12,1.5,90,3.7\n")
+    with pytest.raises(ValueError, match="2 metals and tools have this thickness"):
+        AllowanceTable.read(path)(90.0, 2.0, 2.0)

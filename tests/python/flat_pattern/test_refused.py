@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from brackets import BRACKETS, L, block, cut, drill, fused, placed, section, write
 from OCP.BRep import BRep_Builder
-from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
+from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace, BRepBuilderAPI_MakePolygon
 from OCP.BRepFilletAPI import BRepFilletAPI_MakeFillet
 from OCP.BRepPrimAPI import BRepPrimAPI_MakeCone, BRepPrimAPI_MakePrism
 from OCP.collections import Array2_gp_Pnt
@@ -17,6 +19,8 @@ from OCP.TopoDS import TopoDS, TopoDS_Compound
 
 from umform.errors import DrawingError, FileProblem
 from umform.flat_pattern import KFactor, flat
+from umform.flat_pattern.skin import skin_of
+from umform.surfaces.cad.read_solid import read_solid
 
 
 def compound(*shapes):
@@ -73,7 +77,7 @@ def sharp():
 
 
 REFUSED = {
-    "free form": (free_form, "BSplineSurface"),
+    "free form": (free_form, "neither a plane nor a cylinder"),
     "countersink": (conical, "cone"),
     "second thickness": (thick_and_thin, "face"),
     "rib": (lambda: fused(section([60, 40], [90], 30.0), block((-10, -1, 0), (20, 2, 12))), "face"),
@@ -97,6 +101,31 @@ def test_no_bent_sheet_is_refused(tmp_path, name):
     assert word in text and "remedy" in text and "part.step" in text
 
 
+def test_the_volume_is_that_of_the_sheet(step):
+    solid = read_solid(step("hole across the bend"))
+    sides = skin_of(solid)
+    assert sides.thickness == 2.0
+    for factor in (0.98, 1.02):
+        with pytest.raises(DrawingError, match="no sheet of one thickness"):
+            skin_of(replace(solid, volume=factor * solid.volume))
+
+
+def test_mitred_edges_are_warned_of_and_unfold(tmp_path):
+    """Both ends of an L cut at 45 degrees: the contour is that of the unfolded side."""
+    shape = section([40, 30], [90], 50.0)
+    shape = cut(shape, placed(block((-40, -80, -20), (40, 160, 40)), (-14, 0, 0)))
+    made = flat(write(cut(shape, wedge()), tmp_path / "mitre.step"), allowance=KFactor(0.44))
+    assert "not square to the sheet" in made.warnings[0]
+    assert made.folded_back < 1e-6
+
+
+def wedge():
+    """A corner of 45 degrees at the end of the first leg."""
+    points = [gp_Pnt(x, -60, z) for x, z in ((-14.1, -1), (-12, -1), (-14.1, 1.1))]
+    wire = BRepBuilderAPI_MakePolygon(*points, True).Wire()
+    return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire).Face(), gp_Vec(0, 120, 0)).Shape()
+
+
 def test_a_truncated_file_is_refused(tmp_path, step):
     text = step("l").read_bytes()
     for share in (0.3, 0.6, 0.9):
@@ -116,10 +145,10 @@ def test_other_files_are_refused(tmp_path):
 
 
 def test_too_many_faces_and_too_large_files_are_refused(step, monkeypatch):
-    monkeypatch.setattr("umform.surfaces.cad.solid.MOST_FACES", 5)
+    monkeypatch.setattr("umform.surfaces.cad.read_solid.MOST_FACES", 5)
     with pytest.raises(DrawingError, match="too many faces"):
         flat(step("l"), allowance=KFactor(0.44))
-    monkeypatch.setattr("umform.surfaces.cad.solid.MOST_BYTES", 1000)
+    monkeypatch.setattr("umform.surfaces.cad.read_solid.MOST_BYTES", 1000)
     with pytest.raises(FileProblem, match="too large"):
         flat(step("l"), allowance=KFactor(0.44))
 

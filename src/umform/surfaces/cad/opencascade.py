@@ -1,4 +1,4 @@
-"""All calls of OpenCASCADE: files, triangles of faces, points and derivatives on them."""
+"""Calls of OpenCASCADE for tools: files, triangles of faces, points and derivatives on them."""
 
 from __future__ import annotations
 
