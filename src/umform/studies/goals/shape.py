@@ -1,4 +1,4 @@
-"""Offset fields of tools with which a part has its wanted shape after springback. docs/theory, 5.18"""
+"""Offset fields of tools with which a part has its wanted shape after springback. docs/theory, 5.17"""
 
 from __future__ import annotations
 
