@@ -37,7 +37,7 @@ _WITHIN = 0.1
 #: Nodes farther from a tool, in thicknesses, say nothing about its field.
 _REACH = 2.0
 #: Weights of first and second differences of the coefficients, and of their changes, against the fit.
-_SMOOTH, _SMALL = 1e-3, 1e-6
+_SMOOTH, _SMALL = 1e-4, 1e-6
 #: Changes of the deviations below this part of the largest one are noise, and do not say how tools act.
 _KNOWN = 5e-2
 #: Halvings of a change whose run fails.
