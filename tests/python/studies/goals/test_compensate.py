@@ -128,6 +128,7 @@ def test_the_angles_of_a_bracket_are_reached_by_its_strokes_in_three_more_runs()
     assert len(found.trials) <= 4
     assert not any(trial.derived for trial in found.trials)
     assert found.trials[found.best].results == pytest.approx((125.0, 130.0), abs=0.05)
+    assert found.trials[0].shapes.formed is None
 
 
 def test_a_sequence_of_bends_has_strokes_for_angles_only():
