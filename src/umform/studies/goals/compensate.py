@@ -37,10 +37,14 @@ _STEP, _LONGER, _SHORTER, _EXPECTED = 0.3, 3.0, 0.5, 0.25
 _RANGE = 0.5
 #: Part of a change that derivatives may miss; beyond, secants take their place.
 _WAVY = 0.5
+#: Change of a parameter whose derivative is unknown, relative to the longest first step.
+_PROBE = 0.3 * _STEP
 #: Steps that are shorter end the search.
 _SHORTEST = 1e-4
 #: A distance from the wanted results that falls to more than this part asks for new derivatives.
 _SLOW = 0.5
+#: Sine of the angle between changes, about, below which they are one.
+_PARALLEL = 0.1
 #: Halvings of a step whose run fails.
 _HALVINGS = 4
 #: What the picture shows.
@@ -251,7 +255,7 @@ def compensate(
     """Find values of parameters for which results are the wanted ones, such as angles after springback.
 
     The first run gives the derivatives, and these the next parameters; each further run corrects the derivatives by
-    what it found (Broyden), and runs that gain little find new ones. More results than parameters are met in the
+    what it found (secants), and runs that gain little find new ones. More results than parameters are met in the
     least-squares sense, relative to their tolerances.
 
     Parameters
@@ -351,13 +355,29 @@ class _Search:
                 self.longest = _SHORTER * float(np.abs(moved).max())
             if exact and missed > _WAVY * self._distance(found):
                 self.missed = max(self.missed, missed / self._distance(found))
-            slopes = slopes + np.outer(found - slopes @ moved, moved) / float(moved @ moved)
+            slopes = self._corrected(slopes)
             if gain < 1.0:
                 x, y = x_new, y_new
             exact = not self.missed and not good and _SLOW < gain < 1.0 and len(self.trials) < most
             if exact:
                 y, slopes = self._derived(x)
         return self._found(x, y)
+
+    def _corrected(self, slopes: Floats) -> Floats:
+        """The nearest slopes with which the last runs agree, as many as there are parameters.
+
+        Changes count by their effects on the results; of nearly parallel ones the mean counts.
+        """
+        *before, last = self.trials[-1 - len(self.parameters) :]
+        moved = np.array([np.subtract(one.parameters, last.parameters) / self.scale for one in before]).T
+        found = np.array([np.subtract(one.results, last.results) for one in before]).T
+        known = np.abs(moved).max(axis=0) > 0.0
+        effect = np.linalg.norm(slopes / self.tolerance[:, None], axis=0)
+        sizes = np.linalg.norm(effect[:, None] * moved[:, known], axis=0)
+        ways = effect[:, None] * moved[:, known] / sizes
+        missed = (found - slopes @ moved)[:, known] / sizes
+        corrected: Floats = slopes + missed @ np.linalg.pinv(ways, rcond=_PARALLEL) * effect
+        return corrected
 
     def _distance(self, change: Floats) -> float:
         """Norm of a change of the results relative to their tolerances."""
@@ -435,11 +455,20 @@ class _Search:
         self.responses = list(found.measured)
         shapes = self._shapes(thing.build(), found.run)
         y = self._keep(x, [one.value for one in found.responses], shapes, found.run, derived=True)
-        if not np.isfinite(found.values).all():
-            raise InvalidValue(
-                "a derivative of a wanted result is unknown", where="by", value="; ".join(found.warnings)
-            )
-        return y, found.values * self.scale
+        slopes = found.values * self.scale
+        for column in np.flatnonzero(~np.isfinite(slopes).all(axis=0)):
+            moved, y_new = self._probed(x, int(column))
+            slopes[:, column] = (y_new - y) / moved
+        return y, slopes
+
+    def _probed(self, x: Floats, column: int) -> tuple[float, Floats]:
+        """A change of one scaled parameter, and the results with it."""
+        low, high = self.limits[column]
+        size = _PROBE * self.scale[column]
+        change = size if x[column] + size <= high else -size if x[column] - size >= low else high - x[column]
+        step = np.zeros(len(x))
+        step[column] = change
+        return change / self.scale[column], self._plain(x + step)
 
     def _keep(
         self,

@@ -33,13 +33,13 @@ class Shapes:
 
     Attributes
     ----------
-    formed : ndarray, shape (n, 2)
-        At the end of forming: x, z.
+    formed : ndarray, shape (n, 2), optional
+        At the end of forming: x, z; None for a part of several operations, which is in no tools as a whole.
     sprung : ndarray, shape (n, 2)
         At the end of the run, out of the tools.
     """
 
-    formed: Floats
+    formed: Floats | None
     sprung: Floats
 
     @classmethod
@@ -61,9 +61,8 @@ class Shapes:
 
     @classmethod
     def of_part(cls, part: Part) -> Self:
-        """Those of a part of several bends: its first leg on x. It is in no tools as a whole, so that both are one."""
-        middle = part.strip.middle
-        return cls(middle, middle)
+        """That of a part of several bends: its first leg on x."""
+        return cls(None, part.strip.middle)
 
 
 @dataclass(frozen=True)
@@ -108,6 +107,8 @@ def picture(first: Shapes, last: Shapes) -> Figure:
         figure = Figure(figsize=(7.5, 4.5), layout="constrained")
         axes = figure.add_subplot()
         for label, line, colour, style in lines:
+            if line is None:
+                continue
             axes.plot(*line.T, style, color=colour, label=label)
         axes.set(xlabel="x", ylabel="z", aspect="equal", title="Middle of the sheet")
         axes.legend()

@@ -1,5 +1,7 @@
 """Parameters for wanted results: few runs, bounds kept, undetermined parameters refused."""
 
+import sys
+
 import numpy as np
 import pytest
 
@@ -83,6 +85,34 @@ def test_a_force_of_a_function_is_reached():
     assert found.results[0].value == pytest.approx(-2.0, abs=1e-6)
 
 
+def wavy(way):
+    """Its force is that of a cantilever, with waves that turn the derivative around at the start."""
+    return cantilever(way, 210e3 * (1.0 + 0.05 * np.sin(way / 0.01)))
+
+
+def test_secants_take_the_place_of_derivatives_of_a_wave():
+    start = 0.01 * np.pi * 17  # the slope of the wave is -5 times that of the mean
+    found = uf.compensate(wavy, {"tip_force": uf.Wanted(-2.5, 0.02)}, {"way": start}, most=16)
+    assert found.reached
+    assert [trial.derived for trial in found.trials] == [True] + [False] * (len(found.trials) - 1)
+    assert "wavy" in found.warnings[0]
+
+
+def test_an_unknown_derivative_is_a_secant_of_one_run_more(monkeypatch):
+    module = sys.modules["umform.studies.goals.compensate"]
+
+    def unknown(*given, **more):
+        found = derivatives(*given, **more)
+        found.values[:] = np.nan
+        return found
+
+    derivatives = module.derivatives
+    monkeypatch.setattr(module, "derivatives", unknown)
+    found = uf.compensate(lambda way: cantilever(way, 210e3), {"tip_force": uf.Wanted(-2.0, 1e-6)}, {"way": 0.5})
+    assert found.reached
+    assert found.trials[1].parameters[0] == pytest.approx(0.5 * 1.09)
+
+
 def test_more_parameters_than_results_are_refused():
     by = {"way": 0.5, "E": 210e3}
     with pytest.raises(InvalidValue, match="do not determine the parameters"):
@@ -98,6 +128,7 @@ def test_the_angles_of_a_bracket_are_reached_by_its_strokes_in_three_more_runs()
     assert len(found.trials) <= 4
     assert not any(trial.derived for trial in found.trials)
     assert found.trials[found.best].results == pytest.approx((125.0, 130.0), abs=0.05)
+    assert found.trials[0].shapes.formed is None
 
 
 def test_a_sequence_of_bends_has_strokes_for_angles_only():
