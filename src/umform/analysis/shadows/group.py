@@ -102,7 +102,7 @@ class Shadows:
                 one.lose(f"the run has no solution to round-off there, {reason(failure)}", len(lead.result) - 1)
             return
         forces = forces_of(model, reference.evaluation)
-        factors = Factors(solver, reference.evaluation.x, reference.residual, forces)
+        factors = Factors(solver, model, reference.evaluation.x, reference.residual, forces)
         made = _Unknowns.of(model).since(start)
         ratio, self._last = _ratio(self._last, made), made
         for shadow in (one for one in self.others if not one.kept.lost):

@@ -45,9 +45,10 @@ _PASSES = 10
 
 @dataclass(frozen=True)
 class Factors:
-    """Factors of the tangent of the reference at the end of an increment, with its unknowns and its residual there."""
+    """Factors of the tangent of the reference at the end of an increment, with its model, unknowns and residual there."""
 
     solver: Bordered
+    model: Model
     x: Floats
     residual: float
     forces: Floats
@@ -256,11 +257,13 @@ class Shadow:
         run, system = self.run, self.run.model.system
         norms: list[float] = []
         while True:
+            forces = given is not None and len(norms) < _CORRECTIONS and not system.unknowns
             if guess is not None and not norms:
                 system.recover_by(guess.enhanced)
             else:
                 system.recover(du)
-            forces = given is not None and 0 < len(norms) < _CORRECTIONS and not system.unknowns
+            if given is not None and forces and not norms:
+                system.take_blocks(given.model.system)
             evaluation = system.evaluate(system.state_at(u + du, goal), tangent=not forces)
             if forces:
                 system.follow()
