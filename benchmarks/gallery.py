@@ -287,6 +287,7 @@ def made(name: str) -> Path:
         folder.mkdir(exist_ok=True)
         entry.run(folder)
         return folder
+    folder.with_suffix(".toml").unlink(missing_ok=True)  # the deck of a run that was stopped
     for command in entry.run:
         umform = str(Path(sys.executable).with_name("umform"))
         words = [
