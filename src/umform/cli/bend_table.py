@@ -159,7 +159,7 @@ def values_of(text: str, where: str) -> list[float]:
         first, last, step = (float(one) for one in text.split(":"))
         if step <= 0.0 or last < first or last - first > 1000.0 * step:
             raise ValueError
-        return [first + number * step for number in range(int((last - first) / step + 1e-9) + 1)]
+        return [round(first + number * step, 9) for number in range(int((last - first) / step + 1e-9) + 1)]
     except ValueError:
         raise InvalidValue(
             "this is no list of numbers",

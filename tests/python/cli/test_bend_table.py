@@ -11,6 +11,7 @@ import time
 import pytest
 from typer.testing import CliRunner
 
+from umform.cli.bend_table import values_of
 from umform.cli.commands import application
 from umform.io.store import Store
 
@@ -30,6 +31,11 @@ def store(tmp_path_factory):
 
 def umform(text, *more):
     return CliRunner().invoke(application(), [*text.split(), *more], prog_name="umform")
+
+
+def test_a_range_has_the_numbers_that_a_list_has():
+    assert values_of("90:90.5:0.1", "--angle") == [90.0, 90.1, 90.2, 90.3, 90.4, 90.5]
+    assert values_of("0.8,1", "--thickness") == [0.8, 1.0]
 
 
 def test_a_table_is_written_and_continues_from_the_store(tmp_path):
