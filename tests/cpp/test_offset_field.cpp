@@ -46,7 +46,8 @@ void slopes_and_curvatures() {
                 ahead[k] += h, behind[k] -= h;
                 const FieldValue plus = field.at(ahead), minus = field.at(behind);
                 CHECK_NEAR(at.slope[k], (plus.w - minus.w) / (2 * h), 1e-9);
-                for (int i = 0; i < 3; ++i) CHECK_NEAR(at.curvature(i, k), (plus.slope[i] - minus.slope[i]) / (2 * h), 1e-9);
+                for (int i = 0; i < 3; ++i)
+                    CHECK_NEAR(at.curvature(i, k), (plus.slope[i] - minus.slope[i]) / (2 * h), 1e-9);
             }
         }
 }
@@ -67,9 +68,9 @@ void values_of_a_spline() {
 
 /// g against the level set, n against differences of g, H against differences of n; the foot lies on the surface.
 void distances() {
-    const std::vector<std::shared_ptr<Surface>> tools{tool(Plane{{0, 0, 0}, {0, 0, 1}}), tool(Sphere{{0, 0, -9}, 9, false}),
-                                                      tool(Sphere{{0, 0, 9}, 9, true}),
-                                                      tool(Cylinder{{0, 0, -7}, along, 7, false})};
+    const std::vector<std::shared_ptr<Surface>> tools{
+        tool(Plane{{0, 0, 0}, {0, 0, 1}}), tool(Sphere{{0, 0, -9}, 9, false}), tool(Sphere{{0, 0, 9}, 9, true}),
+        tool(Cylinder{{0, 0, -7}, along, 7, false})};
     const double h = 1e-5;
     for (const auto& base : tools)
         for (const SplineField& field : fields(0.2)) {

@@ -83,7 +83,7 @@ def test_a_panel_of_140_elements_has_its_shape_in_four_runs():
 
 @pytest.mark.long
 def test_an_s_rail_has_its_shape_in_four_runs():
-    field = uf.OffsetField(["x", "y", "z"], [(0, LENGTH), (-75, 75), (-DEPTH, 0)], [7, 7, 3])
+    field = uf.OffsetField(["x", "y", "z"], [(0, LENGTH), (-75, 75), (-DEPTH, 0)], [9, 9, 3])
     found = uf.compensate_shape(s_rail(), "upper", {"die": field, "punch": field}, progress=False)
     assert found.trials[0].largest > 1.0
     assert found.reached, found.table

@@ -63,13 +63,29 @@ class OffsetField:
                 )
         axes = np.array([unit_vector(one, "along") for one in self.along])
         if np.abs(axes @ axes.T - np.eye(len(axes))).max() > RIGHT:
-            raise InvalidValue("the directions of a field are at right angles", where="along", value=self.along)
+            raise InvalidValue(
+                "the directions of a field are at right angles",
+                where="along",
+                value=self.along,
+                cause="rounded numbers, or one of them twice",
+                remedy='words such as ["x", "y"], or unit vectors with a scalar product of zero',
+            )
         for low, high in self.span:
             if not low < high:
-                raise InvalidValue("a span has a first and a larger last number", where="span", value=f"{low}, {high}")
+                raise InvalidValue(
+                    "a span has a first and a larger last number",
+                    where="span",
+                    value=f"{low}, {high}",
+                    cause="numbers exchanged",
+                    remedy="the coordinates of both ends of the tool along the direction",
+                )
         if min(self.coefficients) < 2:
             raise InvalidValue(
-                "a direction has at least 2 coefficients", where="coefficients", value=list(self.coefficients)
+                "a direction has at least 2 coefficients",
+                where="coefficients",
+                value=list(self.coefficients),
+                cause="a direction along which the offset is constant",
+                remedy="leave it out, or give 5 to 10",
             )
         count = math.prod(self.coefficients)
         object.__setattr__(self, "values", tuple(float(one) for one in self.values) or (0.0,) * count)
@@ -78,7 +94,8 @@ class OffsetField:
                 "a field has a value for each coefficient",
                 where="values",
                 value=f"{len(self.values)} instead of {count}",
-                remedy="as many as the product of coefficients, or none for zeros",
+                cause="another number of coefficients than values",
+                remedy="the product of the numbers of coefficients, or no values for zeros",
             )
         if not np.isfinite(self.values).all() or self.slope >= STEEPEST:
             raise InvalidValue(

@@ -49,9 +49,9 @@ class SplineField {
         for (int i = 0; i < along[0].size; ++i)
             for (int j = 0; j < along[1].size; ++j)
                 for (int k = 0; k < along[2].size; ++k) {
-                    const double c = c_[(static_cast<std::size_t>(along[0].id[i]) * along[1].of + along[1].id[j])
-                                            * along[2].of
-                                        + along[2].id[k]];
+                    const double c =
+                        c_[(static_cast<std::size_t>(along[0].id[i]) * along[1].of + along[1].id[j]) * along[2].of
+                           + along[2].id[k]];
                     const int at[3]{i, j, k};
                     for (int p = 0; p < 3; ++p) {
                         first[p] += c * product(along, at, p, -1);
@@ -65,8 +65,8 @@ class SplineField {
                 field.slope[a] += first[p] * axes_[p].direction[a];
                 for (std::size_t q = 0; q < axes_.size(); ++q)
                     for (int b = 0; b < 3; ++b)
-                        field.curvature(a, b) += second[std::max(p, q)][std::min(p, q)] * axes_[p].direction[a]
-                                                 * axes_[q].direction[b];
+                        field.curvature(a, b) +=
+                            second[std::max(p, q)][std::min(p, q)] * axes_[p].direction[a] * axes_[q].direction[b];
             }
         return field;
     }
@@ -111,7 +111,8 @@ class SplineField {
 /// from distance and Hessian of the tool beside its surface. eqs. (4.264) to (4.266)
 class OffsetByField final : public Surface {
   public:
-    OffsetByField(std::shared_ptr<const Surface> tool, SplineField field) : tool_(std::move(tool)), field_(std::move(field)) {}
+    OffsetByField(std::shared_ptr<const Surface> tool, SplineField field)
+        : tool_(std::move(tool)), field_(std::move(field)) {}
 
     bool is_distance() const override { return tool_->is_distance(); }
     double above() const override { return tool_->above() + field_.most() - field_.least(); }

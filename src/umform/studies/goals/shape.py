@@ -315,6 +315,7 @@ class _Source:
                 "the deck has no tool of this name",
                 where="by",
                 value=", ".join(unknown),
+                cause="another name, or that of a contact",
                 remedy=f"one of {', '.join(self.subject.contents.tools)}",
             )
         tables = {
@@ -407,6 +408,7 @@ class _FittedTool:
             raise InvalidValue(
                 "a tool has no offset field",
                 where=f"tools.{name}",
+                cause="its table has none, or the function does not use the field that it gets",
                 remedy=f'offset_field = {{ along = ["x", "y"], span = [[{low[0]:.4g}, {high[0]:.4g}], '
                 f"[{low[1]:.4g}, {high[1]:.4g}]], coefficients = [7, 5] }}, for a section along x alone",
             )
@@ -420,6 +422,7 @@ class _FittedTool:
                 "a tool shapes no part of the faces",
                 where=f"tools.{name}",
                 value=f"{np.abs(g).min():.4g} from them at the end of forming",
+                cause="another tool, or faces that it does not reach",
                 remedy="tools that hold the sheet in its shape then",
             )
         feet = (x - g[:, None] * n)[self.near]
