@@ -64,7 +64,7 @@ CHAINS = {
         replace(HEM, sheet=replace(HEM.sheet, stroke=7.2267)),
         ("sheet.material.hardening.strength", "sheet.punch_radius"),
         ("largest_force", "height", "springback", "tip_gap", "angle"),
-        1e-3,
+        3e-3,
     ),
 }
 

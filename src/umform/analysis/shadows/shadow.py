@@ -45,7 +45,7 @@ _PASSES = 10
 
 @dataclass(frozen=True)
 class Factors:
-    """Factors of the tangent of the reference at the end of an increment, with its model, unknowns and residual there."""
+    """Factors of the tangent of the reference at the end of an increment; its model, and its unknowns and residual."""
 
     solver: Bordered
     model: Model

@@ -184,11 +184,7 @@ class Closing:
         led = next(one for tool in lead.model.tools for one in tool.presses if one.way.name == press.way.name)
         sense, scale = math.copysign(1.0, step.force - self.start_force), abs(step.force - self.start_force)
         touching, start, saved = _touches(lead, led), press.way.value, Saved.of(run.model, run.evaluation)
-
-        def level(one: Run, its: Press) -> float:
-            return _takes(one, its) if touching else -sense * _gap(one, its)
-
-        wanted, slope = level(lead, led), 1.0
+        wanted, slope = _level(lead, led, sense, touching=touching), 1.0
         if lead.loop.before is not None:  # in contact before
             slope = (wanted - lead.loop.before[1]) / (led.way.value - lead.loop.before[0])
             target = led.way.value + start - lead.loop.before[0] + (lead.loop.before[1] - _takes(run, press)) / slope
@@ -201,7 +197,7 @@ class Closing:
         for left in reversed(range(_CLOSER)):
             with press.driven():
                 take([target], [press.way], self._time_at(step, target))
-            found = level(run, press)
+            found = _level(run, press, sense, touching=touching)
             if before is not None and before[0] != target and before[1] != found:
                 slope = (found - before[1]) / (target - before[0])
             closer = target + (wanted - found) / slope
@@ -299,6 +295,11 @@ class Closing:
 def _takes(run: Run, press: Press) -> float:
     """Force of the press for equilibrium of its tool in the present position."""
     return press.takes(press.way.value, press.way.of_sheet(run.evaluation, run.model.system.ranks))[0]
+
+
+def _level(run: Run, press: Press, sense: float, *, touching: bool) -> float:
+    """The force of the press in contact, else minus the gap in the sense of the travel: both grow with it."""
+    return _takes(run, press) if touching else -sense * _gap(run, press)
 
 
 def _touches(run: Run, press: Press) -> bool:

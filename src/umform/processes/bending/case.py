@@ -115,6 +115,11 @@ class Bending:
         return roughness(*self.loading, self.case.marks[0])
 
     @property
+    def main(self) -> list[str]:
+        """Name of its first quantity."""
+        return [one.name for one in self.quantities[:1]]
+
+    @property
     def quantities(self) -> list[Quantity]:
         """The measures: forces at the marks, displacement without force, jumps and roughness in per cent."""
         forces = zip(self.case.marks, self.forces, strict=True)
