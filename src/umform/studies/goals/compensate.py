@@ -43,6 +43,9 @@ _PROBE = 0.3 * _STEP
 _SHORTEST = 1e-4
 #: A distance from the wanted results that falls to more than this part asks for new derivatives.
 _SLOW = 0.5
+#: Effect of a change relative to the tolerances below which it says nothing of slopes, unless it led away from the
+#: wanted results: it may be that of waves.
+_SAYS = 3.0
 #: Sine of the angle between changes, about, below which they are one.
 _PARALLEL = 0.1
 #: Halvings of a step whose run fails.
@@ -355,7 +358,7 @@ class _Search:
                 self.longest = _SHORTER * float(np.abs(moved).max())
             if exact and missed > _WAVY * self._distance(found):
                 self.missed = max(self.missed, missed / self._distance(found))
-            slopes = self._corrected(slopes)
+            slopes = self._corrected(slopes, least=_SAYS if gain < 1.0 else 0.0)
             if gain < 1.0:
                 x, y = x_new, y_new
             exact = not self.missed and not good and _SLOW < gain < 1.0 and len(self.trials) < most
@@ -363,19 +366,20 @@ class _Search:
                 y, slopes = self._derived(x)
         return self._found(x, y)
 
-    def _corrected(self, slopes: Floats) -> Floats:
+    def _corrected(self, slopes: Floats, least: float) -> Floats:
         """The nearest slopes with which the last runs agree, as many as there are parameters.
 
-        Changes count by their effects on the results; of nearly parallel ones the mean counts.
+        Changes count by their effects on the results; those below the least do not, of nearly parallel ones the
+        mean does.
         """
         *before, last = self.trials[-1 - len(self.parameters) :]
         moved = np.array([np.subtract(one.parameters, last.parameters) / self.scale for one in before]).T
         found = np.array([np.subtract(one.results, last.results) for one in before]).T
-        known = np.abs(moved).max(axis=0) > 0.0
         effect = np.linalg.norm(slopes / self.tolerance[:, None], axis=0)
-        sizes = np.linalg.norm(effect[:, None] * moved[:, known], axis=0)
-        ways = effect[:, None] * moved[:, known] / sizes
-        missed = (found - slopes @ moved)[:, known] / sizes
+        sizes = np.linalg.norm(effect[:, None] * moved, axis=0)
+        known = sizes > least
+        ways = effect[:, None] * moved[:, known] / sizes[known]
+        missed = (found - slopes @ moved)[:, known] / sizes[known]
         corrected: Floats = slopes + missed @ np.linalg.pinv(ways, rcond=_PARALLEL) * effect
         return corrected
 
