@@ -85,7 +85,7 @@ def test_tools_follow_the_drawing():
     tooling = Tooling()
     assert tooling.case(90.0, 2.5, 2.0).opening == 16.0
     assert tooling.case(90.0, 20.0, 2.0).opening == 20.0  # at most 12 thicknesses: 24
-    assert tooling.case(120.0, 2.0, 2.0).die_angle == 30.0
+    assert [tooling.case(angle, 2.0, 2.0).die_angle for angle in (100.0, 120.0, 140.0)] == [60.0, 45.0, 30.0]
     assert tooling.case(90.0, 2.0, 2.0).die_angle == 85.0
     assert Tooling(opening=25.0).case(90.0, 2.0, 2.0).opening == 25.0
 
