@@ -32,8 +32,8 @@ export OMP_WAIT_POLICY ?= passive
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
-.PHONY: help env book dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification mutants lint lint-python lint-once lint-imports lint-types lint-page lint-stubs lint-format lint-cpp stubs \
-        format docs wheel bench dome robust robust-draws balances ubend cup draws s-rail compare peers clean
+.PHONY: k-factor help env book dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification mutants lint lint-python lint-once lint-imports lint-types lint-page lint-stubs lint-format lint-cpp stubs \
+        format docs wheel bench dome robust robust-draws balances ubend cup draws s-rail compare peers gallery clean
 
 help:  ## show this help
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -126,12 +126,19 @@ s-rail: book  ## the S-rail of the verification book with up to 6 000 elements, 
 	$(SAY) 'Drawing the S-rail'
 	@$(BIN)/python benchmarks/s_rail.py --json build/s_rail.json $(ARGS)
 
+k-factor: env  ## K over radius / thickness from runs, for docs/k-factor.md (75 s of CPU the first time)
+	@$(BIN)/python tools/k_factor_picture.py $(ARGS)
+
 compare: env  ## compare the speed of two commits: make compare ARGS="main HEAD"
 	@$(BIN)/python benchmarks/compare.py $(ARGS)
 
 peers: book  ## the same work in other codes that are installed, CalculiX first (some 15 minutes of CPU)
 	@$(BIN)/python benchmarks/peers/run.py --out benchmarks/peers/results.md --page docs/performance-codes.md $(ARGS)
 	@$(BIN)/python tools/performance_numbers.py
+
+gallery: book $(VENV)/.dev  ## pictures of formed parts and docs/gallery.md (some 4 minutes of CPU the first time)
+	$(SAY) 'Drawing the gallery'
+	@$(BIN)/python benchmarks/gallery.py $(ARGS)
 
 # ---- test ----
 

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from umform.plotting import COLOURS, house_style, save
@@ -24,21 +25,31 @@ PICTURE = Path(__file__).parent.parent / "docs" / "images" / "k_factor.png"
 
 
 def picture(table: BendTable) -> Figure:
-    """K over R / T, with the formula of DIN 6935 and three constants."""
-    figure = Figure(figsize=(7.2, 4.2), layout="constrained")
-    axes = figure.subplots()
-    for number, metal in enumerate(METALS):
-        bends = [one for part in table.parts if part.setup.metal == metal for one in part.bends]
-        ratio = [one.radius / one.case.thickness for one in bends]
-        axes.plot(ratio, [one.k_factor for one in bends], "o", ms=3.5, color=COLOURS[number], label=metal)
+    """K and the place of the neutral fibre over R / T, with the formula of DIN 6935 and three constants."""
+    figure = Figure(figsize=(8.4, 3.7), layout="constrained")
+    left, right = figure.subplots(1, 2, sharey=True)
+    _draw(left, table, "k_factor")
+    _draw(right, table, "neutral_fibre")
+    left.set_ylabel("K (ANSI) for the flat pattern")
+    right.set_ylabel("neutral fibre in the flat sheet, from the inner face, over T")
+    left.set_ylim(0.3, 0.52)
+    left.legend(fontsize="small")
+    return figure
+
+
+def _draw(axes: Axes, table: BendTable, quantity: str) -> None:
+    for part in table.parts:
+        number, ratio = METALS.index(part.setup.metal), [one.radius / one.case.thickness for one in part.bends]
+        first = part.setup.case.thickness == THICKNESSES[0] and part.setup.case.opening == OPENINGS[0]
+        label = part.setup.metal if first else None
+        values = [getattr(one.measures, quantity) for one in part.bends]
+        axes.plot(ratio, values, "o-", ms=3.0, lw=0.6, color=COLOURS[number], label=label)
     ratio = np.geomspace(0.7, 20.0, 100)
     axes.plot(ratio, 0.5 * np.minimum(0.65 + 0.5 * np.log10(ratio), 1.0), "k-", lw=1.0, label="DIN 6935, k / 2")
     for K in SHIPPED:
-        axes.axhline(K, color="0.6", lw=0.8, ls="--", label="0.35, 0.41, 0.45" if K == SHIPPED[0] else None)
-    axes.set(xscale="log", xlabel="inside radius / thickness", ylabel="K (ANSI)", xlim=(0.7, 20.0), ylim=(0.3, 0.52))
+        axes.axhline(K, color="0.6", lw=0.8, ls="--", label="0.35, 0.41, 0.45" if SHIPPED[0] == K else None)
+    axes.set(xscale="log", xlabel="inside radius R / thickness T", xlim=(0.7, 20.0))
     axes.set_xticks([1, 2, 5, 10, 20], ["1", "2", "5", "10", "20"])
-    axes.legend()
-    return figure
 
 
 def main(path: Path) -> None:
@@ -47,21 +58,19 @@ def main(path: Path) -> None:
     table = bend_table(wanted, ANGLES)
     with house_style():
         save(picture(table), path)
-    for metal in METALS:
-        bends = [one for part in table.parts if part.setup.metal == metal for one in part.bends]
-        near = {
-            at: [one.k_factor for one in bends if abs(one.radius / one.case.thickness / at - 1.0) < 0.1]
-            for at in (1, 2, 5)
-        }
-        print(metal, {at: f"{min(ks):.3f} to {max(ks):.3f}" for at, ks in near.items() if ks})
-        right = {
-            part.setup.name: one
-            for part in table.parts
-            for one in part.bends
-            if one.wanted == 90.0 and part.setup.metal == metal
-        }
-        for name, one in right.items():
-            print(f"  {name}: 90 degrees, R {one.radius:.2f}, K {one.k_factor:.3f}, BD {one.deduction:.3f}")
+    bends = [one for part in table.parts for one in part.bends]
+    for quantity in ("k_factor", "neutral_fibre"):
+        near = [one for one in bends if 2.7 < one.radius / one.case.thickness < 3.3]
+        values = [getattr(one.measures, quantity) for one in near]
+        print(f"{quantity} at R/T of 2.7 to 3.3: {min(values):.3f} to {max(values):.3f}")
+    print(f"errors of BD with K = {SHIPPED} and R, and with K = {SHIPPED[1]} and the radius of the punch")
+    for part in table.parts:
+        one, case = part.bends[0], part.setup.case
+        if one.wanted == 90.0 and part.setup.metal == METALS[0]:
+            T, guesses = case.thickness, [*((one.radius, K) for K in SHIPPED), (case.punch_radius, SHIPPED[1])]
+            errors = [f"{2.0 * (R + T) - 0.5 * np.pi * (R + K * T) - one.deduction:+.2f}" for R, K in guesses]
+            numbers = [f"{one.radius:.2f}", f"{one.k_factor:.3f}", f"{one.deduction:.3f}", *errors]
+            print(f"| {T:g} mm, V {case.opening:g} | {' | '.join(numbers)} |")
 
 
 if __name__ == "__main__":

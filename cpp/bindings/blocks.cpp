@@ -185,6 +185,8 @@ void bind_blocks(nb::module_& m) {
             "Whether enhanced parameters can be recovered from the converged state without an evaluation there.")
         .def_prop_ro("staged_returns", &ShellBlock::staged_returns,
                      "Points at which return maps have gone through stages of a shrinking yield surface so far.")
+        .def("take_blocks", &ShellBlock::take_blocks, nb::arg("of"),
+             "Take the tangent with which enhanced parameters are recovered from the same elements of a similar run.")
         .def("follow", &ShellBlock::follow,
              "After an evaluation of forces alone: the next recover takes its residual, with the tangent of before.")
         .def("shorten", &ShellBlock::shorten, nb::arg("part"),

@@ -474,6 +474,11 @@ class ShellBlock:
         Points at which return maps have gone through stages of a shrinking yield surface so far.
         """
 
+    def take_blocks(self, of: ShellBlock) -> None:
+        """
+        Take the tangent with which enhanced parameters are recovered from the same elements of a similar run.
+        """
+
     def follow(self) -> None:
         """
         After an evaluation of forces alone: the next recover takes its residual, with the tangent of before.

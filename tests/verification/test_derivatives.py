@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
+from umform_book.derivatives.chains import CHAINS, compared_chain
 from umform_book.derivatives.differences import compared
 from umform_book.derivatives.laws import LAWS, example
 from umform_book.derivatives.steps import EXAMPLES
@@ -23,3 +26,16 @@ def test_a_model(name):
     for one in compared(EXAMPLES[name]):
         assert one.derivative < EXAMPLES[name].limit, one
         assert EXAMPLES[name].ends or one.shadow < 1e-4, one
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", CHAINS)
+def test_operations_one_after_the_other(name):
+    for one in compared_chain(CHAINS[name]):
+        assert one.derivative < CHAINS[name].limit, one
+
+
+def test_the_second_bend_begins_with_what_the_first_has_left():
+    chain = replace(CHAINS["part of two bends"], by=("sheet.material.hardening.strength",))
+    (one,) = compared_chain(chain)
+    assert one.derivative < chain.limit

@@ -85,7 +85,8 @@ def bead(
 
     print_warnings_once()
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
-    case = compensated(DrawBead(**given, material=law), want, by)
+    goals = compensated(DrawBead(**given, material=law), want, by)
+    case = goals.case
     if deck:
         print_deck(case)
         return
@@ -98,14 +99,16 @@ def bead(
             drawn = extrapolated(case) if extrapolate else drawn_through(case)
         more: list[Path] = []
         scatter: list[Path] = []
+        wanted: list[Path] = []
         try:
             drawn, more = derived(drawn, case, derive, place)
             drawn, scatter = scatter_options.added_to(drawn, case, place)
+            drawn, wanted = goals.added_to(drawn, place)
             with printing(f"the files of the bead are in {place}"):
                 show_outcome(drawn, f"equivalent: {in_python(drawn)}", note=note, everything=everything)
         finally:  # even if the table cannot be printed
             with drawn.result.timing.files:
-                files = [*write_files(place, drawn, note), *more, *scatter]
+                files = [*write_files(place, drawn, note), *more, *scatter, *wanted]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(drawn.result.timing)

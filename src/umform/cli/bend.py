@@ -132,17 +132,32 @@ def bend(
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     tools = drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer)
     case = AirBending(**{**given, "stroke": stroke}, **tools, material=law)
+    if sequence is not None:
+        studies = bool(find or quantity)
+        check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, deck, studies)
+        run_sequence(
+            sequence,
+            case,
+            note,
+            out,
+            length,
+            want,
+            by,
+            tolerance=tolerance,
+            overwrite=overwrite,
+            everything=everything,
+            derive=derive,
+            scatter_options=scatter_options,
+        )
+        return
     if scatter_options:  # refuse what is wrong before the run
         scatter_options.check(replace(case, stroke=stroke or 0.5 * case.largest_stroke))
-    if sequence is not None:
-        check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, deck)
-        run_sequence(sequence, case, note, out, length, tolerance=tolerance, overwrite=overwrite, everything=everything)
-        return
     if bottoming:
         check_press(angle, table, budget, stroke, force_per_metre, travel)
         case = case if travel is None else with_travel(case, travel)
         check_value(Goal, "force_per_metre", force_per_metre)
-    case = compensated(case, want, by)
+    goals = compensated(case, want, by)
+    case = goals.case
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
     if find or quantity:
@@ -167,6 +182,7 @@ def bend(
             done = replace(_bent(brake, case, angle, force_per_metre, tolerance), table=tuple(rows), bend_length=length)
         more: list[Path] = []
         scatter: list[Path] = []
+        wanted: list[Path] = []
         try:
             if budget:
                 from umform.processes.air_bending.budget import error_budget
@@ -174,6 +190,7 @@ def bend(
                 done = replace(done, budget=error_budget(done.case, done.measures, processes=processes))
             done, more = derived(done, done.case, derive, place, None if angle is None else {"angle": "stroke"})
             done, scatter = scatter_options.added_to(done, done.case, place)
+            done, wanted = goals.added_to(done, place)
             with printing(f"the files of the bend are in {place}"):
                 show_outcome(done, note=note, everything=everything)
         except KeyboardInterrupt as stop:
@@ -181,7 +198,7 @@ def bend(
             raise
         finally:  # even if the table cannot be printed
             with done.result.timing.files:
-                files = [*write_files(place, done, note), *more, *scatter]
+                files = [*write_files(place, done, note), *more, *scatter, *wanted]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")

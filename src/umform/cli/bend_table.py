@@ -126,7 +126,7 @@ def issue(
     print_table(_rows(table))
     count = sum(len(part.bends) + len(part.checks) for part in table.parts)
     typer.echo(f"{count} bends, {table.computed} computed now, {count - table.computed} from the store")
-    for text in sorted({note for part in table.parts for one in part.bends for note in one.notes if "coarse" in note}):
+    for text in dict.fromkeys(remark for part in table.parts for remark in part.remarks):
         say(f"warning: {text}")
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     for which, why in table.failed.items():

@@ -5,18 +5,22 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
 from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read
-from umform.cli.outcome_screen import print_table
-from umform.cli.root import Debug, Overwrite, Verbose, app, console
-from umform.cli.warnings import echo_warnings, print_warnings_once
+from umform.cli.derive import say_written
+from umform.cli.outcome_screen import show_annex
+from umform.cli.root import Debug, Overwrite, Verbose, app
+from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
 
 if TYPE_CHECKING:
-    from umform.studies.goals import Compensated, CompensatedShape, Wanted
+    from umform.results.outcome import Outcome
+    from umform.studies.goals import Compensated, Wanted
+
+_Outcome = TypeVar("_Outcome", bound="Outcome")
 
 Want = Annotated[
     list[str] | None,
@@ -112,22 +116,39 @@ def compensate(
             found = find(problem, wanted(want or ()), paths, bounds=bounds, **most)
     for text in said:
         typer.echo(f"umform: {text}", err=True)
-    if shape:
-        show_shape(found)
-    else:
-        show(found)
-    files = found.write(place)
-    console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True, markup=False)
+    show_annex(found.annex)
+    say_written(found.write(place))
     if not found.reached:
         raise typer.Exit(1)
 
 
-def compensated(case: Any, want: Sequence[str] | None, by: Sequence[str] | None) -> Any:
+class Goals:
+    """Parameters of a process for wanted results, found before its run; or none.
+
+    Attributes
+    ----------
+    case : Spec
+        The case with the parameters.
+    found : Compensated, optional
+        The runs on the way.
+    """
+
+    def __init__(self, case: Any, found: Compensated | None = None) -> None:
+        self.case, self.found = case, found
+
+    def added_to(self, outcome: _Outcome, place: Path) -> tuple[_Outcome, list[Path]]:
+        """The outcome with the runs, and their files; without any, the outcome itself."""
+        if self.found is None:
+            return outcome, []
+        return outcome.with_annex(self.found.annex), self.found.write(place)
+
+
+def compensated(case: Any, want: Sequence[str] | None, by: Sequence[str] | None) -> Goals:
     """The case of a process with parameters for wanted results; the case itself without any."""
     from umform.studies.goals import compensate as find
 
     if not want and not by:
-        return case
+        return Goals(case)
     if not want or not by:
         raise InvalidValue(
             "a wanted result needs a parameter that follows, and a parameter a wanted result",
@@ -136,28 +157,7 @@ def compensated(case: Any, want: Sequence[str] | None, by: Sequence[str] | None)
         )
     paths, bounds = bounded(by)
     found = find(case, wanted(want), paths, bounds=bounds)
-    show(found)
-    return found.subject
-
-
-def show(found: Compensated) -> None:
-    """Print the runs, and whether the results were reached."""
-    print_table(found.table, "Compensation")
-    values = ", ".join(f"{path} = {one.value:.6g} {one.unit}".rstrip() for path, one in found.parameters.items())
-    console().print(values, soft_wrap=True, markup=False)
-    if not found.reached:
-        echo_warnings(["the wanted results are not reached: more runs, wider bounds, or other parameters"])
-
-
-def show_shape(found: CompensatedShape) -> None:
-    """Print the runs, and whether the shape was reached."""
-    print_table(found.table, "Compensation")
-    if found.stopped:
-        echo_warnings([f"the next run failed: {found.stopped}"])
-    if not found.reached:
-        echo_warnings(
-            [f"the largest deviation is {found.best.largest:.4g}, wanted {found.within:.4g}: more runs or coefficients"]
-        )
+    return Goals(found.subject, found)
 
 
 def wanted(texts: Sequence[str]) -> dict[str, Wanted]:

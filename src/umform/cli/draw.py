@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from umform.cli.compensate import By, Want, compensated
+from umform.cli.compensate import By, Goals, Want, compensated
 from umform.cli.derive import Derive, derived
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
@@ -133,11 +133,12 @@ def cup(
     typed: dict[str, Any] = {"punch": punch, "opening": opening, "blank": blank}
     radii = {radius: typed[name] and 0.5 * typed[name] for radius, name in Cup.diameters.items()}
     case = Cup(**given | radii | {"holder_force": given["holder_force"] or None}, material=law)
+    goals = compensated(case, want, by)
     if deck:
-        print_deck(case)
+        print_deck(goals.case)
         return
     _run(
-        case,
+        goals,
         draw,
         out,
         "cup",
@@ -196,14 +197,15 @@ def u(
 
     given = _on_mesh(UBend, given, coarse, fine)
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
-    case = compensated(UBend(**given, material=law), want, by)
+    goals = compensated(UBend(**given, material=law), want, by)
     if deck:
-        print_deck(case)
+        print_deck(goals.case)
         return
-    three = not coarse if extrapolate is None else extrapolate
+    one_mesh = coarse or goals.found is not None  # wanted results are those of the mesh of the case
+    three = not one_mesh if extrapolate is None else extrapolate
     how = extrapolated if three else draw
     _run(
-        case,
+        goals,
         how,
         out,
         "u-bend",
@@ -256,7 +258,7 @@ def _why(error: Exception) -> str:
 
 
 def _run(
-    case: Cup | UBend,
+    goals: Goals,
     how: Callable[..., Drawn],
     out: str | None,
     name: str,
@@ -276,6 +278,7 @@ def _run(
     from umform.processes.draw.words import before_the_run
 
     print_warnings_once()
+    case = goals.case
     if scatter_options:  # refuse what is wrong before the run
         scatter_options.check(case)
     curve = _limit(limit)
@@ -288,15 +291,17 @@ def _run(
         drawn = how(case, limit=curve)
         more: list[Path] = []
         scatter: list[Path] = []
+        wanted: list[Path] = []
         try:
             drawn, more = derived(drawn, case, derive if drawn.released else None, place)
             if drawn.released:
                 drawn, scatter = scatter_options.added_to(drawn, case, place)
+            drawn, wanted = goals.added_to(drawn, place)
             with printing(f"the files of the part are in {place}"):
                 show_outcome(drawn, note=note, everything=everything)
         finally:  # even if the table cannot be printed
             with drawn.result.timing.files:
-                files = [*write_files(place, drawn, note, blank), *more, *scatter]
+                files = [*write_files(place, drawn, note, blank), *more, *scatter, *wanted]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(drawn.result.timing)

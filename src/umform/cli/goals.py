@@ -49,7 +49,7 @@ def check_no_goal(option: str, *goals: object) -> None:
         raise InvalidValue(
             "the bends of a file have angles and strokes of their own",
             where=option,
-            cause="--angle, --stroke, --table, --bottoming, --budget or --print-deck beside it",
+            cause="--angle, --stroke, --table, --bottoming, --budget, --print-deck or --find beside it",
             remedy=f"leave them out, or {option}",
         )
 

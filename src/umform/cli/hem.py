@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from umform.cli.derive import Derive, derived
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
 from umform.cli.options import All, Curve, FlowCurve, Material, Modulus, Poisson, Yield, Young
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.warnings import print_warnings_once
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.hemming.spec import ACUTE, Hemming, acute
@@ -36,6 +39,7 @@ _LENGTHS = Hemming.proportions | {
     otherwise={name: f"{times:g} thickness{'' if times == 1.0 else 'es'}" for name, times in _LENGTHS.items()},
     **ACUTE | dict.fromkeys(_LENGTHS) | {"thickness": 1.0},
 )
+@scattering
 def hem(
     given: Given,
     out: Annotated[
@@ -50,9 +54,12 @@ def hem(
     curve: Curve = None,
     flow_curve: FlowCurve = None,
     everything: All = False,
+    derive: Derive = None,
     overwrite: Overwrite = False,
     verbose: Verbose = 0,
     debug: Debug = False,
+    *,
+    scatter_options: ScatterOptions,
 ) -> None:
     """Hem a sheet: an acute bend in a V-die, then flattened between a plate and a table.
 
@@ -69,13 +76,18 @@ def hem(
     of_hem = {name: given.pop(name) for name in _OF_HEM}
     sheet = acute(**{name: value for name, value in given.items() if value is not None}, material=law)
     case = Hemming(**of_hem, sheet=sheet)
+    if scatter_options:  # refuse what is wrong before the run
+        scatter_options.check(replace(case, sheet=replace(sheet, stroke=0.5 * sheet.largest_stroke)))
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/hem"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     with staging(place, FILES):
-        done = hemming(case)
+        done, more = hemming(case), list[Path]()
         try:
+            done, more = derived(done, done.with_stroke, derive, place, done.strokes)
+            done, spread = scatter_options.added_to(done, done.with_stroke, place)
+            more += spread
             with printing(f"the files of the hem are in {place}"):
                 show_outcome(done, note=note, everything=everything)
         finally:  # even if the table cannot be printed
-            files = write_files(place, done, note)
+            files = [*write_files(place, done, note), *more]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)

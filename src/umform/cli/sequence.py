@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -9,10 +10,12 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from umform.cli.compensate import compensated
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import console, printing
 
 if TYPE_CHECKING:
+    from umform.cli.scattering import ScatterOptions
     from umform.processes.air_bending.spec import AirBending
 
 
@@ -22,12 +25,17 @@ def run_sequence(
     note: str,
     out: str | None,
     length: float | None,
+    want: Sequence[str] | None = None,
+    by: Sequence[str] | None = None,
     *,
     tolerance: float,
     overwrite: bool,
     everything: bool,
+    derive: Sequence[str] | None = None,
+    scatter_options: ScatterOptions | None = None,
 ) -> None:
     """Bend the part of a file, print the results and write them; a part that collides ends with exit code 1."""
+    from umform.cli.derive import derived
     from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.processes.bend_sequence import bend_sequence
@@ -35,7 +43,10 @@ def run_sequence(
     from umform.processes.bend_sequence.foreseen import foreseen_collisions, foreseen_text
     from umform.processes.bend_sequence.form import read_sequence
 
-    sequence = read_sequence(file).sequence(sheet)
+    goals = compensated(read_sequence(file).sequence(sheet), want, by)
+    sequence = goals.case
+    if scatter_options:  # refuse what is wrong before the run
+        scatter_options.check(sequence.some_strokes)
     say = partial(typer.echo, err=True)
     tell = partial(folder_for, out, Path("results/sequence"), RESULTS, overwrite=overwrite)
     place = tell(say=lambda text: say(f"umform: {text}"))
@@ -44,11 +55,19 @@ def run_sequence(
             say(f"umform: {foreseen_text(sequence, number, hit)}")
     with staging(place, FILES):
         part = replace(bend_sequence(sequence, tolerance=tolerance), bend_length=length)
+        more: list[Path] = []
         try:
+            part, wanted = goals.added_to(part, place)
+            more += wanted
+            part, found = derived(part, part.with_strokes, derive, place, part.strokes)
+            more += found
+            if scatter_options:
+                part, spread = scatter_options.added_to(part, part.with_strokes, place)
+                more += spread
             with printing(f"the files of the part are in {place}"):
                 show_outcome(part, note=note, everything=everything, without=part.collisions)
         finally:  # even if the table cannot be printed
-            files = write_files(place, part, note)
+            files = [*write_files(place, part, note), *more]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if part.collisions:
         text = "umform: this part cannot be bent so: " + "; ".join(part.collisions)

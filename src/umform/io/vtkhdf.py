@@ -11,7 +11,7 @@ from __future__ import annotations
 import io
 import math
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from types import TracebackType
 from typing import Any, Self
 
@@ -206,6 +206,29 @@ class VtkHdfSeries:
         self._waiting.append(fields)
         if len(self._waiting) * sum(array.nbytes for array in fields.values()) >= self._buffer:
             self._write_waiting()
+
+    def attach(self, name: str, arrays: Mapping[str, ArrayLike]) -> None:
+        """Add arrays that are no fields, as a group beside that of VTK, which its readers skip.
+
+        Parameters
+        ----------
+        name : str
+            Path of the group in the file.
+        arrays : mapping of str to array_like
+            The arrays by their names.
+
+        Raises
+        ------
+        FileProblem
+            They cannot be written.
+        """
+        try:
+            group = self._file.create_group(name)
+            for key, values in arrays.items():
+                array = np.asarray(values)
+                group.create_dataset(key, data=array, **(COMPRESSION if array.nbytes > SMALL else {}))
+        except OSError as error:
+            raise write_problem(self._target.path, error) from error
 
     def _close(self) -> None:
         """Close the temporary file; the series takes no more steps."""

@@ -84,6 +84,11 @@ class System(Evaluated):
         for body, part in zip(self.bodies, change, strict=True):
             body.block.recover_by(part)
 
+    def take_blocks(self, other: System) -> None:
+        """Take the tangents with which enhanced parameters are recovered from a similar model."""
+        for body, like in zip(self.bodies, other.bodies, strict=True):
+            body.block.take_blocks(like.block)
+
     def revert(self) -> None:
         """Discard all changes since the last commit."""
         for term in self.terms:

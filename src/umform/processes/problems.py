@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from importlib import import_module
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from umform.errors import InvalidValue
@@ -33,23 +36,69 @@ def problem_of(case: Any) -> Problem:
     return made
 
 
-def outcome_of(case: Any, result: Result) -> Outcome:
-    """What a process reports of a run of its problem, from the file ``outcome.py`` of its folder.
+@dataclass(frozen=True)
+class Operation:
+    """One of several operations, each from the end of the one before.
+
+    Attributes
+    ----------
+    name : str
+        Letters, digits, hyphens.
+    problem : callable
+        Takes the run of the operation before, None for the first one; returns the problem.
+    alone : bool
+        Whether it also takes None in place of an operation before: elements and steps are those, the state is not.
+    """
+
+    name: str
+    problem: Callable[[Result | None], Problem]
+    alone: bool = True
+
+
+def has_operations(case: Any) -> bool:
+    """Whether a case is of a process of several operations: `BendSequence`, `Hemming`."""
+    folder = type(case).__module__.rpartition(".")[0]
+    return folder.startswith(__package__ or "") and find_spec(_module(case, "operations")) is not None
+
+
+def operations_of(case: Any) -> Sequence[Operation]:
+    """The operations of a case, from the file ``operations.py`` of its folder.
+
+    Parameters
+    ----------
+    case : Spec
+        The parameters, with a stroke for each bend.
+
+    Raises
+    ------
+    InvalidValue
+        A bend has no stroke, or this is no such case.
+    """
+    found: Sequence[Operation] = _function(case, "operations")(case)
+    return found
+
+
+def outcome_of(case: Any, *results: Result) -> Outcome:
+    """What a process reports of the runs of its problem or operations, from the file ``outcome.py`` of its folder.
 
     Parameters
     ----------
     case : Spec
         The parameters.
-    result : Result
-        A run with a frame at the end of each step.
+    *results : Result
+        The run of each, with a frame at the end of each step.
     """
-    found: Outcome = _function(case, "outcome")(case, result)
+    found: Outcome = _function(case, "outcome")(case, *results)
     return found
+
+
+def _module(case: Any, file: str) -> str:
+    return f"{type(case).__module__.rpartition('.')[0]}.{file}".lstrip(".")
 
 
 def _function(case: Any, file: str) -> Any:
     """The function ``<file>_of`` of a file in the folder of the process."""
-    module = f"{type(case).__module__.rpartition('.')[0]}.{file}".lstrip(".")
+    module = _module(case, file)
     try:
         return getattr(import_module(module), f"{file}_of")
     except (ModuleNotFoundError, AttributeError) as error:

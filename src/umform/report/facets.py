@@ -14,7 +14,7 @@ Ids = NDArray[np.int64]
 CREASE = 35.0
 
 
-def smooth_groups(points: Floats, faces: Ids) -> Ids:
+def smooth_groups(points: Floats, faces: Ids, normals: Floats | None = None) -> Ids:
     """Groups of the corners of faces that share a normal.
 
     Parameters
@@ -23,6 +23,8 @@ def smooth_groups(points: Floats, faces: Ids) -> Ids:
         Positions.
     faces : ndarray of int, shape (m, k)
         Triangles or quadrilaterals, counter-clockwise from outside.
+    normals : ndarray, shape (m, k, 3), optional
+        Unit normals of curved faces at their corners; otherwise faces are flat.
 
     Returns
     -------
@@ -41,9 +43,10 @@ def smooth_groups(points: Floats, faces: Ids) -> Ids:
     one, other = order[:-1], order[1:]
     met = (ends[one] == ends[other]).all(axis=1)
     one, other = one[met], other[met]
-    normal = unit_normals(points, faces)
-    flat = np.einsum("ei,ei->e", normal[one // k], normal[other // k]) > np.cos(np.radians(CREASE))
-    links = np.stack([ids[one[flat]].ravel(), ids[other[flat]].ravel()], axis=1)
+    links = np.stack([ids[one], ids[other]], axis=-1).reshape(-1, 2)
+    own = (np.repeat(unit_normals(points, faces), k, axis=0) if normals is None else normals.reshape(-1, 3))[links]
+    flat = np.einsum("ei,ei->e", own[:, 0], own[:, 1]) > np.cos(np.radians(CREASE))
+    links = links[flat]
     return connected(m * k, links).reshape(m, k)
 
 

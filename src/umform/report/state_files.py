@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from os import PathLike
 from pathlib import Path
-from typing import NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 from umform.errors import InvalidValue
 from umform.io.atomic import PendingFile
@@ -15,7 +15,10 @@ from umform.io.states.radioss import radioss_lines, read_radioss
 from umform.io.states.state import FormedState
 from umform.model import Model
 from umform.report.symmetry import mirrors
-from umform.results.formed import Points, formed_shells, formed_solids
+from umform.results.formed import Points, Rule, formed_shells, formed_solids
+
+if TYPE_CHECKING:
+    from umform.model.transfer.trim import AtItsEnd
 
 
 class Program(NamedTuple):
@@ -33,6 +36,8 @@ class Program(NamedTuple):
         Meshes that it has, the default first.
     points : {1, 8}
         Points of a solid.
+    rule : {"gauss", "even"}
+        Rule of the points of a shell.
     """
 
     lines: Callable[[FormedState], Iterator[str]]
@@ -40,26 +45,18 @@ class Program(NamedTuple):
     suffix: str
     meshes: tuple[str, ...]
     points: Points = 1
+    rule: Rule = "gauss"
 
 
 #: The formats by name.
 PROGRAMS = {
     "dynain": Program(dynain_lines, read_dynain, ".k", ("shells", "solids")),
-    "radioss": Program(radioss_lines, read_radioss, ".sta", ("shells", "solids")),
+    "radioss": Program(radioss_lines, read_radioss, ".sta", ("shells", "solids"), rule="even"),
     "abaqus": Program(abaqus_lines, read_initial_conditions, ".inp", ("solids",)),
     "calculix": Program(calculix_lines, read_initial_conditions, ".inp", ("solids",), 8),
 }
 #: Points of a shell, layers of solids.
 POINTS, LAYERS = 9, 6
-
-
-class AtItsEnd(Protocol):
-    """A run with its model in the last state."""
-
-    @property
-    def model(self) -> Model:
-        """The model."""
-        ...
 
 
 def export_state(
@@ -129,7 +126,7 @@ def export_state(
     model = part if isinstance(part, Model) else part.model
     said = units or "those of the model"
     if wanted == "shells":
-        state = formed_shells(model, points, said)
+        state = formed_shells(model, points, said, program.rule)
     else:
         state = formed_solids(model, layers, program.points, said)
     if mirror:

@@ -27,6 +27,7 @@ Ids = NDArray[np.int64]
 _QUADS = {4: [[0, 1, 2, 3]], 9: [[0, 4, 8, 7], [4, 1, 5, 8], [8, 5, 2, 6], [7, 8, 6, 3]]}
 _FIRST, _SECOND = (np.array(axes) for axes in zip(*AXES, strict=True))
 Points = Literal[1, 8]
+Rule = Literal["gauss", "even"]
 
 
 @dataclass(frozen=True)
@@ -41,8 +42,8 @@ class _Grid:
         Values are means over squares of this half-width around the places; 0: values at the places.
     heights : ndarray, shape (heights,)
         Natural coordinates t.
-    weights : ndarray, shape (heights,)
-        Weights of the heights, in the rule of the other program; their sum is 2.
+    weights, moments : ndarray, shape (heights,)
+        Weights of the heights for forces and for moments, in the rule of the other program.
     curved : bool
         Whether an area of the section follows the height, as in solids; the sections of a shell have one area.
     """
@@ -51,11 +52,12 @@ class _Grid:
     reach: float
     heights: Floats
     weights: Floats
+    moments: Floats
     curved: bool
 
 
-def formed_shells(model: Model, points: int, units: str = "") -> FormedState:
-    """Shells of four nodes on the middle surface, with points of the Gauss rule through the thickness.
+def formed_shells(model: Model, points: int, units: str = "", rule: Rule = "gauss") -> FormedState:
+    """Shells of four nodes on the middle surface, with points through the thickness.
 
     A cell with nine nodes in a face becomes four flat shells.
 
@@ -67,6 +69,8 @@ def formed_shells(model: Model, points: int, units: str = "") -> FormedState:
         Points through the thickness, 2 to 20.
     units : str
         For the head of the file.
+    rule : {"gauss", "even"}
+        Gauss points; or evenly spaced from face to face, with the weights of a stress that is linear between them.
 
     Raises
     ------
@@ -86,9 +90,9 @@ def formed_shells(model: Model, points: int, units: str = "") -> FormedState:
         )
     x = _positions(model)
     quads = np.array(_QUADS[lower.shape[1]])
-    t, w = _core.gauss(points)
+    t, w, moments = shell_rule(points, rule)
     corners = FACE_NODES[: lower.shape[1]][quads]
-    grid = _Grid(corners.mean(axis=1), _half_width(quads), t, w, curved=False)
+    grid = _Grid(corners.mean(axis=1), _half_width(quads), t, w, moments, curved=False)
     stress, strain, plastic, _ = _on_grid(model, grid)
     used, cells = np.unique(lower[:, quads].reshape(-1, 4), return_inverse=True)
     partner = np.zeros(len(x), dtype=np.int64)
@@ -107,9 +111,21 @@ def formed_shells(model: Model, points: int, units: str = "") -> FormedState:
         plastic=plastic.reshape(-1, points),
         strain=strain.reshape(-1, points, 6),
         thickness=np.einsum("eqk,ek->eq", director[cells], normal),
-        heights=np.asarray(t),
+        heights=t,
         units=units,
     )
+
+
+def shell_rule(points: int, rule: Rule) -> tuple[Floats, Floats, Floats]:
+    """Heights of the points of a shell from -1 to 1, and their weights for forces and for moments."""
+    if rule == "gauss":
+        t, w = map(np.asarray, _core.gauss(points))
+        return t, w, w * t
+    t, size = np.linspace(-1.0, 1.0, points), 2.0 / (points - 1)
+    weights, moments = np.full(points, size), size * t
+    weights[[0, -1]] *= 0.5
+    moments[[0, -1]] = np.array([-1.0, 1.0]) * (size / 2.0 - size**2 / 6.0)
+    return t, weights, moments
 
 
 def formed_solids(model: Model, layers: int, points: Points = 1, units: str = "") -> FormedState:
@@ -149,7 +165,8 @@ def formed_solids(model: Model, layers: int, points: Points = 1, units: str = ""
     corners = FACE_NODES[:half][quads]
     shape = np.stack([(1 + a * r) * (1 + b * s) / 4 for a, b in FACE_NODES[:4]], axis=1)
     places = np.einsum("pa,kai->kpi", shape, corners).reshape(-1, 2)
-    grid = _Grid(places, _half_width(quads) if points == 1 else 0.0, heights, weights, curved=True)
+    reach = _half_width(quads) if points == 1 else 0.0
+    grid = _Grid(places, reach, heights, weights, weights * heights, curved=True)
     stress, _, plastic, history = _on_grid(model, grid)
     cells, count = len(nodes), len(quads)
 
@@ -255,15 +272,14 @@ class _Interpolated:
         own = np.ones_like(found)
         if self.grid.curved:
             own = self.there.areas.reshape(found.shape) / self.middle[1].areas[:, :, None]
-        own = own * self.grid.weights[:, None]
-        t = self.grid.heights[:, None]
-        a, b, c = ((own * t**power).sum(axis=2) for power in (0, 1, 2))
-        n, m = (goal - (own * found * t**power).sum(axis=2) for power, goal in enumerate(wanted))
+        t, rules = self.grid.heights[:, None], (self.grid.weights[:, None], self.grid.moments[:, None])
+        (a, b), (d, c) = (((own * w).sum(axis=2), (own * w * t).sum(axis=2)) for w in rules)
+        n, m = (goal - (own * found * w).sum(axis=2) for w, goal in zip(rules, wanted, strict=True))
         if len(self.grid.heights) == 1:
             found = found + (n / a)[:, :, None]
         else:
-            det = a * c - b * b
-            found = found + ((c * n - b * m) / det)[:, :, None] + ((a * m - b * n) / det)[:, :, None] * t
+            det = a * c - b * d
+            found = found + ((c * n - b * m) / det)[:, :, None] + ((a * m - d * n) / det)[:, :, None] * t
         return self.there.to_global(found)
 
     def strain(self) -> Floats:

@@ -81,6 +81,11 @@ class Outcome(ABC):
         return [one for one in found if one.leading or one.missed] if any(one.leading for one in found) else found
 
     @property
+    def main(self) -> Sequence[str]:
+        """Names of the quantities that the process is for, the first one first: what a picture shows."""
+        return [one.name for one in self.quantities[:1]]
+
+    @property
     @abstractmethod
     def stages(self) -> Mapping[str, History]:
         """The runs by their names, in order."""

@@ -1,16 +1,17 @@
-"""Lines and arcs of a DXF drawing."""
+"""Lines and arcs of a DXF drawing: read and written."""
 
 from __future__ import annotations
 
 import importlib
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from umform.errors import FileProblem, InvalidValue, OpenSection
+from umform.io.atomic import PendingFile
 from umform.surfaces.biarcs import Curve, as_arcs
 from umform.surfaces.directions import Point2
 from umform.surfaces.segments import Arc, Floats, Line, Segment
@@ -85,6 +86,47 @@ def layers_and_unit(path: str | Path) -> tuple[list[str], str]:
     return sorted({str(entity.dxf.layer) for entity in drawing.modelspace()}), unit
 
 
+def write_dxf(path: str | Path, layers: Mapping[str, Sequence[Segment]]) -> Path:
+    """Write lines and arcs as they are, in mm.
+
+    Parameters
+    ----------
+    path : str or Path
+        The drawing.
+    layers : mapping of str to sequence of Line or Arc
+        What lies on each layer.
+
+    Raises
+    ------
+    FileProblem
+        If ezdxf is not installed, or the file cannot be written.
+    """
+    drawing = _ezdxf("writing").new()
+    drawing.units = _UNITS["mm"]
+    space = drawing.modelspace()
+    for layer, segments in layers.items():
+        drawing.layers.add(layer)
+        for segment in segments:
+            _draw(space, segment, {"layer": layer})
+    with PendingFile(path) as temporary:
+        drawing.saveas(temporary)
+    return Path(path)
+
+
+def _draw(space: Any, segment: Segment, attributes: dict[str, str]) -> None:
+    if isinstance(segment, Line):
+        space.add_line(segment.start, segment.end, dxfattribs=attributes)
+    elif segment.start == segment.end:
+        space.add_circle(segment.centre, segment.radius, dxfattribs=attributes)
+    else:
+        centre = np.array(segment.centre)
+        first, last = (
+            math.degrees(math.atan2(*reversed(np.subtract(end, centre)))) for end in (segment.start, segment.end)
+        )
+        ways = {"is_counter_clockwise": not segment.clockwise, "dxfattribs": attributes}
+        space.add_arc(segment.centre, segment.radius, first, last, **ways)
+
+
 def _drawing(path: Path) -> Any:
     ezdxf = _ezdxf()
     try:
@@ -99,14 +141,14 @@ def _drawing(path: Path) -> Any:
         ) from error
 
 
-def _ezdxf() -> Any:
+def _ezdxf(what: str = "reading") -> Any:
     try:
         importlib.import_module("ezdxf.units")
         return importlib.import_module("ezdxf")
     except ImportError as error:
         raise FileProblem(
-            "reading DXF drawings needs ezdxf",
-            where="from_dxf",
+            f"{what} DXF drawings needs ezdxf",
+            where="from_dxf" if what == "reading" else "write_tool",
             cause=str(error),
             remedy='pip install "umform[cad]"',
         ) from error

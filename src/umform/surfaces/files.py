@@ -2,27 +2,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from umform.errors import InvalidValue
 from umform.io.atomic import PendingFile
 from umform.surfaces.tool import Tool
-from umform.surfaces.triangles import Box3
+from umform.surfaces.triangles import Box3, Triangles
 
-_SUFFIXES = (".stl", ".vtk", ".vtu", ".ply", ".obj")
+#: Endings of files of triangles, and of those of exact shapes.
+_TRIANGLES, _DXF, _STEP = (".stl", ".vtk", ".vtu", ".ply", ".obj"), (".dxf",), (".step", ".stp")
 
 
-def write_tool(tool: Tool, path: str | Path, box: Box3, chord: float = 0.0) -> Path:
-    """Write the surface of a tool inside of a box as triangles, through meshio.
+def write_tool(tool: Tool | Mapping[str, Tool], path: str | Path, box: Box3 | None = None, chord: float = 0.0) -> Path:
+    """Write a tool as a drawing of its section, as a solid, or as triangles: the end of the name chooses.
 
     Parameters
     ----------
-    tool : Tool
-        Any tool; one that is known by its distance only is sampled, and its edges are cut off.
+    tool : Tool, or mapping of str to Tool
+        Any tool, or several by their names, which are those of layers and of parts.
     path : str or Path
-        A file that ends in .stl, .vtk, .vtu, .ply or .obj.
-    box : tuple of two points
-        Lowest and highest corner.
+        .dxf: lines and arcs of tools that are extruded along one direction or revolved about one axis; the drawing is
+        the plane of the section, (x, z) for one along y, and (radius, height) for one about z. Of a box it is the
+        section across its second direction. .step or .stp: solids of such tools and of boxes. Both need
+        `pip install "umform[cad]"`, and have the tool as it is. .stl, .vtk, .vtu, .ply or .obj: triangles of any tool,
+        through meshio; one that is known by its distance only is sampled, and its edges are cut off.
+    box : tuple of two points, optional
+        Lowest and highest corner of what is written; not for .dxf.
     chord : float, optional
         Largest distance of a triangle from the true surface; by default 1/1000 of the diagonal of the box.
 
@@ -34,7 +40,7 @@ def write_tool(tool: Tool, path: str | Path, box: Box3, chord: float = 0.0) -> P
     Raises
     ------
     InvalidValue
-        If the extension is unknown, or no part of the tool lies in the box.
+        If the extension is unknown, no part of the tool lies in the box, or a tool has no exact shape.
     FileProblem
         If the file cannot be written.
 
@@ -42,17 +48,41 @@ def write_tool(tool: Tool, path: str | Path, box: Box3, chord: float = 0.0) -> P
     --------
     >>> import umform as uf
     >>> uf.write_tool(uf.Sphere((0, 0, 0), 5), "ball.stl", ((-6, -6, -6), (6, 6, 6)))  # doctest: +SKIP
+    >>> tools = {"punch": uf.Punch(1.5, 84), "die": uf.VDie(16, 84, 2)}
+    >>> uf.write_tool(tools, "bend.dxf")  # doctest: +SKIP
     """
     path = Path(path)
-    if path.suffix not in _SUFFIXES:
+    suffix = path.suffix.lower()
+    tools = tool if isinstance(tool, Mapping) else {path.stem: tool}
+    if suffix in _DXF:
+        from umform.surfaces.dxf import write_dxf
+        from umform.surfaces.sections import sections
+
+        return write_dxf(path, sections(tools))
+    if suffix not in _TRIANGLES + _STEP:
         raise InvalidValue(
-            "a tool is written as " + ", ".join(_SUFFIXES),
+            "a tool is written as " + ", ".join(_DXF + _STEP + _TRIANGLES),
             where="write_tool",
             value=str(path),
             cause="the end of the name",
             remedy="write_tool(tool, 'tool.stl', box)",
         )
-    surface = tool.triangles(box, chord)
+    if box is None:
+        raise InvalidValue(
+            "a tool goes on for ever, a file does not",
+            where="write_tool",
+            value=str(path),
+            cause="there is no box",
+            remedy="write_tool(tool, path, box=((x0, y0, z0), (x1, y1, z1)))",
+        )
+    if suffix in _STEP:
+        from umform.surfaces.cad.writing import write_step
+
+        return write_step(path, tools, box)
+    return _write_triangles(Triangles.all_of([one.triangles(box, chord) for one in tools.values()]), path, box)
+
+
+def _write_triangles(surface: Triangles, path: Path, box: Box3) -> Path:
     if len(surface.triangles) == 0:
         raise InvalidValue(
             "nothing of the tool lies in the box",
@@ -63,7 +93,7 @@ def write_tool(tool: Tool, path: str | Path, box: Box3, chord: float = 0.0) -> P
         )
     import meshio  # slow to import
 
-    options = {"binary": True} if path.suffix == ".stl" else {}
+    options = {"binary": True} if path.suffix.lower() == ".stl" else {}
     with PendingFile(path) as temporary:
         meshio.write(temporary, meshio.Mesh(surface.points, [("triangle", surface.triangles)]), **options)
     return path

@@ -34,21 +34,21 @@ class Section(ToolSpec):
     def profile(self) -> Profile:
         """Section of the tool."""
 
-    def extruded(self) -> Extruded:
+    def section(self) -> Extruded:
         """The extruded section."""
         return Extruded(self.profile, self.origin, self.x, self.y)
 
     def kernel(self) -> _core.Surface:
         """The surface as the kernels take it."""
-        return self.extruded().kernel()
+        return self.section().kernel()
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Strips along the tool."""
-        return self.extruded().facets(centre, reach, chord)
+        return self.section().facets(centre, reach, chord)
 
     def along(self) -> Point:
         """Direction in which it extends."""
-        return self.extruded().along()
+        return self.section().along()
 
 
 @dataclass(frozen=True)

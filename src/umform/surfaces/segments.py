@@ -66,6 +66,10 @@ class Line:
         """The same line, transformed."""
         return Line(_sum(self.start, by), _sum(self.end, by))
 
+    def seen(self, matrix: Floats, shift: Floats) -> Line:
+        """The same line with its points p at M p + c, M orthogonal."""
+        return Line(_seen(self.start, matrix, shift), _seen(self.end, matrix, shift))
+
     def row(self) -> list[float]:
         """Start, end, centre and turn, as the kernels take them."""
         return [*self.start, *self.end, 0.0, 0.0, 0.0]
@@ -167,6 +171,11 @@ class Arc:
         """The same arc, transformed."""
         return Arc(_sum(self.start, by), _sum(self.end, by), _sum(self.centre, by), self.clockwise)
 
+    def seen(self, matrix: Floats, shift: Floats) -> Arc:
+        """The same arc with its points p at M p + c, M orthogonal."""
+        start, end, centre = (_seen(p, matrix, shift) for p in (self.start, self.end, self.centre))
+        return Arc(start, end, centre, self.clockwise != bool(np.linalg.det(matrix) < 0.0))
+
     def row(self) -> list[float]:
         """Start, end, centre and turn, as the kernels take them."""
         return [*self.start, *self.end, *self.centre, float(self.turn)]
@@ -174,6 +183,11 @@ class Arc:
 
 def _sum(a: Point2, b: Point2) -> Point2:
     return a[0] + b[0], a[1] + b[1]
+
+
+def _seen(p: Point2, matrix: Floats, shift: Floats) -> Point2:
+    x, y = (float(part) for part in matrix @ p + shift)
+    return x, y
 
 
 Segment = Line | Arc

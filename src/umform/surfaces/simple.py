@@ -9,6 +9,7 @@ from umform import _core
 from umform.spec.types import Positive
 from umform.surfaces.directions import Direction, Point, point, unit_vector
 from umform.surfaces.profile import Profile
+from umform.surfaces.segments import Line
 from umform.surfaces.swept import Extruded, Revolved
 from umform.surfaces.tool import ToolSpec
 from umform.surfaces.triangles import Floats, Triangles, across, rectangle
@@ -39,6 +40,12 @@ class Plane(ToolSpec):
         """Two triangles around the foot of ``centre``."""
         return rectangle(centre, reach, point(self.point), unit_vector(self.normal))
 
+    def section(self) -> Extruded:
+        """A line; it is extruded along y if the plane contains this direction."""
+        n = unit_vector(self.normal)
+        x = (n[2], 0.0, -n[0]) if n[1] == 0.0 else across(n)[0]
+        return Extruded(Profile([Line((1.0, 0.0), (-1.0, 0.0))], closed=False), self.point, x, n)
+
 
 @dataclass(frozen=True)
 class Cylinder(ToolSpec):
@@ -67,9 +74,12 @@ class Cylinder(ToolSpec):
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Strips along the axis."""
+        return self.section().facets(centre, reach, chord)
+
+    def section(self) -> Extruded:
+        """A circle."""
         x, y = across(unit_vector(self.axis))
-        circle = Profile.circle((0.0, 0.0), self.radius, hole=self.inside)
-        return Extruded(circle, self.centre, x, y).facets(centre, reach, chord)
+        return Extruded(Profile.circle((0.0, 0.0), self.radius, hole=self.inside), self.centre, x, y)
 
     def along(self) -> Point:
         """Its axis."""
@@ -106,8 +116,11 @@ class Sphere(ToolSpec):
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Belts about the z direction."""
-        half = Profile.half_circle(self.radius, hole=self.inside)
-        return Revolved(half, self.centre, "z").facets(centre, reach, chord)
+        return self.section().facets(centre, reach, chord)
+
+    def section(self) -> Revolved:
+        """Half of a circle."""
+        return Revolved(Profile.half_circle(self.radius, hole=self.inside), self.centre, "z")
 
     def convex_radii(self) -> Iterator[float]:
         """Radius of the ball."""

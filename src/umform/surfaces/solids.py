@@ -13,7 +13,7 @@ from umform.errors import InvalidValue
 from umform.spec.types import NotNegative, Positive
 from umform.surfaces.directions import Direction, Point, Size, point, right_angle
 from umform.surfaces.profile import Profile
-from umform.surfaces.swept import Revolved
+from umform.surfaces.swept import Extruded, Revolved
 from umform.surfaces.tool import ToolSpec
 from umform.surfaces.triangles import Floats, Triangles, grid
 
@@ -50,17 +50,17 @@ class Torus(ToolSpec):
                 remedy="minor < major; for a solid disc with a round edge turn a profile of your own",
             )
 
-    def revolved(self) -> Revolved:
+    def section(self) -> Revolved:
         """The circle that is revolved."""
         return Revolved(Profile.circle((self.major, 0.0), self.minor), self.centre, self.axis)
 
     def kernel(self) -> _core.Surface:
         """The surface as the kernels take it."""
-        return self.revolved().kernel()
+        return self.section().kernel()
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Belts around the axis."""
-        return self.revolved().facets(centre, reach, chord)
+        return self.section().facets(centre, reach, chord)
 
     def convex_radii(self) -> Iterator[float]:
         """Radius of the section."""
@@ -128,6 +128,13 @@ class Box(ToolSpec):
         belts = offset + self.radius * direction
         middle = np.broadcast_to([0.0, 0.0, 1.0], (1, len(around), 3)) * (core[2] + self.radius)
         return grid(np.array(self.centre) + np.concatenate([-middle, belts, middle]) @ axes)
+
+    def section(self) -> Extruded:
+        """The rounded rectangle in its middle, seen along its second direction: the box itself ends there."""
+        x, y = right_angle(self.x, self.y)
+        a, _, c = (0.5 * length for length in self.size)
+        corners = [(-a, -c), (a, -c), (a, c), (-a, c)]
+        return Extruded(Profile.from_corners(corners, self.radius), self.centre, x, tuple(np.cross(x, y).tolist()))
 
     def convex_radii(self) -> Iterator[float]:
         """Radius of the edges."""

@@ -14,10 +14,10 @@ from umform.surfaces.crossings import refuse_crossings
 from umform.surfaces.directions import Direction, Point, Point2, point, right_angle, unit_vector
 from umform.surfaces.profile import Profile
 from umform.surfaces.segments import Arc, Line, Segment
-from umform.surfaces.tool import ToolSpec
+from umform.surfaces.tool import Swept, ToolSpec
 from umform.surfaces.triangles import Floats, Triangles, across, grid
 
-_JOINED, _ENDLESS, _ON_AXIS = _core.ProfileEnd.joined, _core.ProfileEnd.endless, _core.ProfileEnd.on_axis
+JOINED, ENDLESS, ON_AXIS = _core.ProfileEnd.joined, _core.ProfileEnd.endless, _core.ProfileEnd.on_axis
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Profiled(ToolSpec):
 
 
 @dataclass(frozen=True)
-class Extruded(Profiled):
+class Extruded(Profiled, Swept):
     """A profile extruded to infinity normal to its plane. eq. (4.25)
 
     Examples
@@ -57,7 +57,7 @@ class Extruded(Profiled):
     def kernel(self) -> _core.Surface:
         """The surface as the kernels take it."""
         segments = self.profile.segments
-        end = _JOINED if self.profile.closed else _ENDLESS
+        end = JOINED if self.profile.closed else ENDLESS
         if not self.profile.closed:
             refuse_endless_arcs(segments[0], segments[-1], "Extruded")
             refuse_crossings(segments, False, (True, True), "Extruded")
@@ -76,15 +76,23 @@ class Extruded(Profiled):
         ends = np.array([d @ along - reach, d @ along + reach])
         return grid(section[:, None, :] + ends[None, :, None] * along)
 
+    def section(self) -> Extruded:
+        """Itself."""
+        return self
+
+    def placed(self, Q: Floats, c: Floats) -> Extruded:
+        """The same whose points X lie at Q X + c, with an orthogonal matrix Q."""
+        x, y = (_triple(Q @ v) for v in right_angle(self.x, self.y))
+        return replace(self, origin=_triple(Q @ point(self.origin) + c), x=x, y=y)
+
     def along(self) -> Point:
         """Direction of the extrusion."""
         x, y = right_angle(self.x, self.y)
-        a, b, c = (float(part) for part in np.cross(x, y))
-        return a, b, c
+        return _triple(np.cross(x, y))
 
 
 @dataclass(frozen=True)
-class Revolved(Profiled):
+class Revolved(Profiled, Swept):
     """A profile revolved about an axis: its x is the distance to the axis, its y lies along the axis. eq. (4.26)
 
     Examples
@@ -106,7 +114,7 @@ class Revolved(Profiled):
 
     def kernel(self) -> _core.Surface:
         """The surface as the kernels take it."""
-        meridian, start, end = self._meridian()
+        meridian, start, end = self.meridian()
         rows = np.array([segment.row() for segment in meridian.segments])
         return _core.revolved(rows, start, end, point(self.origin), unit_vector(self.axis))
 
@@ -114,12 +122,12 @@ class Revolved(Profiled):
         """Belts around the axis."""
         axis = np.array(unit_vector(self.axis))
         d = centre - point(self.origin)
-        meridian, start, end = self._meridian()
+        meridian, start, end = self.meridian()
         beyond = 2.0 * (meridian.size + float(np.linalg.norm(d)) + reach)
         curve = meridian.points(0.5 * chord)
         first, last = meridian.segments[0].tangents()[0], meridian.segments[-1].tangents()[1]
-        curve[0] -= beyond * first if start == _ENDLESS else 0.0
-        curve[-1] += beyond * last if end == _ENDLESS else 0.0
+        curve[0] -= beyond * first if start == ENDLESS else 0.0
+        curve[-1] += beyond * last if end == ENDLESS else 0.0
         widest = min(float(curve[:, 0].max()), float(np.linalg.norm(d)) + reach)
         step = 2.0 * math.acos(max(1.0 - 0.5 * chord / widest, 0.5))
         angles = np.linspace(0.0, 2.0 * math.pi, math.ceil(2.0 * math.pi / step) + 1)
@@ -127,7 +135,17 @@ class Revolved(Profiled):
         ring = np.cos(angles)[:, None] * x + np.sin(angles)[:, None] * y
         return grid(np.array(self.origin) + curve[:, None, :1] * ring + curve[:, None, 1:] * axis)
 
-    def _meridian(self) -> tuple[Profile, _core.ProfileEnd, _core.ProfileEnd]:
+    def section(self) -> Revolved:
+        """Itself."""
+        return self
+
+    def placed(self, Q: Floats, c: Floats) -> Revolved:
+        """The same whose points X lie at Q X + c, with an orthogonal matrix Q."""
+        return replace(
+            self, origin=_triple(Q @ point(self.origin) + c), axis=_triple(Q @ np.array(unit_vector(self.axis)))
+        )
+
+    def meridian(self) -> tuple[Profile, _core.ProfileEnd, _core.ProfileEnd]:
         """The segments that are surfaces, and the type of both ends."""
         near = 1e-12 * self.profile.size
         segments = [_snapped(segment, near) for segment in self.profile.segments]
@@ -145,17 +163,17 @@ class Revolved(Profiled):
         if not self.profile.closed:
             return self._open_meridian(segments)
         if not on_axis:
-            return Profile(segments), _JOINED, _JOINED
+            return Profile(segments), JOINED, JOINED
         k = on_axis[0]
-        return Profile(segments[k + 1 :] + segments[:k], closed=False), _ON_AXIS, _ON_AXIS
+        return Profile(segments[k + 1 :] + segments[:k], closed=False), ON_AXIS, ON_AXIS
 
     def _open_meridian(self, segments: list[Segment]) -> tuple[Profile, _core.ProfileEnd, _core.ProfileEnd]:
         """Check that each end is on the axis, or a line to infinity away from it."""
-        start = _ON_AXIS if segments[0].start[0] == 0.0 else _ENDLESS
-        end = _ON_AXIS if segments[-1].end[0] == 0.0 else _ENDLESS
+        start = ON_AXIS if segments[0].start[0] == 0.0 else ENDLESS
+        end = ON_AXIS if segments[-1].end[0] == 0.0 else ENDLESS
         outwards = -segments[0].tangents()[0][0], segments[-1].tangents()[1][0]
         for kind, i, slope in ((start, 0, outwards[0]), (end, -1, outwards[1])):
-            if kind == _ENDLESS:
+            if kind == ENDLESS:
                 refuse_endless_arcs(segments[i], segments[i], "Revolved")
                 if slope < 0.0:
                     raise InvalidValue(
@@ -164,8 +182,13 @@ class Revolved(Profiled):
                         cause="the end goes on beyond the axis, and would enter the solid again",
                         remedy="let it end on the axis, at x = 0",
                     )
-        refuse_crossings(segments, False, (start == _ENDLESS, end == _ENDLESS), "Revolved")
+        refuse_crossings(segments, False, (start == ENDLESS, end == ENDLESS), "Revolved")
         return Profile(segments, closed=False), start, end
+
+
+def _triple(v: Floats) -> Point:
+    a, b, c = (float(part) for part in v)
+    return a, b, c
 
 
 def refuse_endless_arcs(first: Segment, last: Segment, where: str) -> None:

@@ -115,6 +115,10 @@ class Tool(ABC):
         """Direction along which it does not vary; None if there is none."""
         return None
 
+    def section(self) -> Swept | None:
+        """The profile that is extruded or revolved, as a drawing shows it; None if there is none."""
+        return None
+
     def convex_radii(self) -> Iterator[float]:
         """Radii over which a sheet may bend, 0 at a sharp edge; nothing if they are unknown."""
         yield from ()
@@ -162,6 +166,14 @@ class ToolSpec(Tool):
 
     def __post_init__(self) -> None:
         check_fields(self)
+
+
+class Swept(ToolSpec):
+    """A profile that is extruded or revolved."""
+
+    @abstractmethod
+    def placed(self, Q: Floats, c: Floats) -> Swept:
+        """The same whose points X lie at Q X + c, with an orthogonal matrix Q."""
 
 
 Matrix = tuple[Point, Point, Point]
@@ -216,6 +228,11 @@ class Placed(Tool):
             return None
         a, b, c = (float(part) for part in np.array(self.matrix) @ own)
         return a, b, c
+
+    def section(self) -> Swept | None:
+        """That of the tool, transformed."""
+        own = self.tool.section() if isinstance(self.tool, Tool) else None
+        return None if own is None else own.placed(np.array(self.matrix), np.array(self.shift))
 
     def convex_radii(self) -> Iterator[float]:
         """Those of the tool."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,6 +32,13 @@ class Triangles:
     points: Floats
     triangles: Ids
 
+    @classmethod
+    def all_of(cls, parts: Sequence[Triangles]) -> Triangles:
+        """Several surfaces as one."""
+        firsts = np.cumsum([0, *(len(part.points) for part in parts[:-1])])
+        ids = [part.triangles + first for part, first in zip(parts, firsts, strict=True)]
+        return cls(np.concatenate([part.points for part in parts]), np.concatenate(ids))
+
     @property
     def corners(self) -> Floats:
         """Coordinates of the corners of all triangles, shape (m, 3, 3)."""
@@ -42,6 +49,12 @@ class Triangles:
         """Normals of the triangles times their areas, shape (m, 3)."""
         a, b, c = np.moveaxis(self.corners, 1, 0)
         return 0.5 * np.cross(b - a, c - a)
+
+    def beyond(self, normal: ArrayLike, at: ArrayLike) -> Triangles:
+        """The part on the side of a plane to which its normal points."""
+        n = np.asarray(normal, dtype=float)
+        corners = self.corners
+        return _welded(_cut(corners, (corners - np.asarray(at)) @ n), 1e-9 * float(np.ptp(self.points, axis=0).max()))
 
 
 def grid(points: Floats) -> Triangles:

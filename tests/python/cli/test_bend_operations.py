@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
@@ -55,7 +56,7 @@ def test_a_part_that_collides_is_not_done(tmp_path, monkeypatch):
     typed = ["bend", "--sequence", str(tmp_path / "part.toml"), *coarse, "--out", str(tmp_path / "out"), "--overwrite"]
     assert CliRunner().invoke(app, typed).exit_code == 0
     hits = [Collision("punch", 0.3, 9.0)]
-    monkeypatch.setattr("umform.processes.bend_sequence.run.collisions", lambda *given: hits)
+    monkeypatch.setattr("umform.processes.bend_sequence.done.collisions", lambda *given: hits)
     monkeypatch.setattr("umform.processes.bend_sequence.foreseen.collisions", lambda *given: hits)
     done = CliRunner().invoke(app, typed)
     assert done.exit_code == 1
@@ -80,3 +81,40 @@ def test_sizes_of_a_hem_follow_the_thickness(thickness, tmp_path, monkeypatch):
     sheet = case.sheet
     sizes = [sheet.opening, sheet.die_radius, sheet.punch_radius, case.gap, case.flange, case.base]
     assert sizes == [size * thickness for size in (8.0, 1.0, 0.5, 1.0, 12.0, 30.0)]
+
+
+@pytest.fixture
+def one_bend(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("part.toml").write_text("length = 45.0\n[[bends]]\nposition = 20.0\nangle = 140\n")
+    return ["bend", "--sequence", "part.toml", "--layers", "1", "--elements-per-thickness", "1", "--increment", "0.05"]
+
+
+def test_derivatives_of_a_part(one_bend):
+    done = CliRunner().invoke(app, [*one_bend, "--derive", "strength"], env={"COLUMNS": "160"})
+    assert done.exit_code == 0, done.output
+    assert "bend 1: angle is constant: bends.0.stroke follows" in done.stdout
+    assert "derivatives-history.csv" in done.stdout
+    assert "bends.0.stroke" in Path("results/sequence/derivatives.csv").read_text()
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        (["--scatter", "height=2%"], "there is no number of this path"),
+        (["--want", "angle=90"], "the bends of a file have angles and strokes of their own"),
+    ],
+)
+def test_studies_that_a_part_refuses_before_the_run(one_bend, more, said):
+    done = CliRunner().invoke(app, [*one_bend, *more])
+    assert done.exit_code == 1
+    assert said in done.stderr
+    assert not Path("results").exists()
+
+
+def test_the_scatter_of_a_hem_is_refused_before_the_run(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    done = CliRunner().invoke(app, ["hem", "--scatter", "opening_angle=2%"])
+    assert done.exit_code == 1
+    assert "there is no number of this path" in done.stderr
+    assert not Path("results").exists()

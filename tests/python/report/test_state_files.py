@@ -14,7 +14,7 @@ from umform import _core
 from umform.errors import FileProblem, InvalidValue
 from umform.report.state_files import PROGRAMS, export_state, read_state
 from umform.results.fields import thickness
-from umform.results.formed import formed_shells
+from umform.results.formed import formed_shells, shell_rule
 
 ALL = [(to, mesh) for to, program in PROGRAMS.items() for mesh in program.meshes]
 STEEL = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(160.0, 500.0))
@@ -109,7 +109,7 @@ def test_stresses_of_solids_carry_the_load_through_each_section(bent, tmp_path):
         np.testing.assert_allclose(turning, 0.0, atol=0.01 * bent.force * arm)
 
 
-def sections(state):
+def sections(state, rule):
     """For points of shells or one-point solids: direction along the strip, force along it, height, place (m, q)."""
     corners = state.points[state.cells]
     if not state.shells:
@@ -118,8 +118,8 @@ def sections(state):
         heights, share = np.zeros((len(rise), 1)), rise[:, None]
     else:
         half, h = corners, state.thickness.mean(axis=1)
-        weights = np.array(_core.gauss(len(state.heights))[1])
-        heights, share = 0.5 * h[:, None] * state.heights, 0.5 * h[:, None] * weights
+        _, weights, moments = shell_rule(len(state.heights), rule)
+        heights, share = 0.5 * h[:, None] * moments / weights, 0.5 * h[:, None] * weights
     way = 0.5 * (half[:, 1] + half[:, 2] - half[:, 0] - half[:, 3])
     width = np.linalg.norm(0.5 * (half[:, 3] + half[:, 2] - half[:, 0] - half[:, 1]), axis=1)
     e = way / np.linalg.norm(way, axis=1, keepdims=True)
@@ -147,7 +147,7 @@ def normal_of(quads):
 def test_the_sections_of_each_cell_have_force_and_moment_of_the_load(bent, tmp_path, to, mesh, points):
     export_state(bent.result, tmp_path / "part", to, mesh=mesh, points=points)
     state, blank = read_state(tmp_path / "part", to), bent.model.mesh
-    e, force, place = sections(state)
+    e, force, place = sections(state, PROGRAMS[to].rule)
     each = len(state.cells) // len(blank.connectivity)
     rows = np.repeat(np.round(blank.points[blank.connectivity].mean(axis=1)[:, 0], 6), each)
     for row in np.unique(rows)[:-1]:
@@ -161,6 +161,18 @@ def test_the_sections_of_each_cell_have_force_and_moment_of_the_load(bent, tmp_p
         assert abs(moment) == pytest.approx(bent.force * arm, rel=0.01)
         along = vectors.sum(axis=0) @ e[some].mean(axis=0)
         assert along == pytest.approx(bent.force * abs(e[some].mean(axis=0)[2]), abs=0.01 * YIELDING)
+
+
+def test_evenly_spaced_points_have_the_weights_of_openradioss():
+    """The printed ones of its theory manual, for heights in thicknesses: 4 and 6 points."""
+    for points, forces, moments in (
+        (4, [0.1667, 0.3333], [0.0648, 0.0556]),
+        (6, [0.1, 0.2, 0.2], [0.0433, 0.06, 0.02]),
+    ):
+        t, w, m = shell_rule(points, "even")
+        np.testing.assert_allclose(t, np.linspace(-1.0, 1.0, points))
+        np.testing.assert_allclose(w[::-1][: len(forces)] / 2.0, forces, atol=1e-4)
+        np.testing.assert_allclose(m[::-1][: len(moments)] / 4.0, moments, atol=1e-4)
 
 
 def test_shells_lie_on_the_middle_and_have_the_thickness_of_the_sheet(bent):

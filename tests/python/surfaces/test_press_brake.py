@@ -144,5 +144,5 @@ def test_radii_and_direction_of_tools_that_are_moved_or_offset():
     assert list(die.counterpart(1.0).convex_radii()) == []
     np.testing.assert_allclose(die.along(), (0.0, -1.0, 0.0), atol=1e-15)
     np.testing.assert_allclose(die.moved(rotation=(0.0, 0.0, math.pi / 2)).along(), (1.0, 0.0, 0.0), atol=1e-15)
-    assert sorted(WipingDie(1.5).extruded().convex_radii()) == [1.5]
-    assert list(WipingDie(0.0).extruded().convex_radii()) == [0.0]
+    assert sorted(WipingDie(1.5).section().convex_radii()) == [1.5]
+    assert list(WipingDie(0.0).section().convex_radii()) == [0.0]

@@ -8,6 +8,7 @@ from typing import Any
 import umform as uf
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
+from umform_book.derivatives.chains import CHAINS, compared_chain
 from umform_book.derivatives.differences import TIGHT, Example, compared
 from umform_book.derivatives.laws import LAWS, example
 from umform_book.derivatives.steps import BEND, EXAMPLES, bent
@@ -28,6 +29,17 @@ def _table(page: Page, title: str, what: str, examples: Mapping[str, Example], s
             page.at_most(f"{name}: shadow", shadow, 1e-4)
     columns = (what, "columns", "parameters", "shadow", "derivative", "limit")
     page.table(title, columns, rows)
+
+
+def _chains(page: Page) -> None:
+    rows = []
+    for name, chain in page.each(
+        [(name, CHAINS[name]) for name in page.pick(tuple(CHAINS), ("part of two bends",))], lambda it: it[0]
+    ):
+        for one in compared_chain(chain):
+            rows.append((name, one.parameter, one.derivative, chain.limit))
+            page.at_most(f"{name}, {one.parameter}", one.derivative, chain.limit)
+    page.table("Operations one after the other", ("case", "parameter", "derivative", "limit"), rows)
 
 
 def _waves(page: Page) -> None:
@@ -66,6 +78,7 @@ def run(page: Page) -> None:
     _table(page, "Steps, tools, controls and loads", "model", EXAMPLES, ("Move; friction", "Close", "Arc"))
     laws = {name: example(law) for name, law in LAWS.items()}
     _table(page, "Laws, with all their constants", "law", laws, ("J2, Linear", "Metal, Mises"))
+    _chains(page)
     _waves(page)
 
 
@@ -75,6 +88,8 @@ CASE = Case(
     problem="""
 * Laws: one element across its rolling direction, pulled into plastic flow, unloaded and pressed; with respect to all
   constants but whole numbers.
+* Operations one after the other: angles of the bends of a part and the shape of a hem, each with respect to strokes of
+  the bends before, sizes and strength.
 * Steps, tools, controls and loads: small models of each kind, with respect to constants of the metal, thickness,
   radii, friction, forces, gaps, springs, stops, beads, strokes and times.
 """,
@@ -88,5 +103,5 @@ force is zero to a part of it, or where contact is lost to 1e-6 of the way: whol
 parameters know their ends no better, and only the last rows are compared.
 """,
     run=run,
-    cost=60.0,
+    cost=110.0,
 )

@@ -1,7 +1,17 @@
 """Sheet metal: yield functions, hardening, and their effect on bending and springback."""
 
 from umform_book.case import Chapter
-from umform_book.material import bending, cards, elements, finite_strain, identification, paths, u_bend, yield_functions
+from umform_book.material import (
+    bending,
+    cards,
+    elements,
+    finite_strain,
+    identification,
+    measured_loop,
+    paths,
+    u_bend,
+    yield_functions,
+)
 
 CHAPTER = Chapter(
     "Material",
@@ -9,6 +19,7 @@ CHAPTER = Chapter(
     (
         yield_functions.CASE,
         paths.CASE,
+        measured_loop.CASE,
         finite_strain.CASE,
         elements.CASE,
         cards.CASE,

@@ -92,6 +92,12 @@ class ShellBlockOf final : public ShellBlock {
         });
     }
 
+    void take_blocks(const ShellBlock& of) override {
+        const auto& other = dynamic_cast<const ShellBlockOf&>(of);
+        last_.Y = (other.from_kept_ ? other.kept_ : other.last_).Y;
+        last_.y.resize(last_.Y.size() / size);
+        from_kept_ = false;
+    }
     void follow() override {
         if (!from_kept_ && last_.y.size() == followed_.size()) std::swap(last_.y, followed_);
     }

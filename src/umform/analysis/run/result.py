@@ -33,7 +33,7 @@ class Result(History):
         return super().summary() | run_record({"run": self})
 
     def write(self, path: str | Path, *, lagrange: bool = False) -> Path:
-        """Write frames (``.vtkhdf``) or the history (``.csv``), atomically.
+        """Write frames (``.vtkhdf``) with the tools and planes of symmetry, or the history (``.csv``), atomically.
 
         Parameters
         ----------
@@ -57,6 +57,7 @@ class Result(History):
             write_csv(path, self.table())
         elif path.suffix == ".vtkhdf":
             from umform.io.vtkhdf import BUFFER, VtkHdfSeries
+            from umform.report.stored_scene import attach_scene
 
             if not self.frames:
                 raise InvalidValue("this run kept no frames", remedy="solve(..., frames=60)")
@@ -64,6 +65,7 @@ class Result(History):
             with VtkHdfSeries(path, *mesh, lagrange=lagrange, buffer=BUFFER) as series:
                 for frame in self.frames:
                     series.append(frame.time, frame.points, frame.cells)
+                attach_scene(series, self)
         else:
             raise InvalidValue("results are written to .csv (history) or .vtkhdf (fields)", value=path.name)
         return path

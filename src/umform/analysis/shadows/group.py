@@ -15,7 +15,7 @@ from umform.analysis.run.execute import prepared_steps, resume_followed, solve_f
 from umform.analysis.run.fingerprint import fingerprint, text
 from umform.analysis.run.going import ready
 from umform.analysis.run.result import Result
-from umform.analysis.shadows.shadow import Factors, Guess, Kept, Shadow, forces_of, reason
+from umform.analysis.shadows.shadow import Factors, Guess, Kept, Shadow, factored, forces_of, reason
 from umform.analysis.shadows.structure import other_structure
 from umform.analysis.steps import Step
 from umform.analysis.steps.loop import Run
@@ -96,14 +96,13 @@ class Shadows:
         start, change = _Unknowns.of(model), self._lead.since(before)
         try:
             passes = _repeat(reference, lead, growth, change, None, None, frame=frame)
-            solver = reference.run.newton.ready_solver()
-            solver.factor(reference.evaluation)
+            solver = factored(reference.run, reference.evaluation)
         except (Failed, UmformError) as failure:
             for one in (reference, *self.others):
                 one.lose(f"the run has no solution to round-off there, {reason(failure)}", len(lead.result) - 1)
             return
         forces = forces_of(model, reference.evaluation)
-        factors = Factors(solver, reference.evaluation.x, reference.residual, forces)
+        factors = Factors(solver, model, reference.evaluation.x, reference.residual, forces)
         made = _Unknowns.of(model).since(start)
         ratio, self._last = _ratio(self._last, made), made
         for shadow in (one for one in self.others if not one.kept.lost):

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from umform.analysis.newton.bordered import Bordered
 from umform.analysis.newton.criteria import EPS
+from umform.analysis.newton.shift import Shift
 from umform.analysis.run.checkpoint import memory_of, recall
 from umform.analysis.run.going import loop_for
 from umform.analysis.steps import Step
@@ -35,17 +36,19 @@ _OF_DIFFERENCE, _ENOUGH = 1e-6, 1e-12
 _EXACT, _ROUND_OFF, _STAYS = 1e-13, 1e-9, 0.3
 #: Corrections with the factors of the reference; all corrections.
 _CORRECTIONS, _MOST = 5, 20
-#: Residual, relative to the forces, up to which a reference that fails is solved with a line search.
-_NEAR = 1e-6
+#: Residual, relative to the forces, up to which a run that fails is solved with a line search; a shadow is then at most
+#: this part of the thickness from the reference.
+_NEAR, _FAR = 1e-6, 0.01
 #: Largest number of passes of multipliers.
 _PASSES = 10
 
 
 @dataclass(frozen=True)
 class Factors:
-    """Factors of the tangent of the reference at the end of an increment, with its unknowns and its residual there."""
+    """Factors of the tangent of the reference at the end of an increment, with its model, unknowns and residual there."""
 
     solver: Bordered
+    model: Model
     x: Floats
     residual: float
     forces: Floats
@@ -227,17 +230,21 @@ class Shadow:
         return done
 
     def _solved(self, goal: State, u: Floats, du: Floats, factors: Factors | None, guess: Guess) -> Evaluation:
-        """Equilibrium from ``u + du``; a reference that does not get there begins with a line search."""
+        """Equilibrium from ``u + du``; a run that does not get there begins with a line search of its own."""
         try:
             return self._correct(goal, u, du, factors, guess)
-        except Failed:
-            if factors is not None:
-                raise
+        except Failed as failure:
+            missed = failure
         system, newton = self.run.model.system, self.run.newton
         system.revert()
         system.prepare(goal)
         near = newton.but(residual=_NEAR).solve(goal, du, newton.mode(friction=True))
-        return self._correct(goal, near.x, np.zeros_like(u), None)
+        found = self._correct(goal, near.x, np.zeros_like(u), None)
+        if factors is not None:
+            if float(np.abs(found.x - factors.x).max()) > _FAR * system.thickness:  # on another branch
+                raise missed
+            self.kept.own += 1
+        return found
 
     def _loose(self, evaluation: Evaluation, *, first: bool) -> bool:
         pairs = [one for one in self.run.model.contacts if one.augmented and evaluation.found[one].active.any()]
@@ -250,11 +257,13 @@ class Shadow:
         run, system = self.run, self.run.model.system
         norms: list[float] = []
         while True:
+            forces = given is not None and len(norms) < _CORRECTIONS and not system.unknowns
             if guess is not None and not norms:
                 system.recover_by(guess.enhanced)
             else:
                 system.recover(du)
-            forces = given is not None and 0 < len(norms) < _CORRECTIONS and not system.unknowns
+            if given is not None and forces and not norms:
+                system.take_blocks(given.model.system)
             evaluation = system.evaluate(system.state_at(u + du, goal), tangent=not forces)
             if forces:
                 system.follow()
@@ -275,9 +284,21 @@ class Shadow:
                 solver = given.solver
             else:
                 self.kept.own += given is not None and len(norms) == _CORRECTIONS + 1
-                solver = run.newton.ready_solver()
-                solver.factor(evaluation)
+                solver = factored(run, evaluation)
             u, du = evaluation.x, system.extend(solver.solve(-r))
+
+
+def factored(run: Run, evaluation: Evaluation) -> Bordered:
+    """Factors of a tangent; of that of a sheet which no tool holds any more with small springs, eq. (5.54).
+
+    Such a sheet is in equilibrium by itself, so that the springs have no force and change no solution.
+    """
+    solver = run.newton.ready_solver()
+    try:
+        solver.factor(evaluation)
+    except SingularMatrix:
+        Shift(run.model.system).factor(solver, evaluation)
+    return solver
 
 
 def reason(failure: Failed | UmformError) -> str:

@@ -21,6 +21,7 @@ def solve_stages_with_shadows(
     stages: Sequence[Stage],
     shadows: Mapping[Any, Sequence[Stage]],
     *,
+    reference: Sequence[Stage] | None = None,
     checkpoints: str | PathLike[str] | None = None,
     **options: Any,
 ) -> dict[str, Shadowed]:
@@ -29,9 +30,11 @@ def solve_stages_with_shadows(
     Parameters
     ----------
     stages : sequence of Stage
-        The stages, in order; those of the reference are built by the same functions.
+        The stages, in order.
     shadows : mapping of object to sequence of Stage
         The stages with one parameter changed a little.
+    reference : sequence of Stage, optional
+        Those of the reference; default: built by the same functions, which then return a new model in each call.
     checkpoints : str or PathLike, optional
         Folder for the checkpoint of each stage; the same call continues a stopped run.
     **options
@@ -54,13 +57,13 @@ def solve_stages_with_shadows(
     before: Shadowed | None = None
     for number, stage in enumerate(stages):
         lead = _built(stage, None if before is None else before.run)
-        reference = _built(stage, None if before is None else before.reference)
+        level = _built((reference or stages)[number], None if before is None else before.reference)
         others = {
             key: _built(own[number], None if before is None else before.shadows[key])
             for key, own in shadows.items()
             if key not in lost
         }
-        before = _how(checkpoints, number, stage.name)(lead, reference, others, **options)
+        before = _how(checkpoints, number, stage.name)(lead, level, others, **options)
         found[stage.name] = replace(before, kept={**before.kept, **lost})
         last = number == len(stages) - 1
         if before.missing and not last:
@@ -77,6 +80,21 @@ def solve_stages_with_shadows(
             if kept.lost
         }
     return found
+
+
+def of_all(stages: Mapping[str, Shadowed]) -> Shadowed:
+    """The last stage, with what each shadow has kept in all of them."""
+    *_, last = stages.values()
+    kept = {}
+    for key, one in last.kept.items():
+        each = [stage.kept[key] for stage in stages.values()]
+        kept[key] = replace(
+            one,
+            residual=max(other.residual for other in each),
+            switched=[count for other in each for count in other.switched],
+            own=sum(other.own for other in each),
+        )
+    return replace(last, kept=kept)
 
 
 def _built(stage: Stage, before: Result | None) -> Built:

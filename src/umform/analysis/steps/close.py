@@ -29,6 +29,9 @@ _MOST = 60
 _AT_STOP = 1e-12
 #: Number of iterations up to which an increment counts as easy.
 _EASY = 8
+#: Following runs have the force or the gap of the leading one, up to this part of the force or of the largest travel;
+#: the most solutions for it.
+_SAME, _CLOSER = 1e-13, 5
 
 
 @dataclass(frozen=True)
@@ -168,16 +171,46 @@ class Closing:
         self._go(run, step, press, force, sense * min(size, left))
 
     def follow(self, run: Run, step: Close, lead: Run, take: Take) -> None:
-        """Repeat the last accepted increment of the loop of a leading run: the same travel, or the own force."""
+        """Repeat the last accepted increment of the loop of a leading run: to the same force, or the same gap.
+
+        The travel to it is the unknown of an equation, eq. (5.167); at the end the own force is applied.
+        """
         assert isinstance(lead.loop, Closing)
         press, self.done = run.model.tools.press_of(step.control), lead.loop.done
         if self.done:
             step.control.value = _takes(run, press)
             take([step.force], [step.control], self.start_time + step.time)
             return
-        way = lead.model.controls.named(press.way.name).value
-        with press.driven():
-            take([way], [press.way], self._time_at(step, way))
+        led = next(one for tool in lead.model.tools for one in tool.presses if one.way.name == press.way.name)
+        sense, scale = math.copysign(1.0, step.force - self.start_force), abs(step.force - self.start_force)
+        touching, start, saved = _touches(lead, led), press.way.value, Saved.of(run.model, run.evaluation)
+
+        def level(one: Run, its: Press) -> float:
+            return _takes(one, its) if touching else -sense * _gap(one, its)
+
+        wanted, slope = level(lead, led), 1.0
+        if lead.loop.before is not None:  # in contact before
+            slope = (wanted - lead.loop.before[1]) / (led.way.value - lead.loop.before[0])
+            target = led.way.value + start - lead.loop.before[0] + (lead.loop.before[1] - _takes(run, press)) / slope
+        else:
+            target = start + sense * _as_way(run, press, 1.0) * (_gap(run, press) - _gap(lead, led))
+            slope = abs(wanted) / lead.loop.hair if touching else slope
+        if led.room(sense) <= _AT_STOP * max(self.limit, self.size):
+            target = start + sense * press.room(sense)
+        before: tuple[float, float] | None = None
+        for left in reversed(range(_CLOSER)):
+            with press.driven():
+                take([target], [press.way], self._time_at(step, target))
+            found = level(run, press)
+            if before is not None and before[0] != target and before[1] != found:
+                slope = (found - before[1]) / (target - before[0])
+            closer = target + (wanted - found) / slope
+            near = abs(found - wanted) <= _SAME * (scale if touching else self.limit)
+            if left == 0 or near or closer == target or press.room(sense) <= 0.0:
+                break
+            before, target = (target, found), closer
+            saved.restore(run)
+            run.model.evaluate(run.model.state)  # the blocks for the recovery of enhanced parameters
         step.control.value = _takes(run, press)
 
     def _time_at(self, step: Close, way: float) -> float:

@@ -24,8 +24,9 @@ _SHORT = 1.0 - 1e-9
 #: Following runs have the force of the leading one, up to this part of the force at the beginning, once it is below the
 #: second part; the most solutions for it.
 _CLOSE, _NEAR_END, _CLOSER = 1e-13, 1e-2, 5
-#: Below this part of the force at the beginning it says nothing of where contact is lost.
-_LEFT = 1e-6
+#: Below this part of the force at the beginning it says nothing of where contact is lost. Where the force falls to this
+#: part of the last one, contact is lost; following runs then go back farther, by the second part of the value.
+_LEFT, _AWAY = 1e-6, 1e-3
 
 
 @dataclass(frozen=True)
@@ -189,16 +190,24 @@ class Releasing:
         target, slope = led_to + before[0] - led.before[0], (wanted - led.before[1]) / (led_to - led.before[0])
         held = abs(wanted) > _LEFT * led.scale or not run.evaluation.touching(ranks)
         held = (held or (led.done and lead.evaluation.touching(ranks))) and slope != 0.0 and led_to != 0.0
+        if led.done and abs(wanted) <= _LEFT * abs(led.before[1]):  # it snaps off: no tool near it any more
+            held, target = False, target + math.copysign(_AWAY * led.start_value, led_to - led.before[0])
         if held:
             target += (led.before[1] - self.force) / slope
         near = held and (led.done or abs(wanted) < _NEAR_END * led.scale)
+        start = control.value
         for left in reversed(range(_CLOSER if near else 1)):
-            take([target], [control], self.start_time + step.time * (1.0 - target / self.start_value))
-            force = control.force(run.evaluation, ranks)
-            closer = _secant(before, (target, force), wanted, target)
-            if left == 0 or abs(force - wanted) <= _CLOSE * self.scale or closer == target:
-                break
-            before, target = (target, force), closer
+            try:
+                take([target], [control], self.start_time + step.time * (1.0 - target / self.start_value))
+                force = control.force(run.evaluation, ranks)
+                closer = _secant(before, (target, force), wanted, target)
+                if left == 0 or abs(force - wanted) <= _CLOSE * self.scale or closer == target:
+                    break
+                before, target = (target, force), closer
+            except Failed:  # beyond the last contact, perhaps
+                if left == 0:
+                    raise
+                target = 0.5 * (start + target)
             saved.restore(run)
             model.evaluate(model.state)  # the blocks for the recovery of enhanced parameters
         self.before, self.force, self.done = before, force, led.done

@@ -148,6 +148,11 @@ class AirBend(Outcome):
         return found
 
     @property
+    def main(self) -> list[str]:
+        """The angle, and the springback."""
+        return ["angle", "springback"]
+
+    @property
     def tables(self) -> dict[str, list[list[str]]]:
         """The measures, and the bending table."""
         found = [{one.name: one for one in quantities_of(row)} for row in self.table]

@@ -34,8 +34,15 @@ class Goal:
     """Tolerance of the angle."""
 
 
-def needed_stroke(case: AirBending) -> float:
+def needed_stroke(case: AirBending, of: str = "") -> float:
     """The stroke of a case that must have one.
+
+    Parameters
+    ----------
+    case : AirBending
+        The case.
+    of : str
+        Path of the bend, if it is one of several.
 
     Raises
     ------
@@ -45,8 +52,10 @@ def needed_stroke(case: AirBending) -> float:
     if case.stroke is None:
         raise InvalidValue(
             "the way of the punch is missing",
-            where="stroke",
-            remedy="AirBending(stroke=6.0), or find_stroke(case, angle).case",
+            where=f"{of}.stroke" if of else "stroke",
+            remedy="those of a run to its angles: with_strokes of its part"
+            if of
+            else "AirBending(stroke=6.0), or find_stroke(case, angle).case",
         )
     return case.stroke
 

@@ -95,6 +95,18 @@ class Part(Outcome):
     bend_length: float | None = None
 
     @property
+    def with_strokes(self) -> BendSequence:
+        """The sequence with the strokes of its bends in place of their angles."""
+        done = tuple(replace(one.bend, angle=None, stroke=one.measures.stroke) for one in self.bends)
+        return replace(self.sequence, bends=done)
+
+    @property
+    def strokes(self) -> dict[str, str]:
+        """Paths of the strokes that were found for angles, by the names of these angles."""
+        bends = enumerate(self.sequence.bends)
+        return {f"bend {k + 1}: angle": f"bends.{k}.stroke" for k, bend in bends if bend.angle is not None}
+
+    @property
     def strip(self) -> Strip:
         """The strip after the last bend, its first leg on x, in the order of the flat strip."""
         strip = Strip.of(self.bends[-1].result.model.mesh, self.bends[-1].result.model.u)
@@ -170,6 +182,11 @@ class Part(Outcome):
         """Those of the bends, and those of the part."""
         bends = [prefixed(one, f"bend {number}: ") for number, row in self.of_bends.items() for one in row]
         return [*bends, *self.of_part]
+
+    @property
+    def main(self) -> list[str]:
+        """Angles of the bends, and their springback."""
+        return [f"bend {number + 1}: {name}" for name in ("angle", "springback") for number in range(len(self.bends))]
 
     @property
     def tables(self) -> dict[str, list[list[str]]]:

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from umform.analysis.run import Result
 from umform.mesh import Mesh
-from umform.processes.air_bending.bend import Loaded
 from umform.processes.air_bending.goal import Goal
-from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.search import bent_to_angle
-from umform.processes.bend_sequence.collisions import collisions
+from umform.processes.bend_sequence.done import bend_done
 from umform.processes.bend_sequence.part import BendDone, Part
 from umform.processes.bend_sequence.problem import flat_strip
-from umform.processes.bend_sequence.sides import Strip
 from umform.processes.bend_sequence.spec import BendSequence
 from umform.processes.bend_sequence.strip_brake import StripBrake
 from umform.progress import Show, Tick, progress_bar
@@ -68,7 +65,7 @@ def _bent(
     sequence: BendSequence, number: int, mesh: Mesh, before: Result | None, tolerance: float, frames: int, tick: Tick
 ) -> BendDone:
     """One bend."""
-    bend, case = sequence.bends[number], sequence.case(sequence.bends[number])
+    bend = sequence.bends[number]
     brake = StripBrake(sequence, bend, mesh, before, frames)
     trials: tuple[tuple[float, float], ...] = ()
 
@@ -80,35 +77,5 @@ def _bent(
         state, measures = brake.load(bend.stroke, shown), brake.unload()
     else:
         state, measures, trials = bent_to_angle(brake, bend.angle, tolerance, shown)
-    forces, result = brake.forces(), brake.run.close()
-    strips = [
-        (float(result["stroke"][frame.number]), Strip.of(mesh, frame.points["displacement"])) for frame in result.frames
-    ]
-    states = [(stroke, strip.at(bend.position, over=bend.over)) for stroke, strip in strips]
-    hits = collisions(case, sequence.zone(bend), sequence.bodies, states)
-    return BendDone(
-        bend,
-        measures,
-        result["stroke"],
-        forces,
-        tuple(states),
-        tuple(hits),
-        trials,
-        _warnings(brake, state, measures),
-        result,
-        brake.problem(measures.stroke),
-    )
-
-
-def _warnings(brake: StripBrake, state: Loaded, measures: Measures) -> tuple[str, ...]:
-    """Warnings of a bend."""
-    found = []
-    if state.against:
-        found.append(f"the sheet lies against a flank of the {state.against}: this is no air bending any more")
-    for name, allowed in brake.allowed.items():
-        deep = float(brake.run.result[f"{name}_penetration"].max())
-        if allowed is not None and deep > allowed * 1.05:
-            found.append(f"contact {name}: the penetration of {deep:.3g} exceeds the {allowed:.3g} allowed")
-    if measures.radius != measures.radius:
-        found.append("the sheet springs back flat: a larger stroke")
-    return (*found, *brake.run.result.warnings)
+    problem = brake.problem(measures.stroke)
+    return bend_done(sequence, bend, measures, state.against, brake.run.close(), problem, trials)

@@ -88,6 +88,14 @@ class BendSequence:
         check_fields(self)
         _check_sequence(self)
 
+    @property
+    def some_strokes(self) -> BendSequence:
+        """The sequence with half of the largest stroke where an angle is wanted: for what does not depend on it."""
+        bends = (
+            replace(bend, angle=None, stroke=bend.stroke or 0.5 * self.case(bend).largest_stroke) for bend in self.bends
+        )
+        return replace(self, bends=tuple(bends))
+
     def case(self, bend: Bend) -> AirBending:
         """Sheet and tools of a bend."""
         return replace(self.sheet, **dict(bend.tools), stroke=bend.stroke)  # type: ignore[arg-type]

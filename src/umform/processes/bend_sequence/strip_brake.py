@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
-
-import numpy as np
-
 from umform.analysis.run import Result
 from umform.mesh import Mesh
 from umform.model import Model
@@ -13,10 +9,9 @@ from umform.model.terms.control import Control
 from umform.problem.problem import Problem
 from umform.processes.air_bending.bend import Loaded
 from umform.processes.air_bending.branches import Brake, Floats
-from umform.processes.air_bending.measures import Measures, measure
-from umform.processes.air_bending.problem import touching
+from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.section import Section
-from umform.processes.bend_sequence.problem import problem_of_bend
+from umform.processes.bend_sequence.done import measures_of, placed_problem
 from umform.processes.bend_sequence.sides import Sides, Strip
 from umform.processes.bend_sequence.spec import Bend, BendSequence
 from umform.progress import Tick, silent
@@ -50,14 +45,11 @@ class StripBrake(Brake):
     def build(self) -> tuple[Model, Control]:
         """Model of the strip in the tools, and the control that moves the punch down."""
         made = self.problem(self.case.way).build()
-        self.allowed = {name: how.allowed for name, how in touching(self.case).items()}
         return made.model, made.controls["stroke"]
 
     def problem(self, stroke: float) -> Problem:
         """The bend as a problem."""
-        u = np.zeros(3 * len(self.mesh.points)) if self.before is None else self.before.model.u
-        lying = Strip.of(self.mesh, u).at(self.bend_line.position, over=self.bend_line.over).laid(self.case.reach)
-        return problem_of_bend(self.sequence, self.bend_line, stroke, self.mesh, lying, self.before)
+        return placed_problem(self.sequence, self.bend_line, stroke, self.before, self.mesh)
 
     def section(self) -> Section:
         """Right side of the bend, in a frame in which both legs have the same slope."""
@@ -80,9 +72,5 @@ class StripBrake(Brake):
     def unload(self) -> Measures:
         """Measures after unloading: means of both sides, except the largest strain and the smallest thickness."""
         right = super().unload()
-        loaded, released = self._loaded_sides, self._sides
-        assert loaded is not None and released is not None
-        left = measure(right.stroke, right.force, right.largest_force, loaded.left, released.left)
-        both = {f.name: (getattr(right, f.name), getattr(left, f.name)) for f in fields(Measures)}
-        mean = {name: 0.5 * (a + b) for name, (a, b) in both.items()}
-        return Measures(**{**mean, "outer_strain": max(both["outer_strain"]), "thinning": min(both["thinning"])})
+        assert self._loaded_sides is not None and self._sides is not None
+        return measures_of(self._loaded_sides, self._sides, right.stroke, right.force, right.largest_force)

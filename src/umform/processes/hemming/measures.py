@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
@@ -93,9 +93,25 @@ class Hem(Outcome):
         return f"Hem: {sheet}, gap {case.gap:g} mm, {'insert' if case.insert else 'open'}"
 
     @property
+    def with_stroke(self) -> Hemming:
+        """The case with the stroke of its first bend in place of its angle."""
+        return replace(self.case, sheet=replace(self.case.sheet, stroke=self.first.bends[0].measures.stroke))
+
+    @property
+    def strokes(self) -> dict[str, str]:
+        """Path of the stroke that was found for the angle of the first bend, by the name of this angle."""
+        return {} if self.case.sheet.stroke is not None else {"first_angle": "sheet.stroke"}
+
+    @property
     def quantities(self) -> list[Quantity]:
-        """The measures."""
-        return quantities_of(self.measures)
+        """The measures, and the angle of the first bend."""
+        first = Quantity("angle of the first bend", "degrees", 2, name="first_angle")
+        return [*quantities_of(self.measures), replace(first, value=self.first.bends[0].measures.angle)]
+
+    @property
+    def main(self) -> list[str]:
+        """The springback of the height."""
+        return ["springback"]
 
     @property
     def warnings(self) -> list[str]:

@@ -81,8 +81,8 @@ class Hemming:
             remedy="40, with a die and a punch of 30 degrees",
         ),
     ] = 40.0
-    """Angle between the legs after the first bend and its springback; a larger one cannot be flattened between
-    plates."""
+    """Angle between the legs after the first bend and its springback, unless the sheet has a stroke; a larger one
+    cannot be flattened between plates."""
     sheet: AirBending = field(default_factory=acute)
     """Thickness, material, mesh, and tools of the first bend; in plane strain."""
     increments: Annotated[int, Ge(6), Le(10000), About(cause="a length")] = 60
@@ -120,5 +120,6 @@ class Hemming:
     @property
     def first(self) -> BendSequence:
         """The first bend."""
-        bend = Bend(self.flange, self.angle)
+        stroke = self.sheet.stroke
+        bend = Bend(self.flange, self.angle) if stroke is None else Bend(self.flange, stroke=stroke)
         return BendSequence(self.flange + self.base, (bend,), replace(self.sheet, stroke=None))

@@ -9,12 +9,13 @@ from typing import Any
 from umform.analysis.run import Result
 from umform.errors import InvalidValue
 from umform.materials import J2, Hardening, Metal, YoshidaUemori
-from umform.processes.air_bending.goal import needed_stroke
+from umform.processes.air_bending.goal import Goal, needed_stroke
 from umform.processes.air_bending.outcome import outcome_of
 from umform.processes.air_bending.problem import problem_of
 from umform.processes.air_bending.remarks import coarse_mesh
 from umform.processes.air_bending.spec import AirBending
 from umform.progress import Show
+from umform.spec import check_value
 from umform.studies.identification import Identified, MeasuredNumber, Sought, identify
 
 #: Bounds of the factor of the flow stress, and of the constant that gives the curve its shape, over that of the card.
@@ -91,14 +92,7 @@ def correct(
         The first run does not converge.
     """
     needed_stroke(case)
-    if not 0.0 < angle < 180.0:
-        raise InvalidValue(
-            "a measured angle is between 0 and 180 degrees",
-            where="angle",
-            value=angle,
-            cause="radians, or a bend that was not bent",
-            remedy="the angle between the legs after springback",
-        )
+    check_value(Goal, "angle", angle)
     curve = case.material.hardening
     shape = _shape(curve, getattr(case.material, "back_stress", None))
     data = [_measured("angle", angle, angle_deviation, case)]

@@ -27,7 +27,7 @@ def head(table: BendTable, *parts: Tabled) -> list[str]:
             f"{case.die_radius:g}; punch {case.punch_radius:g}, {case.punch_angle:g} degrees"
         )
         found += [f"not computed: {angle:g} degrees: {why}" for angle, why in part.failed.items()]
-        found += sorted({note for one in part.bends for note in one.notes if not note.startswith("the outer strain")})
+        found += part.remarks
         found.append(f"angles are within {table.tolerance:g} degrees; {_interpolation(part)}")
     return found
 

@@ -6,7 +6,7 @@ import bisect
 import itertools
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -130,6 +130,27 @@ class Tabled:
         return replace(found, error=abs(_between(self, check.wanted).deduction - check.deduction))
 
     @property
+    def by_radius(self) -> tuple[StoredBend, ...]:
+        """Bends in the order of growing radii, as far as a radius belongs to one angle: from the smallest one on."""
+        smallest = min(range(len(self.bends)), key=lambda number: self.bends[number].radius)
+        return self.bends[smallest:]
+
+    @property
+    def remarks(self) -> list[str]:
+        """What limits the numbers: a coarse mesh, K of sharp bends, radii that several angles have."""
+        found = sorted({note for one in self.bends for note in one.notes if note.startswith("coarse")})
+        odd = [one for one in self.bends if not 0.0 <= one.k_factor <= 1.0]
+        if odd:
+            found.append(f"K is {odd[0].k_factor:.2f} at {_listed(odd)} degrees: the bend is no circle there; take BD")
+        again = self.bends[: len(self.bends) - len(self.by_radius)] if self.bends else ()
+        if again:
+            found.append(
+                f"the radius of {_listed(again)} degrees is larger than that of {self.by_radius[0].wanted:g}: tables "
+                "over the radius end there"
+            )
+        return found
+
+    @property
     def cubic_error(self) -> float | None:
         """Largest error of `at` in mm; None if it was not checked."""
         return max((self.at(one.wanted).error for one in self.checks), default=None)
@@ -140,6 +161,10 @@ class Tabled:
         known, values = [one.wanted for one in self.bends], [one.deduction for one in self.bends]
         errors = (abs(float(np.interp(one.wanted, known, values)) - one.deduction) for one in self.checks)
         return max(errors, default=None)
+
+
+def _listed(bends: Sequence[StoredBend]) -> str:
+    return ", ".join(f"{one.wanted:g}" for one in bends)
 
 
 def _interval(known: Sequence[float], angle: float) -> int:
@@ -276,6 +301,8 @@ def bend_table(
     store.prepare()
     task = partial(_tabled, angles=sorted(set(angles)), tolerance=tolerance, check=check, folder=store.folder)
     with progress_bar(progress) as tick:
+        if len(wanted) == 1:  # it runs in this process
+            task = partial(task, tick=lambda done: tick("bends", done))
         parts = run_all(
             task,
             list(wanted),
@@ -295,14 +322,30 @@ def _check(setup: Setup, angle: float, tolerance: float) -> None:
         raise
 
 
-def _tabled(setup: Setup, angles: Sequence[float], tolerance: float, check: bool, folder: Path) -> Tabled:
+def _tabled(
+    setup: Setup,
+    angles: Sequence[float],
+    tolerance: float,
+    check: bool,
+    folder: Path,
+    tick: Callable[[float], None] = lambda done: None,
+) -> Tabled:
     failed: dict[float, str] = {}
 
     def miss(angle: float, error: UmformError) -> None:
         failed[angle] = f"{error.what}: {error.cause}" if error.cause else error.what
 
     middles = [0.5 * (low + high) for low, high in itertools.pairwise(angles)] if check else []
-    found = bends(setup.case, [*angles, *middles], tolerance=tolerance, store=Store(folder), on_failure=miss)
+    wanted = [*angles, *middles]
+    done = itertools.count(1)
+    found = bends(
+        setup.case,
+        wanted,
+        tolerance=tolerance,
+        store=Store(folder),
+        each=lambda one: tick(next(done) / len(wanted)),
+        on_failure=miss,
+    )
     rows = tuple(one for one in found if one.wanted in angles)
     checks = tuple(one for one in found if one.wanted not in angles and one.wanted > rows[0].wanted) if rows else ()
     return Tabled(setup, rows, {angle: why for angle, why in failed.items() if angle in angles}, checks)

@@ -45,7 +45,9 @@ def vague(name: str, fit: Fit[Any]) -> Iterator[str]:
         )
     tied = sorted(fit.tied, key=lambda pair: -abs(pair[2]))
     for first, second, correlation in tied[:_PAIRS]:
-        yield f"{name}: only a combination of {first} and {second} is determined (correlation {correlation:.3f})"
+        alone = fit.undetermined and {first, second} & set(fit.undetermined)
+        what = "only a combination of {} and {} is determined" if alone else "{} and {} are hardly told apart"
+        yield f"{name}: {what.format(first, second)} (correlation {correlation:.3f})"
     if len(tied) > _PAIRS:
         yield (
             f"{name}: the same holds for {len(tied) - _PAIRS} more pairs: other constants give the same function "

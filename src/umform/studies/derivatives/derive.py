@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from os import PathLike
+from pathlib import Path
 from typing import Any
 
 from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.run import Result
-from umform.analysis.shadows import solve_with_shadows
+from umform.analysis.shadows import Shadowed, resume_with_shadows, solve_stages_with_shadows, solve_with_shadows
 from umform.errors import InvalidValue, UmformError
 from umform.problem.errors import slip
 from umform.problem.problem import Problem
+from umform.processes.problems import has_operations
 from umform.progress import Show
 from umform.results.quantity import Quantity
 from umform.spec import Scalar
@@ -19,6 +23,7 @@ from umform.studies.derivatives.responses import responses
 from umform.studies.derivatives.subjects import (
     Built,
     OfCase,
+    OfChain,
     OfFunction,
     OfProblem,
     Subject,
@@ -42,6 +47,7 @@ def derivatives(
     solver: str | None = None,
     frames: int = 1,
     progress: Show = None,
+    checkpoint: str | PathLike[str] | None = None,
 ) -> Derivatives:
     """Run a problem, and find the derivatives of its results with respect to some parameters.
 
@@ -52,8 +58,8 @@ def derivatives(
     Parameters
     ----------
     subject : Problem, case of a process, or callable
-        A problem; a case such as `AirBending` with a stroke; or a function that is called with the parameters and
-        returns a model and its steps.
+        A problem; a case such as `AirBending` or `BendSequence` with strokes; or a function that is called with the
+        parameters and returns a model and its steps.
     by : sequence of str, or mapping of str to float
         Paths, see `Problem.paths`; parameters with their values for a function.
     of : sequence of str or callable, optional
@@ -68,6 +74,9 @@ def derivatives(
         Approximate number of states kept in each step.
     progress : bool or callable, optional
         Show a progress bar.
+    checkpoint : str or PathLike, optional
+        File for the state of the run and of its shadows, or a folder for the files of several operations; the same call
+        goes on from it, to the same bits.
 
     Returns
     -------
@@ -80,6 +89,8 @@ def derivatives(
         A parameter does not exist, or cannot be varied; ``where`` is its path.
     NoConvergence
         The run does not converge.
+    FileProblem
+        The checkpoint is that of another run, or cannot be written.
 
     Examples
     --------
@@ -103,29 +114,47 @@ def derivatives(
         shadows[one.path], sizes[one.path] = _shadow(thing, one, lead)
     again = thing.build()
     refuse_same_model([lead, again, *(built for _, built in shadows.values())])
-    found = solve_with_shadows(
-        (lead.model, lead.steps),
-        (again.model, again.steps),
-        {path: (built.model, built.steps) for path, (_, built) in shadows.items()},
-        solver=lead.solver,
-        options=lead.options,
-        frames=frames,
-        progress=progress,
+    found = _run(
+        lead, again, {path: built for path, (_, built) in shadows.items()}, checkpoint, frames=frames, progress=progress
     )
-    wanted = responses(of, thing.quantities(lead, found.run), found.run)
+    runs = [one.run for one in found.values()]
+    wanted = responses(of, thing.quantities(lead, *runs), runs[-1])
 
-    def measured(other: Subject, built: Built, result: Result) -> list[float | None]:
-        numbers = {one.name: one.value for one in other.quantities(built, result)}
-        return [one.value(numbers, result) for one in wanted]
+    def measured(other: Subject, built: Built, results: Sequence[Result]) -> list[float | None]:
+        numbers = {one.name: one.value for one in other.quantities(built, *results)}
+        return [one.value(numbers, results[-1]) for one in wanted]
 
+    *_, last = found.values()
     rows = {
-        path: measured(other, built, found.shadows[path])
+        path: measured(other, built, [one.shadows[path] for one in found.values()])
         for path, (other, built) in shadows.items()
-        if not found.kept[path].lost
+        if not last.kept[path].lost
     }
-    base = measured(thing, lead, found.reference) if rows else []
-    whole = Derivatives.of(parameters, sizes, wanted, base, rows, found)
+    base = measured(thing, lead, [one.reference for one in found.values()]) if rows else []
+    whole = Derivatives.of(parameters, sizes, wanted, base, rows, found, thing.main(*runs))
     return whole.holding(held) if held else whole
+
+
+def _run(
+    lead: Built,
+    reference: Built,
+    shadows: Mapping[str, Built],
+    checkpoint: str | PathLike[str] | None,
+    **show: Any,
+) -> dict[str, Shadowed]:
+    """Run all operations with their shadows, or go on with them."""
+    show |= {"solver": lead.solver, "options": lead.options}
+    if lead.after:
+        others = {path: built.stages for path, built in shadows.items()}
+        return solve_stages_with_shadows(
+            lead.stages, others, reference=reference.stages, checkpoints=checkpoint, **show
+        )
+    how: Callable[..., Shadowed] = solve_with_shadows
+    if checkpoint is not None:
+        goes_on = Path(checkpoint).exists()
+        how = partial(resume_with_shadows, checkpoint) if goes_on else partial(how, checkpoint=checkpoint)
+    pairs = {path: (built.model, built.steps) for path, built in shadows.items()}
+    return {lead.name: how((lead.model, lead.steps), (reference.model, reference.steps), pairs, **show)}
 
 
 def subject_of(subject: Any, by: Any, options: NewtonOptions | None = None, solver: str | None = None) -> Subject:
@@ -150,7 +179,7 @@ def subject_of(subject: Any, by: Any, options: NewtonOptions | None = None, solv
                 remedy='by={"radius": 2.0}',
             )
         return OfFunction(subject, dict(by), options, solver or "auto")
-    return OfCase(subject)
+    return OfChain(subject) if has_operations(subject) else OfCase(subject)
 
 
 def known_parameter(path: str, known: Mapping[str, Scalar]) -> Scalar:

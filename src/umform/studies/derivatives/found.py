@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.analysis.run import Result
-from umform.analysis.shadows import Shadowed
+from umform.analysis.shadows import Shadowed, of_all
 from umform.errors import InvalidValue
 from umform.io.tables import write_csv
 from umform.results.outcome import Annex
@@ -41,14 +42,16 @@ class Derivatives:
         The responses with their values.
     values : ndarray, shape (responses, parameters)
         The derivatives; NaN: unknown.
-    runs : Shadowed
-        The run, its reference and its shadows.
+    stages : mapping of str to Shadowed
+        The run of each operation, with its reference and its shadows.
     sizes : mapping of str to float
         Change of each parameter in its shadow, by its path.
     held : mapping of str to str
         Responses that stay constant, and the parameters that follow.
     measured : tuple of Response
         How each response is taken from a run.
+    main : tuple of str
+        Names of the responses that the process is for.
 
     Examples
     --------
@@ -67,10 +70,11 @@ class Derivatives:
     parameters: tuple[Scalar, ...]
     responses: tuple[Quantity, ...]
     values: Floats
-    runs: Shadowed
+    stages: Mapping[str, Shadowed]
     sizes: Mapping[str, float]
     held: Mapping[str, str]
     measured: tuple[Response, ...]
+    main: tuple[str, ...] = ()
 
     @classmethod
     def of(
@@ -80,7 +84,8 @@ class Derivatives:
         wanted: Sequence[Response],
         base: Sequence[float | None],
         rows: Mapping[str, Sequence[float | None]],
-        runs: Shadowed,
+        stages: Mapping[str, Shadowed],
+        main: Sequence[str] = (),
     ) -> Derivatives:
         """Differences of the shadows from the reference, over the changes of the parameters. eq. (5.161)"""
         values = np.full((len(wanted), len(parameters)), np.nan)
@@ -88,13 +93,17 @@ class Derivatives:
             for row, (before, after) in enumerate(zip(base, rows.get(one.path, ()), strict=False)):
                 if before is not None and after is not None:
                     values[row, column] = (after - before) / sizes[one.path]
-        return cls(
-            tuple(parameters), tuple(one.quantity for one in wanted), values, runs, dict(sizes), {}, tuple(wanted)
-        )
+        quantities = tuple(one.quantity for one in wanted)
+        return cls(tuple(parameters), quantities, values, stages, dict(sizes), {}, tuple(wanted), tuple(main))
+
+    @cached_property
+    def runs(self) -> Shadowed:
+        """The run of the last operation, with what the shadows have kept in all of them."""
+        return of_all(self.stages)
 
     @property
     def run(self) -> Result:
-        """The run."""
+        """The run, that of the last operation."""
         return self.runs.run
 
     def __getitem__(self, key: tuple[str, str]) -> Derivative:
@@ -122,12 +131,22 @@ class Derivatives:
         """All of them, by response, then by parameter."""
         return (self[one.name, other.path] for one in self.responses for other in self.parameters)
 
-    def column(self, name: str, path: str) -> Floats:
-        """Derivative of a column of the history, a value for each row; NaN from where it is unknown."""
+    def column(self, name: str, path: str, stage: str | None = None) -> Floats:
+        """Derivative of a column of the history, a value for each row; NaN from where it is unknown.
+
+        Parameters
+        ----------
+        name, path : str
+            Column, and path of the parameter.
+        stage : str, optional
+            Name of an operation; default: the last one.
+        """
         self._index([one.path for one in self.parameters], path, "parameter")
-        base, other = self.runs.reference[name], self.runs.shadows[path][name]
-        found = np.full(len(self.run), np.nan)
-        found[: len(other)] = (other - base[: len(other)]) / self.sizes[path]
+        runs = self.runs if stage is None else self.stages[stage]
+        found = np.full(len(runs.run), np.nan)
+        if path in runs.shadows:  # else it was lost in an operation before
+            base, other = runs.reference[name], runs.shadows[path][name]
+            found[: len(other)] = (other - base[: len(other)]) / self.sizes[path]
         return found
 
     def displacement(self, path: str) -> Floats:
@@ -222,11 +241,13 @@ class Derivatives:
 
     def _idle(self, path: str) -> bool:
         """Whether a shadow is the reference to the last bit."""
-        base, other = self.runs.reference, self.runs.shadows[path]
-        return all(np.array_equal(base[name], other[name], equal_nan=True) for name in base.columns())
+        pairs = ((runs.reference, runs.shadows[path]) for runs in self.stages.values())
+        return all(
+            np.array_equal(base[name], other[name], equal_nan=True) for base, other in pairs for name in base.columns()
+        )
 
     def write(self, folder: str | Path) -> list[Path]:
-        """Write the table of all derivatives, and those of the columns of the history.
+        """Write the table of all derivatives, and those of the columns of the history of each operation.
 
         Returns
         -------
@@ -250,20 +271,26 @@ class Derivatives:
                 "residual": [one.residual for one in ones],
             },
         )
-        history = folder / HISTORY
-        columns = {name: self.run[name] for name in self.run.columns()}
-        for one in self.parameters:
-            for name in self.run.columns():
-                if name not in ("step", "iterations"):
-                    columns[f"d {name} / d {one.path}"] = self.column(name, one.path)
-        write_csv(history, columns)
+        histories = [self._write_history(folder, stage) for stage in self.stages]
         self.plot(self._main, folder / PICTURE)
-        return [folder / TABLE, history, folder / PICTURE]
+        return [folder / TABLE, *histories, folder / PICTURE]
 
-    def _weight(self, response: str) -> float:
-        """How much a response depends on the parameters, relative to its value."""
+    def _write_history(self, folder: Path, stage: str) -> Path:
+        """The history of an operation, with its name in that of the file if there are several."""
+        path = folder / (HISTORY if len(self.stages) == 1 else HISTORY.replace(".", f"-{stage}."))
+        run = self.stages[stage].run
+        columns = {name: run[name] for name in run.columns()}
+        for one in self.parameters:
+            for name in run.columns():
+                if name not in ("step", "iterations"):
+                    columns[f"d {name} / d {one.path}"] = self.column(name, one.path, stage)
+        write_csv(path, columns)
+        return path
+
+    def _changes(self, response: str) -> bool:
+        """Whether a response depends on the parameters, by more than 1e-6 of its value."""
         found = [self[response, one.path].relative or 0.0 for one in self.parameters]
-        return max(map(abs, found), default=0.0)
+        return max(map(abs, found), default=0.0) > 1e-6
 
     @property
     def annex(self) -> Annex:
@@ -276,8 +303,10 @@ class Derivatives:
 
     @property
     def _main(self) -> str:
-        """The response that depends most on the parameters, relative to its value."""
-        return max(self.responses, key=lambda one: self._weight(one.name)).name
+        """The response of the picture: the first that the process is for, or the first of all, that changes."""
+        names = [one.name for one in self.responses]
+        order = [*(name for name in self.main if name in names), *names]
+        return next(filter(self._changes, order), order[0])
 
     def plot(self, response: str, path: str | Path | None = None) -> Figure:
         """Bars of the relative derivatives of a response, the largest on top."""

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any, Protocol, Self
 
 from umform.analysis.newton.options import NewtonOptions
-from umform.analysis.run import Result
+from umform.analysis.run import Result, solve
+from umform.analysis.run.stages import Stage
 from umform.analysis.shadows.structure import other_structure
 from umform.analysis.steps import Step
 from umform.errors import InvalidValue
@@ -15,14 +17,15 @@ from umform.model import Model
 from umform.problem.measured import Taken
 from umform.problem.prepared import Prepared
 from umform.problem.problem import Problem
-from umform.processes.problems import outcome_of, problem_of
+from umform.processes.problems import Operation, operations_of, outcome_of, problem_of
+from umform.progress import Show
 from umform.results.quantity import Quantity
 from umform.spec import Scalar, changed, scalars
 
 
 @dataclass(frozen=True)
 class Built:
-    """A model that can be run, and what it was made from.
+    """A model that can be run, what it was made from, and the operations after it.
 
     Attributes
     ----------
@@ -36,6 +39,12 @@ class Built:
         Options of Newton's method.
     prepared : Prepared, optional
         The problem that it belongs to.
+    after : sequence of Stage
+        Operations after it, with the same solver and options.
+    alike : sequence of tuple of Model and steps
+        Those of them that are known without a run, in another state.
+    name : str
+        Name of the first operation.
     """
 
     model: Model
@@ -43,11 +52,28 @@ class Built:
     solver: str = "auto"
     options: NewtonOptions | None = None
     prepared: Prepared | None = None
+    after: Sequence[Stage] = ()
+    alike: Sequence[tuple[Model, Sequence[Step]]] = ()
+    name: str = "run"
 
     @classmethod
     def of(cls, prepared: Prepared) -> Self:
         """That of a problem."""
         return cls(prepared.model, prepared.steps, prepared.solver, prepared.options, prepared)
+
+    @property
+    def stages(self) -> list[Stage]:
+        """All operations; the first one is this model."""
+        return [Stage(self.name, lambda before: (self.model, self.steps)), *self.after]
+
+    def solve(self, progress: Show = None) -> list[Result]:
+        """Run all operations, with a frame at the end of each step."""
+        found: list[Result] = []
+        for stage in self.stages:
+            model, steps = stage.build(found[-1] if found else None)
+            settings = {"solver": self.solver, "options": self.options}
+            found.append(solve(model, steps, **settings, frames=1, progress=progress))  # type: ignore[arg-type]
+        return found
 
 
 class Subject(Protocol):
@@ -70,8 +96,11 @@ class Subject(Protocol):
     def build(self) -> Built:
         """The model and its steps."""
 
-    def quantities(self, built: Built, result: Result) -> list[Quantity]:
-        """Its numbers after a run."""
+    def quantities(self, built: Built, *results: Result) -> list[Quantity]:
+        """Its numbers after a run of each operation."""
+
+    def main(self, *results: Result) -> Sequence[str]:
+        """Names of the numbers that it is for."""
 
 
 @dataclass(frozen=True)
@@ -98,10 +127,15 @@ class OfProblem:
         """Its model."""
         return Built.of(self.problem.build())
 
-    def quantities(self, built: Built, result: Result) -> list[Quantity]:
+    def quantities(self, built: Built, *results: Result) -> list[Quantity]:
         """Its measures."""
         assert built.prepared is not None
-        return Taken.of(self.problem, built.prepared, result, complete=True).quantities
+        return Taken.of(self.problem, built.prepared, results[-1], complete=True).quantities
+
+    def main(self, *results: Result) -> Sequence[str]:
+        """None."""
+        del results
+        return ()
 
 
 @dataclass(frozen=True)
@@ -128,10 +162,36 @@ class OfCase:
         """The model of its problem."""
         return Built.of(problem_of(self.case).build())
 
-    def quantities(self, built: Built, result: Result) -> list[Quantity]:
+    def quantities(self, built: Built, *results: Result) -> list[Quantity]:
         """What the process reports."""
         del built
-        return outcome_of(self.case, result).quantities
+        return outcome_of(self.case, *results).quantities
+
+    def main(self, *results: Result) -> Sequence[str]:
+        """What the process is for."""
+        return outcome_of(self.case, *results).main
+
+
+@dataclass(frozen=True)
+class OfChain(OfCase):
+    """A case of a process of several operations, such as `BendSequence` with strokes."""
+
+    def with_(self, changes: Mapping[str, float]) -> OfChain:
+        """The case with other values."""
+        return OfChain(changed(self.case, changes))
+
+    def build(self) -> Built:
+        """The model of its first operation."""
+        first, *after = operations_of(self.case)
+        made = Built.of(first.problem(None).build())
+        alike = [_built(one, None) for one in after if one.alone]
+        stages = [Stage(one.name, partial(_built, one)) for one in after]
+        return replace(made, after=stages, alike=alike, name=first.name)
+
+
+def _built(operation: Operation, before: Result | None) -> tuple[Model, Sequence[Step]]:
+    made = operation.problem(before).build()
+    return made.model, made.steps
 
 
 @dataclass(frozen=True)
@@ -166,9 +226,14 @@ class OfFunction:
         model, steps = self.function(**self.values)
         return Built(model, [steps] if isinstance(steps, Step) else list(steps), self.solver, self.options)
 
-    def quantities(self, built: Built, result: Result) -> list[Quantity]:
+    def quantities(self, built: Built, *results: Result) -> list[Quantity]:
         """None: a function names the columns that it wants."""
-        del built, result
+        del built, results
+        return []
+
+    def main(self, *results: Result) -> Sequence[str]:
+        """None."""
+        del results
         return []
 
 
@@ -180,7 +245,8 @@ def refuse_other_structure(path: str, one: Built, other: Built) -> None:
     InvalidValue
         They differ.
     """
-    cause = other_structure(one.model, one.steps, other.model, other.steps)
+    pairs = zip([(one.model, one.steps), *one.alike], [(other.model, other.steps), *other.alike], strict=False)
+    cause = next(filter(None, (other_structure(*each, *another) for each, another in pairs)), "")
     if cause:
         raise InvalidValue(
             "elements and steps change with a slightly different value",

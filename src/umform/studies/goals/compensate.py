@@ -14,31 +14,48 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.analysis.newton.options import NewtonOptions
-from umform.analysis.run import solve
+from umform.analysis.run import Result
 from umform.errors import InvalidValue, SolveError, UmformError
 from umform.io.tables import write_csv
 from umform.progress import Tick, progress_bar, silent
+from umform.results.outcome import Annex
 from umform.results.quantity import Quantity
 from umform.spec import Scalar
 from umform.studies.derivatives.derive import derivatives, known_parameter, subject_of
-from umform.studies.derivatives.responses import Response
-from umform.studies.derivatives.subjects import Subject
+from umform.studies.derivatives.responses import Response, responses
+from umform.studies.derivatives.subjects import Built, OfCase, Subject
+from umform.studies.goals.files import write_text, write_tools
+from umform.studies.goals.sequences import bent, is_sequence, rigid_slopes
+from umform.studies.goals.shapes import Shapes, Tools, picture
 
 Floats = NDArray[np.float64]
 
 #: Largest change of a parameter in the first step, relative to its value; later ones are longer after a step that did
-#: nearly what was expected of it, and shorter after one that did not.
+#: nearly what was expected of it, and shorter after one that led away from the wanted results.
 _STEP, _LONGER, _SHORTER, _EXPECTED = 0.3, 3.0, 0.5, 0.25
+#: The same relative to the range of a parameter with two bounds.
+_RANGE = 0.5
+#: Part of a change that derivatives may miss; beyond, secants take their place.
+_WAVY = 0.5
+#: Change of a parameter whose derivative is unknown, relative to the longest first step.
+_PROBE = 0.3 * _STEP
 #: Steps that are shorter end the search.
 _SHORTEST = 1e-4
 #: A distance from the wanted results that falls to more than this part asks for new derivatives.
 _SLOW = 0.5
+#: Sine of the angle between changes, about, below which they are one.
+_PARALLEL = 0.1
 #: Halvings of a step whose run fails.
 _HALVINGS = 4
+#: What the picture shows.
+_CAPTION = (
+    "The middle of the sheet in the section at y = 0, in its tools (broken) and out of them: of the first run, and "
+    "with the parameters for the wanted results."
+)
 #: Smallest singular value, relative to the largest, of parameters that the results determine.
 _DETERMINED = 1e-6
-#: File of the runs.
-TABLE = "compensation.csv"
+#: Files: the runs, the deck, the picture of the shapes, the page.
+TABLE, DECK, PICTURE, PAGE = "compensation.csv", "compensated.toml", "compensation.png", "compensation.html"
 
 
 @dataclass(frozen=True)
@@ -84,11 +101,14 @@ class Trial:
         The results.
     derived : bool
         Whether it was run with derivatives.
+    shapes : Shapes, optional
+        The sheet in its tools and out of them; None without a section.
     """
 
     parameters: tuple[float, ...]
     results: tuple[float, ...]
     derived: bool
+    shapes: Shapes | None = None
 
 
 @dataclass(frozen=True)
@@ -109,6 +129,12 @@ class Compensated:
         All runs.
     reached : bool
         Whether all results are within their tolerances.
+    best : int
+        The run of the parameters, from 0.
+    tools : Tools, optional
+        Its tools.
+    missed : float
+        By how much a run missed what the derivatives foretold of it, relative to what changed; 0 if they were right.
 
     Examples
     --------
@@ -128,6 +154,9 @@ class Compensated:
     wanted: dict[str, Wanted]
     trials: tuple[Trial, ...]
     reached: bool
+    best: int = 0
+    tools: Tools | None = None
+    missed: float = 0.0
 
     @property
     def table(self) -> list[list[str]]:
@@ -139,8 +168,59 @@ class Compensated:
             rows.append([str(number), *values, "yes" if trial.derived else ""])
         return rows
 
+    @property
+    def goals(self) -> list[list[str]]:
+        """A header, and a row for each wanted result: the first run, the last one, what is wanted."""
+        first = self.trials[0].results
+        rows = [
+            [one.label, one.number(before), one.number(one.value), f"{want.value:g} ± {want.tolerance:g}", one.unit]
+            for one, before, want in zip(self.results, first, self.wanted.values(), strict=True)
+        ]
+        return [["result", "first run", "compensated", "wanted", "unit"], *rows]
+
+    @property
+    def warnings(self) -> list[str]:
+        """What was not reached, and derivatives that did not foretell the results."""
+        found = []
+        if not self.reached:
+            found.append("the wanted results are not reached: more runs, wider bounds, or other parameters")
+        if self.missed:
+            found.append(
+                "a step changed the results otherwise than their derivatives say, by "
+                f"{100.0 * self.missed:.0f} % of the change: they are wavy or strongly curved there. Secants took the "
+                "place of the derivatives; a finer mesh, equal increments and tighter tolerances make results smoother"
+            )
+        return found
+
+    @property
+    def _pictured(self) -> tuple[Shapes, Shapes] | None:
+        first, last = self.trials[0].shapes, self.trials[self.best].shapes
+        return None if first is None or last is None else (first, last)
+
+    @property
+    def annex(self) -> Annex:
+        """Runs and shapes for the outcome of a process."""
+        shapes = self._pictured
+        plot = None if shapes is None else (lambda: picture(*shapes))
+        return Annex("Compensation", self.table, self._notes, self.warnings, plot, _CAPTION)
+
+    @property
+    def _notes(self) -> list[str]:
+        values = (f"{path} = {one.value:.6g} {one.unit}".rstrip() for path, one in self.parameters.items())
+        return [", ".join(values)]
+
     def write(self, folder: str | Path) -> list[Path]:
-        """Write the table of the runs, and the deck of a problem with the parameters."""
+        """Write the table of the runs, the deck of a problem with the parameters, its tools, picture and page.
+
+        Returns
+        -------
+        list of Path
+            The files.
+        """
+        from umform.plotting import save
+        from umform.report import parts
+        from umform.report.page import annex_parts
+
         folder = Path(folder)
         folder.mkdir(parents=True, exist_ok=True)
         columns = np.array([(*trial.parameters, *trial.results) for trial in self.trials]).T
@@ -148,8 +228,16 @@ class Compensated:
         write_csv(folder / TABLE, dict(zip(names, columns.tolist(), strict=True)))
         files = [folder / TABLE]
         if hasattr(self.subject, "toml"):
-            files.append(folder / "compensated.toml")
-            files[-1].write_text(self.subject.toml(), encoding="utf-8")
+            files.append(write_text(folder / DECK, self.subject.toml()))
+        if self.tools is not None:
+            files += write_tools(folder, self.tools)
+        if self._pictured is not None:
+            save(picture(*self._pictured), folder / PICTURE)
+            files.append(folder / PICTURE)
+        header, *rows = self.goals
+        content = [parts.heading("Wanted results"), parts.table(header, rows), *annex_parts(self.annex)]
+        lead = f"{len(self.trials)} runs; {'all' if self.reached else 'not all'} results are reached"
+        files.append(parts.write_html(folder / PAGE, "Parameters for wanted results", lead, content))
         return files
 
 
@@ -167,7 +255,7 @@ def compensate(
     """Find values of parameters for which results are the wanted ones, such as angles after springback.
 
     The first run gives the derivatives, and these the next parameters; each further run corrects the derivatives by
-    what it found (Broyden), and runs that gain little find new ones. More results than parameters are met in the
+    what it found (secants), and runs that gain little find new ones. More results than parameters are met in the
     least-squares sense, relative to their tolerances.
 
     Parameters
@@ -212,7 +300,7 @@ def compensate(
     >>> found.reached, len(found.trials) <= 4
     (True, True)
     """
-    start = subject_of(subject, by, options, solver)
+    start = _steady(subject_of(subject, by, options, solver))
     known = {one.path: one for one in start.parameters()}
     parameters = [known_parameter(name, known) for name in by]
     limits = {known_parameter(name, known).path: limit for name, limit in (bounds or {}).items()}
@@ -230,13 +318,17 @@ class _Search:
         limits: Floats,
     ) -> None:
         self.start, self.parameters, self.want, self.limits = start, parameters, want, limits
-        self.scale = np.array([abs(one.value) or 1.0 for one in parameters])
+        spans = np.diff(limits, axis=1)[:, 0] * _RANGE / _STEP
+        sizes = [abs(one.value) or 1.0 for one in parameters]
+        self.scale = np.where(np.isfinite(spans) & (spans > 0.0), spans, sizes)
         self.goal = np.array([one.value for one in want.values()])
         self.tolerance = np.array([one.tolerance for one in want.values()])
         self.trials: list[Trial] = []
         self.responses: list[Response] = []
         self.tick: Tick = silent
         self.longest = _STEP
+        self.missed = 0.0
+        self.tools: Tools | None = None
 
     def at(self, x: Floats) -> Subject:
         """The subject with some parameters."""
@@ -246,8 +338,8 @@ class _Search:
         """Iterate."""
         self.tick = tick
         x = np.array([float(one.value) for one in self.parameters])
-        y, slopes = self._derived(x)
-        exact = True  # whether the slopes are derivatives at x
+        exact = not (isinstance(self.start, OfCase) and is_sequence(self.start.case))  # slopes: derivatives at x
+        y, slopes = self._derived(x) if exact else self._foreseen(x)
         while self._error(y) > 1.0 and len(self.trials) < most and self.longest > _SHORTEST:
             step = self._step(x, y, slopes)
             if np.abs(step / self.scale).max() < 1e-12:
@@ -257,16 +349,35 @@ class _Search:
             missed = self._distance(found - slopes @ moved)
             good = missed <= _EXPECTED * self._distance(found)
             gain = self._distance(y_new - self.goal) / self._distance(y - self.goal)
-            self.longest = _LONGER * self.longest if good else _SHORTER * float(np.abs(moved).max())
-            if gain >= 1.0 and exact:
-                continue  # the derivatives are right, and the step was too long
-            slopes = slopes + np.outer(found - slopes @ moved, moved) / float(moved @ moved)
+            if good:
+                self.longest *= _LONGER
+            elif gain >= 1.0:
+                self.longest = _SHORTER * float(np.abs(moved).max())
+            if exact and missed > _WAVY * self._distance(found):
+                self.missed = max(self.missed, missed / self._distance(found))
+            slopes = self._corrected(slopes)
             if gain < 1.0:
                 x, y = x_new, y_new
-            exact = not good and gain > _SLOW and len(self.trials) < most
+            exact = not self.missed and not good and _SLOW < gain < 1.0 and len(self.trials) < most
             if exact:
                 y, slopes = self._derived(x)
         return self._found(x, y)
+
+    def _corrected(self, slopes: Floats) -> Floats:
+        """The nearest slopes with which the last runs agree, as many as there are parameters.
+
+        Changes count by their effects on the results; of nearly parallel ones the mean counts.
+        """
+        *before, last = self.trials[-1 - len(self.parameters) :]
+        moved = np.array([np.subtract(one.parameters, last.parameters) / self.scale for one in before]).T
+        found = np.array([np.subtract(one.results, last.results) for one in before]).T
+        known = np.abs(moved).max(axis=0) > 0.0
+        effect = np.linalg.norm(slopes / self.tolerance[:, None], axis=0)
+        sizes = np.linalg.norm(effect[:, None] * moved[:, known], axis=0)
+        ways = effect[:, None] * moved[:, known] / sizes
+        missed = (found - slopes @ moved)[:, known] / sizes
+        corrected: Floats = slopes + missed @ np.linalg.pinv(ways, rcond=_PARALLEL) * effect
+        return corrected
 
     def _distance(self, change: Floats) -> float:
         """Norm of a change of the results relative to their tolerances."""
@@ -311,10 +422,30 @@ class _Search:
 
     def _plain(self, x: Floats) -> Floats:
         thing = self.at(x)
+        if isinstance(thing, OfCase) and is_sequence(thing.case):
+            return self._sequence(x)
         built = thing.build()
-        result = solve(built.model, built.steps, solver=built.solver, options=built.options, frames=1, progress=False)
-        numbers = {one.name: one.value for one in thing.quantities(built, result)}
-        return self._keep(x, [one.value(numbers, result) for one in self.responses], derived=False)
+        results = built.solve(progress=False)
+        numbers = {one.name: one.value for one in thing.quantities(built, *results)}
+        values = [one.value(numbers, results[-1]) for one in self.responses]
+        return self._keep(x, values, self._shapes(built, results[-1]), results[-1])
+
+    def _shapes(self, built: Built, result: Result) -> Shapes | None:
+        """Shapes of a run of one operation."""
+        return None if built.after else Shapes.of(built.steps, result)
+
+    def _foreseen(self, x: Floats) -> tuple[Floats, Floats]:
+        """Results of a sequence of bends, and slopes of rigid legs by the scaled strokes."""
+        y = self._sequence(x)
+        slopes = rigid_slopes(self.at(x).given, list(self.want), [one.path for one in self.parameters])
+        return y, slopes * self.scale
+
+    def _sequence(self, x: Floats) -> Floats:
+        part = bent(self.at(x).given)
+        known = {one.name: one for one in part.quantities if one.value is not None}
+        self.responses = self.responses or responses(list(self.want), list(known.values()), part.bends[-1].result)
+        values = [known[name].value if name in known else None for name in self.want]
+        return self._keep(x, values, Shapes.of_part(part), None)
 
     def _derived(self, x: Floats) -> tuple[Floats, Floats]:
         """Results, and derivatives by the scaled parameters."""
@@ -322,19 +453,40 @@ class _Search:
         by = dict(zip((one.path for one in self.parameters), x.tolist(), strict=True))
         found = derivatives(thing.given, by, list(self.want), **thing.settings)
         self.responses = list(found.measured)
-        y = self._keep(x, [one.value for one in found.responses], derived=True)
-        if not np.isfinite(found.values).all():
-            raise InvalidValue(
-                "a derivative of a wanted result is unknown", where="by", value="; ".join(found.warnings)
-            )
-        return y, found.values * self.scale
+        shapes = self._shapes(thing.build(), found.run)
+        y = self._keep(x, [one.value for one in found.responses], shapes, found.run, derived=True)
+        slopes = found.values * self.scale
+        for column in np.flatnonzero(~np.isfinite(slopes).all(axis=0)):
+            moved, y_new = self._probed(x, int(column))
+            slopes[:, column] = (y_new - y) / moved
+        return y, slopes
 
-    def _keep(self, x: Floats, values: Sequence[float | None], *, derived: bool) -> Floats:
+    def _probed(self, x: Floats, column: int) -> tuple[float, Floats]:
+        """A change of one scaled parameter, and the results with it."""
+        low, high = self.limits[column]
+        size = _PROBE * self.scale[column]
+        change = size if x[column] + size <= high else -size if x[column] - size >= low else high - x[column]
+        step = np.zeros(len(x))
+        step[column] = change
+        return change / self.scale[column], self._plain(x + step)
+
+    def _keep(
+        self,
+        x: Floats,
+        values: Sequence[float | None],
+        shapes: Shapes | None,
+        result: Result | None,
+        *,
+        derived: bool = False,
+    ) -> Floats:
         if any(value is None for value in values):
             missing = [name for name, value in zip(self.want, values, strict=True) if value is None]
             raise InvalidValue("a run has no value of a wanted result", where="want", value=", ".join(missing))
         y = np.array(values, dtype=float)
-        self.trials.append(Trial(tuple(x.tolist()), tuple(y.tolist()), derived))
+        before = min((self._distance(np.array(one.results) - self.goal) for one in self.trials), default=np.inf)
+        if result is not None and self._distance(y - self.goal) <= before:
+            self.tools = Tools.of(result)
+        self.trials.append(Trial(tuple(x.tolist()), tuple(y.tolist()), derived, shapes))
         self.tick("runs", min(1.0, 1.0 / max(self._error(y), 1.0)), f"{len(self.trials)} runs")
         return y
 
@@ -345,7 +497,17 @@ class _Search:
         }
         results = [replace(one.quantity, value=float(value)) for one, value in zip(self.responses, y, strict=True)]
         reached = self._error(y) <= 1.0
-        return Compensated(self.at(x).given, parameters, results, self.want, tuple(self.trials), reached)
+        best = max(n for n, one in enumerate(self.trials) if one.parameters == tuple(x.tolist()))
+        return Compensated(
+            self.at(x).given, parameters, results, self.want, tuple(self.trials), reached, best, self.tools, self.missed
+        )
+
+
+def _steady(start: Subject) -> Subject:
+    """A case whose results are smooth functions of its parameters, if it has such a variant."""
+    if isinstance(start, OfCase) and hasattr(start.case, "steady"):
+        return replace(start, case=start.case.steady())
+    return start
 
 
 def _limits(parameters: Sequence[Scalar], bounds: Mapping[str, tuple[float, float]]) -> Floats:

@@ -1,4 +1,4 @@
-"""Offset fields of tools with which a part has its wanted shape after springback. docs/theory, 5.18"""
+"""Offset fields of tools with which a part has its wanted shape after springback. docs/theory, 5.17"""
 
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ from umform.problem.unloading import loading_steps
 from umform.progress import Show, progress_bar
 from umform.report.symmetry import mirrors
 from umform.results.forming.tool_distance import pose_in
+from umform.results.outcome import Annex
 from umform.studies.goals.compensate import TABLE
 from umform.studies.goals.deviation import SmoothFace, deviations
 from umform.surfaces import OffsetByField, OffsetField, Placed
@@ -36,8 +37,11 @@ Build = Callable[..., tuple[Model, Sequence[Step]]]
 _WITHIN = 0.1
 #: Nodes farther from a tool, in thicknesses, say nothing about its field.
 _REACH = 2.0
-#: Weights of first and second differences of the coefficients, and of their changes, against the fit.
-_SMOOTH, _SMALL = 1e-3, 1e-6
+#: Weights of first and second differences of the coefficients against the fit: the first one whose field is not too
+#: steep. Those of coefficients with less than this part of the most metal count more.
+_SMOOTH, _BESIDE, _MORE = (1e-4, 1e-3, 1e-2, 1e-1), 0.05, 100.0
+#: Weight of the changes of the coefficients.
+_SMALL = 1e-6
 #: Changes of the deviations below this part of the largest one are noise, and do not say how tools act.
 _KNOWN = 5e-2
 #: Halvings of a change whose run fails.
@@ -124,6 +128,15 @@ class CompensatedShape:
             numbers = f"{one.largest:.4g}", f"{one.rms:.4g}", share, f"{offset:.4g}", f"{one.part:g}"
             rows.append([str(number), *numbers])
         return rows
+
+    @property
+    def annex(self) -> Annex:
+        """The runs, and whether the shape was reached."""
+        warnings = [f"the next run failed: {self.stopped}"] if self.stopped else []
+        if not self.reached:
+            reached = f"the largest deviation is {self.best.largest:.4g}, wanted {self.within:.4g}"
+            warnings.append(f"{reached}: more runs or coefficients")
+        return Annex("Compensation", self.table, warnings=warnings)
 
     def write(self, folder: str | Path) -> list[Path]:
         """Write the table of the runs, the deviations of the first and the best one, and the deck with the fields."""
@@ -417,8 +430,15 @@ class _FittedTool:
         moved = np.ascontiguousarray(self.feet + offset[self.near, None] * self.normals)
         w = self.base.gap(moved)[0]
         basis, rough = self.field.basis(moved), self.field.differences()
+        support = np.where(rough != 0.0, basis.sum(axis=0) / basis.sum(axis=0).max(), np.inf).min(axis=1)
+        rough = rough * np.where(support < _BESIDE, np.sqrt(_MORE), 1.0)[:, None] * np.sqrt(len(moved) / len(rough))
         start, zeros = np.array(self.field.values), np.zeros(len(rough) + basis.shape[1])
-        smooth = np.sqrt(_SMOOTH * len(moved) / len(rough)) * rough
         small = np.sqrt(_SMALL * len(moved)) * np.eye(len(start))
-        rows, change = np.concatenate([basis, smooth, small]), np.concatenate([w - basis @ start, zeros])
-        return replace(self.field, values=tuple(start + np.linalg.lstsq(rows, change, rcond=None)[0]))
+        change = np.concatenate([w - basis @ start, zeros])
+        for weight in _SMOOTH:
+            rows = np.concatenate([basis, np.sqrt(weight) * rough, small])
+            try:
+                return replace(self.field, values=tuple(start + np.linalg.lstsq(rows, change, rcond=None)[0]))
+            except InvalidValue as error:
+                steep = error
+        raise steep

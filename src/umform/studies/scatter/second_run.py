@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from umform.analysis.run import Result, solve
+from umform.analysis.run import Result
 from umform.errors import UmformError
 from umform.progress import Show
 from umform.results.quantity import Quantity
@@ -107,8 +107,8 @@ def second_run(
         The value is refused, or the run does not converge.
     """
     other, built, step = _varied(thing, free, held, path, step)
-    result = solve(built.model, built.steps, solver=built.solver, options=built.options, frames=1, progress=progress)
-    after = {one.name: one.quantity.value for one in responses(of, other.quantities(built, result), result)}
+    results = built.solve(progress)
+    after = {one.name: one.quantity.value for one in responses(of, other.quantities(built, *results), results[-1])}
     before = {one.name: one.value for one in free.responses}
     found = {name: _difference(after.get(name), value) for name, value in before.items()}
     follow = _followers(held, path, step)

@@ -129,3 +129,57 @@ def test_friction_around_a_cylinder():
     share = radius / (radius + 0.01)
     assert found["ratio", "mu"].value == pytest.approx(np.pi / 2 * share, rel=1e-4)
     assert found["ratio", "theta"].value == pytest.approx(0.3 * share, rel=1e-3)
+
+
+def test_a_tool_that_closes_goes_to_the_force_of_the_run():
+    """Each increment of the travel ends as a tool does that is closed with the force there."""
+    height, area = 0.5, 1.0
+
+    def build(E, gap, t, force=-50.0):
+        model = uf.Model(uf.mesh.strip(2.0, 1.0, t, (2, 1)), material=uf.NeoHooke(E=E, nu=0.3))
+        model.symmetry("x0", "x")
+        model.symmetry("y0", "y")
+        model.contact("lower", uf.Plane((0, 0, -t / 2)), penalty=1e4, name="bed")
+        plate = model.contact("upper", uf.Plane((0, 0, t / 2 + gap), (0, 0, -1)), penalty=1e4, name="plate")
+        return model, [uf.Close(model.press(plate, "z", "press"), force=force)]
+
+    values = {"E": 1e3, "gap": 0.3, "t": height}
+    options = NewtonOptions(residual=1e-12, increment=1e-9, max_iterations=60)
+    found = uf.derivatives(build, by=values, of=[], options=options, progress=False)
+    np.testing.assert_allclose(found.column("press_way", "gap")[1:], -area, rtol=1e-6)  # in the air, too
+    for row in (-3, -2):
+        for name in ("E", "t"):
+            ends = [
+                uf.solve(
+                    *build(**{**values, name: values[name] * (1.0 + size)}, force=found.run["press"][row]),
+                    options=options,
+                    frames=0,
+                )["press_way"][-1]
+                for size in (1e-3, -1e-3)
+            ]
+            wanted = (ends[0] - ends[1]) / (2e-3 * values[name])
+            assert found.column("press_way", name)[row] == pytest.approx(wanted, rel=1e-4), (row, name)
+
+
+def test_the_limit_pressure_of_a_thick_tube():
+    """Of perfect plasticity p = 2 Y ln(b / a) / sqrt(3): its derivative by the yield stress is p / Y."""
+    inner, outer = 1.0, 2.0
+
+    def build(Y):
+        def around(X):
+            phi, r = 0.5 * np.pi * X[:, 0], X[:, 2]
+            return np.column_stack([r * np.sin(phi), X[:, 1], r * np.cos(phi)])
+
+        lines = np.linspace(0.0, 1.0, 7), [0.0, 0.2], np.linspace(inner, outer, 7)
+        mesh = uf.mesh.grid(*lines).transformed(around)
+        metal = uf.J2(E=2e10, nu=0.3, hardening=uf.Perfect(Y))  # nearly rigid: strains, and changes of shape, are none
+        model = uf.Model(mesh, "EAS3DEAS", material=metal)
+        model.fix(np.arange(len(mesh.points)), "y")
+        model.symmetry("x0", "x")
+        model.symmetry("x1", "z")
+        return model, uf.Arc(model.pressure("lower", "inside"), 200.0, increment=0.2, most=20)
+
+    found = uf.derivatives(build, by={"Y": 200.0}, of=["inside:max"], progress=False)
+    limit = found["inside:max", "Y"]
+    assert limit.response.value == pytest.approx(2.0 / np.sqrt(3.0) * 200.0 * np.log(outer / inner), rel=1e-2)
+    assert limit.relative == pytest.approx(1.0, rel=1e-6)

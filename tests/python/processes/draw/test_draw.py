@@ -11,6 +11,7 @@ import pytest
 from typer.testing import CliRunner
 
 import umform as uf
+from umform.analysis.steps.pace import Happened
 from umform.cli import app
 from umform.errors import InvalidValue
 from umform.processes.draw import Cup, Drawn, UBend, draw, write_files
@@ -20,6 +21,7 @@ from umform.processes.draw.files import draw_blank
 from umform.processes.draw.pictures import pictures, sections
 from umform.processes.draw.press import OPTIONS
 from umform.processes.draw.spec import coarse
+from umform.processes.draw.u_bend import NUMISHEET
 from umform.processes.draw.words import before_the_run
 from umform.results.forming import ear_profile, passage
 
@@ -197,6 +199,27 @@ def test_a_wall_that_springs_back_far_is_measured_lower():
     assert drawn.punch_force.value == pytest.approx(case.parts * 50.0) and drawn.punch_force.ripple == 0.0
     assert any("sprung back below" in text for text in drawn.warnings)
     assert replace(drawn, released=None).angles is None
+
+
+def test_a_steady_u_bend_is_drawn_in_equal_increments():
+    case = U.steady()
+    pace = case.problem().contents.steps[1].pace
+    assert pace.first == pace.largest == 1.0 / 400.0
+    assert pace.factor(Happened(iterations=40, turn=5.0, strain=0.1, contact=2.0)) > 1.0
+    assert case.newton.residual <= 1e-6 < U.newton.residual
+    assert case.steady() == case
+
+
+@pytest.mark.long
+def test_wall_and_curl_of_a_u_bend_are_reached_by_two_parameters_in_three_more_runs():
+    case = UBend(**NUMISHEET | UBend.meshes["coarse"], opening=52.0, material=STEEL)
+    want = {"theta1": uf.Wanted(99.0, 0.05), "radius of the wall": uf.Wanted(215.0, 0.8)}
+    bounds = {"opening": (51.8, 54.0), "holder_force": (2000.0, 20000.0)}
+    found = uf.compensate(case, want, list(bounds), bounds=bounds)
+    assert found.reached
+    assert len(found.trials) <= 4
+    again = draw(found.subject, frames=0, progress=False)
+    assert again["theta1"].value == pytest.approx(99.0, abs=0.05)
 
 
 @pytest.mark.long

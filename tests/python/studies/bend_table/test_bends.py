@@ -11,6 +11,7 @@ from umform.errors import InvalidValue
 from umform.materials import Perfect
 from umform.processes.air_bending import find_stroke
 from umform.studies.bend_table import bend, bend_key, bend_table
+from umform.studies.bend_table.stored import RESULTS
 
 
 def test_a_bend_is_that_of_a_search_for_its_angle(table, store):
@@ -28,6 +29,19 @@ def test_a_bend_is_asked_twice_and_computed_once(table, store, monkeypatch):
     assert table.computed == 6 and again.computed == 0
     for part, other in zip(table.parts, again.parts, strict=True):
         assert [one.measures for one in part.bends] == [one.measures for one in other.bends]
+
+
+def test_numbers_of_the_store_are_those_of_this_version(case, store):
+    """A change of the code that changes these numbers must increase RESULTS: old entries are wrong then."""
+    m = bend(case, 120.0, store=store).measures
+    found = (RESULTS, m.stroke, m.radius, m.k_factor, m.bend_allowance)
+    assert found == pytest.approx((1, 2.08297202, 1.86732905, 0.41913029, 2.39438166), rel=1e-6)
+
+
+def test_a_table_of_one_setup_shows_each_bend(table, store):
+    shown = []
+    bend_table([table.parts[0].setup], [120, 135, 150], store=store, progress=lambda *told: shown.append(told[1]))
+    assert shown[:3] == pytest.approx([1 / 3, 2 / 3, 1.0])
 
 
 def test_the_key_is_of_all_that_determines_the_bend(case):

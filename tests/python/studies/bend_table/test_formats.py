@@ -130,3 +130,15 @@ def test_units_of_a_file_are_read(tmp_path):
     path = tmp_path / "cm.txt"
     path.write_text("/S 0.1\n/R 0.2 0.4\n/A 90 0.2 0.2\n")
     assert inventor.read(path)[1.0].flat_length(90.0, 2.0, (10.0, 10.0)) == pytest.approx(18.0)
+
+
+def test_a_radius_that_two_angles_have_ends_the_tables_over_radii(table, tmp_path):
+    part = table.parts[0]
+    sharp = replace(part.bends[0], wanted=30.0, measures=replace(part.bends[1].measures, k_factor=-0.2))
+    turned = replace(part, bends=(sharp, *part.bends))
+    write_table(replace(table, parts=(turned,)), tmp_path, ["freecad", "creo", "csv"])
+    sheets = freecad.read(tmp_path / f"{part.setup.name}.FCStd")
+    assert len(sheets[f"material_{part.setup.name}"].k_factors) == 3 and len(sheets) == 5
+    assert len(creo.read(tmp_path / f"{part.setup.name}.bnd").lengths) == 3
+    head = (tmp_path / "bends.csv").read_text()
+    assert "K is -0.20 at 30 degrees" in head and "the radius of 30 degrees is larger than that of 120" in head

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -70,3 +71,18 @@ def test_a_folder_that_cannot_be_written_is_named(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(FileProblem, match="UMFORM_STORE"):
         Store(tmp_path / "file" / "store").prepare()
+
+
+def _write(folder, number):
+    store, key = Store(folder), key_of("sum", 1, "the same")
+    for _ in range(20):
+        store.put(key, "sum", {"by": "x" * 2000}, {"is": float(number)}, 1)
+    return store.get(key).value["is"]
+
+
+def test_processes_write_the_same_entry_at_the_same_time(tmp_path, caplog):
+    with ThreadPoolExecutor(4) as pool:
+        found = list(pool.map(_write, [tmp_path] * 4, range(4)))
+    assert set(found) <= {0.0, 1.0, 2.0, 3.0} and not caplog.text
+    assert len(list(Store(tmp_path).entries())) == 1
+    assert not list(tmp_path.glob("*/.*"))

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import umform as uf
-from umform.errors import InvalidValue
+from umform.errors import FileProblem, InvalidValue
 from umform.problem import Problem
 from umform.processes.air_bending import AirBending
 
@@ -251,3 +251,28 @@ def test_shadows_of_a_bend_are_near_at_once_and_in_balance():
         assert shadow.balance().force_imbalance.max() < 1e-10
         assert shadow["die_penetration"].max() < 0.01  # what a sheet of 2 mm allows
     assert found.runs.reference.balance().force_imbalance.max() < 1e-12
+
+
+def test_the_picture_shows_the_main_result():
+    """The angle of a bend, and its springback where the angle is held; not the force, which depends more."""
+    case = AirBending(stroke=3.0, layers=1, elements_per_thickness=1.0, increment=0.05)
+    found = uf.derivatives(case, ["stroke", "strength"], progress=False)
+    assert found._main == "angle"
+    assert found.holding({"angle": "stroke"})._main == "springback"
+
+
+def test_a_stopped_run_goes_on_to_the_same_bits(tmp_path):
+    def stop(name, fraction, detail):
+        seen.append(name)
+        if len(seen) == 2:
+            raise KeyboardInterrupt
+
+    by, seen = {"E": 210e3, "thickness": 0.2}, []
+    whole = uf.derivatives(cantilever, by, ["tip_force"], progress=False)
+    with pytest.raises(KeyboardInterrupt):
+        uf.derivatives(cantilever, by, ["tip_force"], progress=stop, checkpoint=tmp_path / "run.h5")
+    for _ in range(2):  # in the middle, and at the end
+        again = uf.derivatives(cantilever, by, ["tip_force"], progress=False, checkpoint=tmp_path / "run.h5")
+        np.testing.assert_array_equal(again.values, whole.values)
+    with pytest.raises(FileProblem):
+        uf.derivatives(cantilever, {**by, "E": 211e3}, ["tip_force"], progress=False, checkpoint=tmp_path / "run.h5")

@@ -1,5 +1,8 @@
 """Parameters for wanted results: few runs, bounds kept, undetermined parameters refused."""
 
+import sys
+
+import numpy as np
 import pytest
 
 import umform as uf
@@ -7,6 +10,7 @@ from umform.errors import InvalidValue
 from umform.problem import load
 from umform.problem.templates import template_file
 from umform.processes.air_bending import AirBending, air_bending
+from umform.processes.bend_sequence import Bend, BendSequence
 
 BEND = AirBending(stroke=3.0, layers=1, elements_per_thickness=1.0)
 STRIP = uf.mesh.strip(20.0, 1.0, 0.5, (8, 1))
@@ -18,10 +22,16 @@ def cantilever(way, E):
     return model, uf.Move(model.prescribe("x1_lower", "z", name="tip"), to=-way, steps=3)
 
 
-def test_two_results_of_a_bend_are_reached_by_two_parameters_in_three_more_runs():
+@pytest.fixture(scope="module")
+def bend():
     want = {"angle": uf.Wanted(128.0, 0.02), "largest_force": uf.Wanted(95.0, 0.05)}
-    found = uf.compensate(BEND, want, ["stroke", "opening"])
+    return uf.compensate(BEND, want, ["stroke", "opening"])
+
+
+def test_two_results_of_a_bend_are_reached_by_two_parameters_in_three_more_runs(bend):
+    found = bend
     assert found.reached
+    assert not found.warnings
     assert len(found.trials) <= 4
     assert [trial.derived for trial in found.trials] == [True] + [False] * (len(found.trials) - 1)
     # the case that is returned has the results
@@ -30,11 +40,43 @@ def test_two_results_of_a_bend_are_reached_by_two_parameters_in_three_more_runs(
     assert again["largest_force"].value == pytest.approx(95.0, abs=0.05)
 
 
+def test_the_compensated_tools_are_written_and_read_again(bend, tmp_path):
+    files = {file.name for file in bend.write(tmp_path)}
+    assert files >= {"compensation.csv", "compensated.dxf", "compensation.png", "compensation.html"}
+    case = bend.subject
+    die = uf.VDie(case.opening, case.die_angle, case.die_radius)
+    again = uf.Extruded(uf.Profile.from_dxf(tmp_path / "compensated.dxf", "die"))
+    x = np.random.default_rng(3).uniform(-12.0, 12.0, (200, 3))
+    np.testing.assert_allclose(again.gap(x)[0], die.gap(x)[0], atol=1e-6)
+    page = (tmp_path / "compensation.html").read_text()
+    assert "all results are reached" in page
+    assert "128 ± 0.02" in page
+    assert "out of the compensated tools" in page
+
+
+def test_shapes_are_those_in_the_tools_and_out_of_them(bend):
+    for trial in (bend.trials[0], bend.trials[bend.best]):
+        formed, sprung = (float(np.ptp(line[:, 1])) for line in (trial.shapes.formed, trial.shapes.sprung))
+        assert sprung < formed  # it springs back
+    assert np.ptp(bend.trials[bend.best].shapes.sprung[:, 1]) != np.ptp(bend.trials[0].shapes.sprung[:, 1])
+
+
+def test_without_the_extra_the_tools_are_left_out_with_one_message(bend, tmp_path, monkeypatch, caplog):
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    files = {file.name for file in bend.write(tmp_path)}
+    assert not files & {"compensated.dxf", "compensated.step"}
+    assert [one.getMessage() for one in caplog.records] == [
+        'compensated.dxf and compensated.step not written: pip install "umform[cad]"'
+    ]
+
+
 def test_a_bound_is_kept_and_said(tmp_path):
     found = uf.compensate(BEND, {"angle": uf.Wanted(128.0, 0.02)}, ["stroke"], bounds={"stroke": (2.5, 3.1)})
     assert not found.reached
     assert found.parameters["stroke"].value == pytest.approx(3.1, abs=1e-9)
-    assert [file.name for file in found.write(tmp_path)] == ["compensation.csv"]
+    assert found.warnings == ["the wanted results are not reached: more runs, wider bounds, or other parameters"]
+    found.write(tmp_path)
+    assert "not all results are reached" in (tmp_path / "compensation.html").read_text()
 
 
 def test_a_force_of_a_function_is_reached():
@@ -43,10 +85,56 @@ def test_a_force_of_a_function_is_reached():
     assert found.results[0].value == pytest.approx(-2.0, abs=1e-6)
 
 
+def wavy(way):
+    """Its force is that of a cantilever, with waves that turn the derivative around at the start."""
+    return cantilever(way, 210e3 * (1.0 + 0.05 * np.sin(way / 0.01)))
+
+
+def test_secants_take_the_place_of_derivatives_of_a_wave():
+    start = 0.01 * np.pi * 17  # the slope of the wave is -5 times that of the mean
+    found = uf.compensate(wavy, {"tip_force": uf.Wanted(-2.5, 0.02)}, {"way": start}, most=16)
+    assert found.reached
+    assert [trial.derived for trial in found.trials] == [True] + [False] * (len(found.trials) - 1)
+    assert "wavy" in found.warnings[0]
+
+
+def test_an_unknown_derivative_is_a_secant_of_one_run_more(monkeypatch):
+    module = sys.modules["umform.studies.goals.compensate"]
+
+    def unknown(*given, **more):
+        found = derivatives(*given, **more)
+        found.values[:] = np.nan
+        return found
+
+    derivatives = module.derivatives
+    monkeypatch.setattr(module, "derivatives", unknown)
+    found = uf.compensate(lambda way: cantilever(way, 210e3), {"tip_force": uf.Wanted(-2.0, 1e-6)}, {"way": 0.5})
+    assert found.reached
+    assert found.trials[1].parameters[0] == pytest.approx(0.5 * 1.09)
+
+
 def test_more_parameters_than_results_are_refused():
     by = {"way": 0.5, "E": 210e3}
     with pytest.raises(InvalidValue, match="do not determine the parameters"):
         uf.compensate(cantilever, {"tip_force": uf.Wanted(-2.0, 1e-6)}, by)
+
+
+def test_the_angles_of_a_bracket_are_reached_by_its_strokes_in_three_more_runs():
+    sheet = AirBending(elements_per_thickness=1, layers=1, increment=0.0125)
+    bends = (Bend(25.0, stroke=3.0), Bend(55.0, stroke=3.0, direction="down"))
+    want = {f"bend {number}: final_angle": uf.Wanted(angle, 0.05) for number, angle in ((1, 125.0), (2, 130.0))}
+    found = uf.compensate(BendSequence(80.0, bends, sheet), want, ["bends.0.stroke", "bends.1.stroke"])
+    assert found.reached
+    assert len(found.trials) <= 4
+    assert not any(trial.derived for trial in found.trials)
+    assert found.trials[found.best].results == pytest.approx((125.0, 130.0), abs=0.05)
+    assert found.trials[0].shapes.formed is None
+
+
+def test_a_sequence_of_bends_has_strokes_for_angles_only():
+    sequence = BendSequence(60.0, (Bend(30.0, stroke=3.0),), AirBending(elements_per_thickness=1, layers=1))
+    with pytest.raises(InvalidValue, match="angles are wanted, and strokes follow"):
+        uf.compensate(sequence, {"bend 1: largest_force": uf.Wanted(40.0, 1.0)}, ["bends.0.stroke"])
 
 
 def test_a_start_outside_of_its_bounds_is_refused():
@@ -60,6 +148,7 @@ def test_a_deck_is_compensated_and_written(tmp_path):
     want = {"stroke_force:peak": uf.Wanted(45.0, 0.01)}
     found = uf.compensate(problem, want, ["to.stroke"], bounds={"to.stroke": (0.5, 2.0)})
     assert found.reached
-    _, deck = found.write(tmp_path)
+    found.write(tmp_path)
+    deck = tmp_path / "compensated.toml"
     again = load(deck).build().solve()
     assert abs(again["stroke_force"]).max() == pytest.approx(45.0, abs=0.01)

@@ -27,8 +27,8 @@ def write(table: BendTable, folder: Path) -> list[Path]:
 
 
 def _write(table: BendTable, folder: Path, part: Tabled) -> Path:
-    ordered = sorted(part.bends, key=lambda one: one.radius)
-    y = 0.5 * math.pi * min(part.bends, key=lambda one: abs(one.wanted - 90.0)).k_factor
+    ordered = part.by_radius
+    y = 0.5 * math.pi * min(ordered, key=lambda one: abs(one.wanted - 90.0)).k_factor
     angles = ", ".join(f"{one.radius:.4f}: {one.wanted:g}" for one in ordered)
     lines = [
         *(f"! {line}" for line in (*head(table, part), *_NOTES, f"R: angle of each column: {angles}")),

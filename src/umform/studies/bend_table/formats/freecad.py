@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
@@ -31,18 +31,17 @@ def write(table: BendTable, folder: Path) -> list[Path]:
 
 
 def _write(table: BendTable, folder: Path, part: Tabled) -> Path:
-    ordered = sorted(part.bends, key=lambda one: one.radius)
     notes = [line.replace("K-factor", "K") for line in (*head(table, part), *_NOTES)]  # the workbench looks for it
     label = f"material_{part.setup.name}"
-    sheets = {label: _cells(ordered, notes)}
-    sheets |= {f"{label}-{one.wanted:g}deg": _cells([one], notes) for one in ordered}
+    sheets = {label: _cells(part.by_radius, notes)}
+    sheets |= {f"{label}-{one.wanted:g}deg": _cells([one], notes) for one in part.bends}
     path = folder / f"{part.setup.name}.FCStd"
     with PendingFile(path) as temporary, zipfile.ZipFile(temporary, "w", zipfile.ZIP_DEFLATED) as file:
         file.writestr("Document.xml", _document(sheets))
     return path
 
 
-def _cells(bends: list[StoredBend], notes: list[str]) -> dict[str, str]:
+def _cells(bends: Sequence[StoredBend], notes: list[str]) -> dict[str, str]:
     cells = dict(zip(("A1", "B1", "C1"), (*_HEADINGS, "angle"), strict=True))
     for row, one in enumerate(bends, start=2):
         numbers = (one.radius / one.case.thickness, one.k_factor, one.wanted)

@@ -1,0 +1,92 @@
+"""Tools and planes of symmetry beside the fields of a file, for pictures of the whole part between its tools."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.io.vtkhdf_reader import read_vtkhdf
+from umform.report.bodies import displacements, tool_bodies
+from umform.report.skin import Part
+from umform.report.symmetry import Mirror, mirrors
+from umform.surfaces.triangles import Triangles
+
+if TYPE_CHECKING:
+    from umform.io.vtkhdf import VtkHdfSeries
+    from umform.results.history import History
+
+Floats = NDArray[np.float64]
+
+#: Group of the file. Its data set ``mirrors`` has a row for each plane: axis and coordinate.
+_GROUP = "umform"
+
+
+def attach_scene(series: VtkHdfSeries, result: History) -> None:
+    """Add the tools and the planes of symmetry of a result to the file of its frames."""
+    planes = mirrors(result.model)
+    bodies, _ = tool_bodies(result, result.model.mesh.points + displacements(result), planes)
+    series.attach(_GROUP, {"mirrors": np.array([[plane.axis, plane.at] for plane in planes]).reshape(-1, 2)})
+    for number, body in enumerate(bodies):
+        rotations, shifts = body.poses
+        arrays: dict[str, Any] = {
+            "name": np.bytes_(body.name.encode()),
+            "points": body.surface.points.astype(np.float32),
+            "triangles": body.surface.triangles.astype(np.int32),
+            "poses": np.concatenate([rotations, shifts[:, :, None]], axis=2),
+            "mirrored": np.array([planes.index(plane) for plane in body.mirrored], dtype=np.int64),
+        }
+        series.attach(f"{_GROUP}/tools/{number}", arrays)
+
+
+def frames_in(path: Path) -> int:
+    """Number of frames of a file of fields."""
+    with h5py.File(path, "r") as file:
+        return int(file["VTKHDF/Steps"].attrs["NSteps"])
+
+
+def read_frame(path: Path, frame: int, *, whole: bool = True) -> tuple[Part, dict[str, Triangles]]:
+    """Sheet and tools in a frame of a file of fields, which `attach_scene` has completed.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    frame : int
+        Frame, from 0; negative ones count from the end.
+    whole : bool
+        Whether mirror images at the planes of symmetry are added.
+    """
+    X, cells = read_vtkhdf(path)
+    with h5py.File(path, "r") as file:
+        root = file["VTKHDF"]
+        frame = range(root["Steps"].attrs["NSteps"])[frame]
+        sizes = {"PointData": len(root["Points"]), "CellData": len(root["Types"])}
+        fields: dict[str, dict[str, Floats]] = {kind: {} for kind in sizes}
+        for kind, size in sizes.items():
+            for name, starts in root[f"Steps/{kind}Offsets"].items():
+                fields[kind][name] = root[f"{kind}/{name}"][starts[frame] : starts[frame] + size]
+        group = file.get(_GROUP, {})
+        planes = [Mirror(int(axis), float(at)) for axis, at in group["mirrors"]] if "mirrors" in group else []
+        tools = group.get("tools", {})
+        stored = [{name: tool[name][()] for name in tool} for _, tool in sorted(tools.items(), key=_number)]
+    part = Part.deformed(X, next(iter(cells.values())), fields["PointData"], fields["CellData"])
+    surfaces = {tool["name"].decode(): _at(tool, frame, planes if whole else []) for tool in stored}
+    return part.whole(planes) if whole else part, surfaces
+
+
+def _number(item: tuple[str, object]) -> int:
+    return int(item[0])
+
+
+def _at(tool: dict[str, Any], frame: int, planes: list[Mirror]) -> Triangles:
+    """A tool in its pose, with its mirror images at the planes that it is mirrored at."""
+    pose = tool["poses"][frame]
+    points, triangles = tool["points"] @ pose[:, :3].T + pose[:, 3], tool["triangles"].astype(np.int64)
+    for plane in [planes[k] for k in tool["mirrored"] if k < len(planes)]:
+        triangles = np.concatenate([triangles, triangles[:, ::-1] + len(points)])
+        points = np.concatenate([points, plane.image(points)])
+    return Triangles(points, triangles)
