@@ -87,6 +87,9 @@ def test_tools_follow_the_drawing():
     assert tooling.case(90.0, 20.0, 2.0).opening == 20.0  # at most 12 thicknesses: 24
     assert [tooling.case(angle, 2.0, 2.0).die_angle for angle in (100.0, 120.0, 140.0)] == [60.0, 45.0, 30.0]
     assert tooling.case(90.0, 2.0, 2.0).die_angle == 85.0
+    assert [tooling.case(90.0, radius, 1.0).punch_radius for radius in (0.2, 1.0, 2.0)] == [0.5, 1.0, 1.5]
+    sharp = Tooling(AirBending(punch_radius=1.0))
+    assert sharp.case(90.0, 0.5, 1.0).punch_radius == 1.0  # as it was given
     assert Tooling(opening=25.0).case(90.0, 2.0, 2.0).opening == 25.0
 
 
