@@ -102,5 +102,10 @@ class ComputedBends:
         ]
         source = "computed: " + ", ".join(word for word in words if word)
         return Allowance(
-            drawn - found.deduction, source, found.radius, found.measures.stroke, found.measures.largest_force
+            drawn - found.deduction,
+            source,
+            found.radius,
+            found.measures.stroke,
+            found.measures.largest_force,
+            found.notes,
         )

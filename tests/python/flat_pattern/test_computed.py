@@ -59,6 +59,12 @@ def test_the_flat_length_leaves_the_outer_lengths_of_the_drawing(computed, tooli
     assert all(bend.allowance.stroke > 1.0 and bend.allowance.force > 10.0 for bend in computed.bends)
 
 
+def test_remarks_on_the_runs_are_kept(computed):
+    """The mesh of this test is coarse, and each place that shows the allowance says so."""
+    assert sum("coarse" in text for text in computed.warnings) == 1
+    assert all("coarse" in " ".join(bend.allowance.notes) for bend in computed.bends)
+
+
 def test_a_filled_store_answers_in_two_seconds(computed, z, tooling, store):
     start = time.process_time()
     again = flat(z, tooling=tooling, store=store)
