@@ -67,6 +67,7 @@ def flat(
     from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.io.store import Store
+    from umform.problem.metal_file import metal_of
     from umform.processes.bend_sequence import Bodies
 
     print_warnings_once()
@@ -85,7 +86,8 @@ def flat(
     with staging(place, RESULTS):
         bent = bend_part(orders) if bend else None
         _show(pattern)
-        files = write_files(place, orders, bent)
+        note = "" if metal is None else metal_of(metal, pattern.thickness).note
+        files = write_files(place, orders, bent, note)
     if pattern.order and not orders.is_prismatic:
         console().print(
             "It is checked in cuts across each bend line; flanges at the ends of the lines are not looked at."

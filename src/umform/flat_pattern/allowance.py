@@ -33,6 +33,8 @@ class Allowance:
         Inside radius in mm that the bend gets; that of the drawing unless the bend was computed.
     stroke, force : float, optional
         Stroke of the punch in mm, and largest force in N per mm of bend, of a computed bend.
+    notes : tuple of str
+        Remarks on its run, such as a coarse mesh.
     """
 
     length: float
@@ -40,6 +42,7 @@ class Allowance:
     radius: float
     stroke: float | None = None
     force: float | None = None
+    notes: tuple[str, ...] = ()
 
 
 class AllowanceProvider(Protocol):

@@ -92,7 +92,8 @@ def flat(
     orders = Orders(pattern, tooling, bodies or Bodies())
     order, reasons = orders.find()
     remarks = [*pattern.warnings, *holes_near_bends(pattern), *_radii(pattern), *_short(pattern, orders), *reasons]
-    return replace(pattern, warnings=tuple(remarks), order=order)
+    notes = dict.fromkeys(note for bend in pattern.bends for note in bend.allowance.notes)
+    return replace(pattern, warnings=(*remarks, *notes), order=order)
 
 
 def _radii(pattern: FlatPattern) -> list[str]:

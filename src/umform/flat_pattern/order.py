@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -24,6 +25,8 @@ Floats = NDArray[np.float64]
 _PARALLEL = 1e-5
 #: Places along a bend line that are nearer than this part of it are one.
 _NEAR = 1e-3
+#: Sets of bends without an order after which the search ends; collisions that a warning lists.
+_MOST_SETS, _SHOWN = 5000, 4
 
 
 @dataclass(frozen=True)
@@ -93,7 +96,13 @@ class Orders:
             bend, case = by_number[number], self.case(by_number[number])
             tools = {name: getattr(case, name) for name in TOOLS if getattr(case, name) != getattr(sheet, name)}
             bends.append(Bend(place[number], 180.0 - bend.angle, direction=bend.direction, tools=tools))
-        return BendSequence(section.length, tuple(bends), sheet, self.bodies)
+        try:
+            return BendSequence(section.length, tuple(bends), sheet, self.bodies)
+        except InvalidValue as error:
+            place_of_bend = re.match(r"bend (\d+)", error.where)
+            if place_of_bend is not None:  # name it by its number on the pattern
+                error.where = f"bend {order[int(place_of_bend[1]) - 1]}"
+            raise
 
     def case(self, bend: FlatBend) -> AirBending:
         """Sheet and tools of a bend."""
@@ -109,7 +118,7 @@ class Orders:
                 hits = foreseen_at(sequence, len(sequence.bends))
                 self._known[key] = foreseen_text(sequence, len(sequence.bends), hits[0]) if hits else ""
             if self._known[key]:
-                after = f" after {', '.join(map(str, sorted(done)))}" if done else ""
+                after = f" after {_listed(done)}" if done else ""
                 return f"bend {number}{after}: {self._known[key].partition(': ')[2]}"
         return ""
 
@@ -120,39 +129,68 @@ class Orders:
     def find(self) -> tuple[tuple[int, ...], list[str]]:
         """An order without collision, and why there is none otherwise.
 
-        Bends that go on in one direction come first, then those near an end: the part is turned over rarely.
+        Bends that go on in one direction come first, then those near an end: the part is turned over rarely. Bends
+        that no cut crosses together do not hinder each other: each group has an order of its own.
         """
-        bends = {bend.number: bend for bend in self.pattern.bends}
-        near = {number: min(min(_ends(section, number)) for section in self.sections[number]) for number in bends}
-        dead, reasons = set[frozenset[int]](), dict[str, None]()
-
-        def search(order: tuple[int, ...]) -> tuple[int, ...] | None:
-            done = frozenset(order)
-            if len(done) == len(bends):
-                return order
-            if done in dead:
-                return None
-            last = bends[order[-1]].direction if order else "up"
-            left = sorted(bends.keys() - done, key=lambda n: (bends[n].direction != last, near[n], n))
-            for number in left:
-                hit = self.hits(number, done)
-                if hit:
-                    reasons[hit] = None
-                    continue
-                found = search((*order, number))
-                if found is not None:
-                    return found
-            dead.add(done)
-            return None
-
+        order, reasons = tuple[int, ...](), dict[str, None]()
         try:
-            found = search(())
+            for group in self._groups():
+                found = _Search(self, group, order, reasons).go(frozenset(), ())
+                if found is None:
+                    what = f"no order of bends {_listed(group)} without collision was found with these tools"
+                    return (), [what, *list(reasons)[:_SHOWN]]
+                order += found
         except InvalidValue as error:
             return (), [f"no order of the bends was looked for: {error.where}: {error.what}, {error.cause}"]
-        if found is not None:
-            return found, []
-        shown = list(reasons)[:4]
-        return (), [f"no order of the {len(bends)} bends without collision exists with these tools", *shown]
+        return order, []
+
+    def _groups(self) -> list[frozenset[int]]:
+        """Bends that cuts cross together, directly or by others."""
+        groups = list[frozenset[int]]()
+        for number, sections in self.sections.items():
+            new = frozenset({number}.union(n for section in sections for n, _ in section.places))
+            for group in [group for group in groups if group & new]:
+                groups.remove(group)
+                new |= group
+            groups.append(new)
+        down = {bend.number for bend in self.pattern.bends if bend.direction == "down"}
+        return sorted(groups, key=lambda group: (len(group & down) / len(group), min(group)))
+
+
+class _Search:
+    """Search for an order of a group of bends; whether one collides depends on the bends that are done."""
+
+    def __init__(
+        self, orders: Orders, group: frozenset[int], before: tuple[int, ...], reasons: dict[str, None]
+    ) -> None:
+        self.orders, self.group, self.reasons = orders, group, reasons
+        self.dead = set[frozenset[int]]()
+        self.up = {bend.number: bend.direction == "up" for bend in orders.pattern.bends}
+        self.first = self.up[before[-1]] if before else True
+        sections = orders.sections
+        self.near = {n: min(min(_ends(section, n)) for section in sections[n]) for n in group}
+
+    def go(self, done: frozenset[int], order: tuple[int, ...]) -> tuple[int, ...] | None:
+        """The rest of an order after some bends; None if there is none, or after too many sets of bends."""
+        if done == self.group:
+            return order
+        if done in self.dead or len(self.dead) >= _MOST_SETS:
+            return None
+        last = self.up[order[-1]] if order else self.first
+        for number in sorted(self.group - done, key=lambda n: (self.up[n] != last, self.near[n], n)):
+            hit = self.orders.hits(number, done)
+            if hit:
+                self.reasons[hit] = None
+                continue
+            found = self.go(done | {number}, (*order, number))
+            if found is not None:
+                return found
+        self.dead.add(done)
+        return None
+
+
+def _listed(numbers: frozenset[int]) -> str:
+    return ", ".join(map(str, sorted(numbers)))
 
 
 def _ends(section: Section, number: int) -> tuple[float, float]:

@@ -17,8 +17,10 @@ from umform.studies.bend_table import bend as stored_bend
 OPENINGS = (4.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0, 32.0, 40.0, 50.0, 63.0, 80.0, 100.0, 125.0, 160.0, 200.0)
 #: Openings over the thickness that are chosen.
 NARROWEST, WIDEST = 8.0, 12.0
-#: Angle of punch and die in degrees for parts that those of the sheet do not bend far enough.
-ACUTE = 30.0
+#: Angles of punch and die in degrees for parts that those of the sheet do not bend far enough.
+ACUTE = (60.0, 45.0, 30.0)
+#: Smallest radius of a punch over the thickness that is chosen for a drawing with a smaller one.
+_SHARPEST = 0.5
 #: Degrees below the angle of the part that the tools leave for springback.
 _SPRINGBACK = 3.0
 
@@ -51,9 +53,12 @@ class Tooling:
             opening = min(fits or [8.0 * thickness], key=lambda v: abs(INNER_RADIUS * v - radius))
         changes: dict[str, Any] = {"thickness": thickness, "opening": opening}
         if 180.0 - angle < max(self.sheet.die_angle, self.sheet.punch_angle) + _SPRINGBACK:
-            changes |= {"die_angle": ACUTE, "punch_angle": ACUTE}
+            acute = next((one for one in ACUTE if 180.0 - angle >= one + _SPRINGBACK), ACUTE[-1])
+            changes |= {"die_angle": acute, "punch_angle": acute}
         if self.sheet.die_radius == AirBending.die_radius and thickness < self.sheet.die_radius:
             changes |= {"die_radius": thickness}
+        if self.sheet.punch_radius == AirBending.punch_radius and radius < self.sheet.punch_radius:
+            changes |= {"punch_radius": max(radius, _SHARPEST * thickness)}
         if self.metal is not None:
             changes |= {"material": _law(self.metal, thickness)}
         return replace(self.sheet, stroke=None, **changes)
@@ -97,5 +102,10 @@ class ComputedBends:
         ]
         source = "computed: " + ", ".join(word for word in words if word)
         return Allowance(
-            drawn - found.deduction, source, found.radius, found.measures.stroke, found.measures.largest_force
+            drawn - found.deduction,
+            source,
+            found.radius,
+            found.measures.stroke,
+            found.measures.largest_force,
+            found.notes,
         )

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.errors import DrawingError
+from umform.errors import DrawingError, InvalidValue
 from umform.flat_pattern.allowance import Allowance, AllowanceProvider
 from umform.flat_pattern.skin import Patch, Skin
 
@@ -204,10 +204,24 @@ def _bend_map(
         along,
         across,
         angle,
-        allowance(round(math.degrees(angle), _PLACES), radius, skin.thickness),
+        _allowed(skin, place, allowance(round(math.degrees(angle), _PLACES), radius, skin.thickness)),
         up,
         radius,
         skin.thickness,
+    )
+
+
+def _allowed(skin: Skin, place: int, found: Allowance) -> Allowance:
+    """Refuse an allowance that leaves no flat length between the tangent lines of the drawing."""
+    if found.length > 0.0:
+        return found
+    raise InvalidValue(
+        "the flat length of a bend must be positive",
+        where=str(skin.solid.path),
+        value=f"{found.length:.4g} mm for face {skin.patches[place].face.number}, {found.source}",
+        cause=f"the bend gets an inside radius of {found.radius:.3g} mm, far from that of the drawing, or the table is "
+        "wrong",
+        remedy="draw the inside radius that the die gives, or take a die and a punch for that of the drawing",
     )
 
 

@@ -11,7 +11,7 @@ import pytest
 from brackets import BRACKETS, L, block, cut, drill, fused, placed, section, write
 
 from umform.errors import DrawingError, InvalidValue
-from umform.flat_pattern import KFactor, flat
+from umform.flat_pattern import Allowance, KFactor, flat
 from umform.flat_pattern.folding import folded_points
 from umform.flat_pattern.skin import skin_of
 from umform.flat_pattern.unfold import unfold
@@ -127,6 +127,12 @@ def test_flanges_that_need_the_same_metal_overlap(tmp_path):
     up = placed(section([20, 30], [90], 40.0), (30, -10, 0), 90.0)
     with pytest.raises(DrawingError, match="overlaps itself"):
         flat(write(fused(base, right, up), tmp_path / "inward.step"), allowance=KFactor(K))
+
+
+def test_a_bend_without_flat_length_is_refused_by_its_face(step):
+    with pytest.raises(InvalidValue, match="must be positive") as info:
+        flat(step("l"), allowance=lambda angle, radius, thickness: Allowance(-0.1, "mine", 3.0))
+    assert "face 6, mine" in info.value.value
 
 
 def test_an_allowance_is_needed(step):

@@ -59,6 +59,12 @@ def test_the_flat_length_leaves_the_outer_lengths_of_the_drawing(computed, tooli
     assert all(bend.allowance.stroke > 1.0 and bend.allowance.force > 10.0 for bend in computed.bends)
 
 
+def test_remarks_on_the_runs_are_kept(computed):
+    """The mesh of this test is coarse, and each place that shows the allowance says so."""
+    assert sum("coarse" in text for text in computed.warnings) == 1
+    assert all("coarse" in " ".join(bend.allowance.notes) for bend in computed.bends)
+
+
 def test_a_filled_store_answers_in_two_seconds(computed, z, tooling, store):
     start = time.process_time()
     again = flat(z, tooling=tooling, store=store)
@@ -85,8 +91,11 @@ def test_tools_follow_the_drawing():
     tooling = Tooling()
     assert tooling.case(90.0, 2.5, 2.0).opening == 16.0
     assert tooling.case(90.0, 20.0, 2.0).opening == 20.0  # at most 12 thicknesses: 24
-    assert tooling.case(120.0, 2.0, 2.0).die_angle == 30.0
+    assert [tooling.case(angle, 2.0, 2.0).die_angle for angle in (100.0, 120.0, 140.0)] == [60.0, 45.0, 30.0]
     assert tooling.case(90.0, 2.0, 2.0).die_angle == 85.0
+    assert [tooling.case(90.0, radius, 1.0).punch_radius for radius in (0.2, 1.0, 2.0)] == [0.5, 1.0, 1.5]
+    sharp = Tooling(AirBending(punch_radius=1.0))
+    assert sharp.case(90.0, 0.5, 1.0).punch_radius == 1.0  # as it was given
     assert Tooling(opening=25.0).case(90.0, 2.0, 2.0).opening == 25.0
 
 

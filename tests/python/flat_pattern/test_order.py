@@ -23,7 +23,7 @@ def orders_of(pattern, **tools):
 def test_an_order_is_found_and_collides_nowhere(pattern, name):
     made = pattern(name)
     if name in SHORT:
-        assert made.order == () and "too short for the die" in made.warnings[-1]
+        assert made.order == () and "looked for: bend 1: a flange is too short for the die" in made.warnings[-1]
         return
     assert sorted(made.order) == [bend.number for bend in made.bends]
     orders = orders_of(made)
@@ -37,7 +37,7 @@ def test_a_deep_narrow_channel_has_no_order(tmp_path):
     made = flat(write(strip([70, 24, 70], [90, 90], base=1).shape(), tmp_path / "deep.step"), allowance=KFactor(0.44))
     assert made.order == ()
     words = " ".join(made.warnings)
-    assert "no order of the 2 bends without collision exists" in words
+    assert "no order of bends 1, 2 without collision was found" in words
     assert "bend 1 after 2" in words and "bend 2 after 1" in words and "punch" in words
 
 
@@ -56,6 +56,14 @@ def test_the_order_is_searched_where_not_every_order_works(pattern):
 )
 def test_prismatic_parts_are_known(pattern, name, prismatic):
     assert orders_of(pattern(name)).is_prismatic is prismatic
+
+
+def test_bends_of_cuts_of_their_own_are_searched_by_themselves(pattern):
+    made = pattern("box")
+    groups = orders_of(made)._groups()
+    assert sorted(map(len, groups)) == [2, 2]
+    assert all(set(made.order[k : k + 2]) in groups for k in (0, 2))
+    assert list(map(len, orders_of(pattern("hat"))._groups())) == [4]
 
 
 def test_short_flanges_are_warned_of(pattern):
