@@ -97,6 +97,17 @@ class CompensatedShape:
         The wanted largest deviation.
     stopped : str
         Why there are no more runs, if one failed.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import umform as uf
+    >>> from umform.studies.goals.shape import ShapeTrial
+    >>> first = ShapeTrial({"die": np.zeros(4)}, np.array([0.5, -0.2]))
+    >>> second = ShapeTrial({"die": np.full(4, -0.3)}, np.array([0.04, 0.02]))
+    >>> found = uf.CompensatedShape(None, {}, (first, second), np.zeros((2, 3)), within=0.05)
+    >>> found.reached, found.best.largest
+    (True, 0.04)
     """
 
     subject: Any
