@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
+import umform as uf
 from umform_book.derivatives.chains import CHAINS, compared_chain
 from umform_book.derivatives.differences import compared
 from umform_book.derivatives.laws import LAWS, example
@@ -26,6 +28,16 @@ def test_a_model(name):
     for one in compared(EXAMPLES[name]):
         assert one.derivative < EXAMPLES[name].limit, one
         assert EXAMPLES[name].ends or one.shadow < 1e-4, one
+
+
+def test_a_clamped_strip_slips_back_and_still_rubs_at_the_end_of_its_release():
+    """What makes the derivatives of this release those of its friction, too."""
+    one = EXAMPLES["Release of a clamped strip; friction"]
+    run = uf.solve(*one.build(**one.values), frames=0, progress=False)
+    pulled, end = np.flatnonzero(run["step"] == 2)[-1], -1
+    assert abs(run["pull_force"][end]) < 1e-6 * run["pull_force"][pulled]
+    assert run["bed_active"][end] == run["bed_active"][pulled] > run["bed_slipping"][end] > 0
+    assert run["bed_fx"][pulled] > 50.0 > -5.0 > run["bed_fx"][end]
 
 
 @pytest.mark.long

@@ -64,7 +64,7 @@ def derive(
 ) -> None:
     """Run a deck, and find how its results change with parameters: derivatives of this run, not differences of two.
 
-    Each parameter costs some .5 of a run. A release ends where its force is zero for the changed parameter, too.
+    Each parameter costs some .5 to .6 of a run. A release ends where its force is zero for the changed parameter, too.
     """
     from umform.io.folders import folder_for
     from umform.studies.derivatives import derivatives

@@ -27,8 +27,9 @@ _FIND = re.compile(
     rf"(?P<path>[^=\s]+)(?:=(?:(?P<low>{_NUMBER}):(?P<high>{_NUMBER}))?(?:@(?P<start>{_NUMBER}))?"
     rf"(?:\+-(?P<deviation>{_NUMBER}))?)?"
 )
-_CURVE = re.compile(rf"(?P<x>[^,=@]+),(?P<y>[^,=@]+)(?:@(?P<step>\d+))?=(?P<file>.+?)(?:\+-(?P<deviation>{_NUMBER}))?")
-_QUANTITY = re.compile(rf"(?P<name>[^=]+)=(?P<value>{_NUMBER})(?:\+-(?P<deviation>{_NUMBER}))?")
+_BEHIND = rf"(?:\+-(?P<deviation>{_NUMBER}))?(?P<at>(?:@[^=@\s]+={_NUMBER})*)"
+_CURVE = re.compile(rf"(?P<x>[^,=@]+),(?P<y>[^,=@]+)(?:@(?P<step>\d+))?=(?P<file>.+?){_BEHIND}")
+_QUANTITY = re.compile(rf"(?P<name>[^=]+)=(?P<value>{_NUMBER}){_BEHIND}")
 
 
 Find = typer.Option(
@@ -37,9 +38,9 @@ Find = typer.Option(
     "before; all but the key may be left out; repeatable, see `umform identify`.",
 )
 Quantities = typer.Option(
-    metavar="NAME=VALUE+-DEVIATION",
+    metavar="NAME=VALUE+-DEVIATION@KEY=VALUE",
     help="Measured number: a quantity such as angle, or a column of the history such as `punch_force:max`, with its "
-    "standard deviation; repeatable.",
+    "standard deviation, and where other numbers held for it, such as @stroke=5.2; repeatable.",
 )
 
 
@@ -50,9 +51,9 @@ def identify(
     curve: Annotated[
         list[str] | None,
         typer.Option(
-            metavar="X,Y@STEP=FILE+-DEVIATION",
+            metavar="X,Y@STEP=FILE+-DEVIATION@KEY=VALUE",
             help="Measured curve: two columns of the history, and a CSV file with columns of these names, and perhaps "
-            "deviation; repeatable.",
+            "deviation; the rest as for --quantity; repeatable.",
         ),
     ] = None,
     quantity: Annotated[list[str] | None, Quantities] = None,
@@ -132,6 +133,7 @@ def _curve(text: str) -> MeasuredCurve:
         parts["y"].strip(),
         _number(parts["deviation"]),
         None if step is None else int(step),
+        _at(parts["at"]),
     )
 
 
@@ -139,7 +141,12 @@ def _quantity(text: str) -> MeasuredNumber:
     from umform.studies.identification import MeasuredNumber
 
     parts = _parts(_QUANTITY, text, "--quantity", "angle=91.3+-.2")
-    return MeasuredNumber(parts["name"].strip(), float(parts["value"]), _number(parts["deviation"]))
+    return MeasuredNumber(parts["name"].strip(), float(parts["value"]), _number(parts["deviation"]), _at(parts["at"]))
+
+
+def _at(text: str) -> dict[str, float]:
+    pairs = (pair.split("=") for pair in text.split("@")[1:])
+    return {name: int(value) if value.isdigit() else float(value) for name, value in pairs}
 
 
 def _parts(form: re.Pattern[str], text: str, option: str, remedy: str) -> dict[str, Any]:

@@ -71,6 +71,9 @@ CURVE = ("--curve", "stroke,stroke_force=FILE")
         (["--find", "strength", "--quantity", "angle"], ["this option cannot be read", "--quantity"]),
         (["--find", "strength", "--quantity", "angel=90+-1"], ["no such quantity or column", "where:  --quantity"]),
         (["--find", "strength"], ["nothing was measured"]),
+        (["--find", "strength", "--quantity", "stroke_force:peak=90@strength=5"], ["looked for, and given with"]),
+        (["--find", "strength", "--quantity", "stroke_force:peak=90@nowhere=5"], ["nowhere"]),
+        (["--find", "strength", "--quantity", "stroke_force:peak=90@stroke"], ["this option cannot be read"]),
         (["--curve", "stroke,stroke_force=FILE"], ["missing option '--find'"]),
         (["--find", "thickness", "--find", "material.nu=.2:.4", *CURVE, "--quantity", "stroke=1+-.1"], ["deviation"]),
     ],
@@ -95,6 +98,21 @@ def test_a_measured_bend_corrects_its_metal(tmp_path):
     words = ["bend", *coarse[:-1], tmp_path / "bend", "--curve", f"Swift,{strength},0.004,0.22"]
     again = CliRunner().invoke(cli.app, list(map(str, words)))
     assert re.search(r"largest force .* 105\.0 ", again.output)
+
+
+def test_measurements_of_sheets_of_two_thicknesses(deck, measured, tmp_path):
+    """Their numbers are behind them; the last part of a path will do."""
+    problem = load(deck, SET | {"material.hardening.strength": 560.0, "mesh.thickness": 1.9}).build()
+    run = uf.solve(problem.model, problem.steps, solver=problem.solver, options=problem.options, progress=False)
+    force = run["stroke_force"][run["step"] <= 1][-1]
+    first = f"stroke_force:peak={force}+-.1@thickness=1.9"
+    curve = f"stroke,stroke_force={measured}+-.5@material.E=216e3@thickness=2"
+    words = ["--find", "strength=400:700@500", "--quantity", first, "--curve", curve]
+    done = umform(deck, *words, *COARSE, "--out", tmp_path / "out")
+    assert done.exit_code == 0, done.output
+    with (tmp_path / "out" / "identified.csv").open(newline="") as text:
+        (row,) = csv.DictReader(text)
+    assert float(row["value"]) == pytest.approx(560.0, rel=2e-3)
 
 
 def test_a_measured_bend_has_no_other_goal(tmp_path):

@@ -101,6 +101,17 @@ def pressed_and_let_go(Y: float, t: float, gap: float, force: float) -> Built:
     ]
 
 
+def clamped(Y: float, t: float, mu: float, force: float, pull: float) -> Built:
+    """A strip pressed between a bed and a lid, pulled, and let go to zero force: it slips back, and stays clamped."""
+    model = strip(metal(Y), t, 20.0, 6)
+    model.symmetry("x0", "x")
+    model.contact("lower", uf.Plane((0, 0, -t / 2)), penalty=1e3, cells=2, friction=mu, name="bed")
+    lid = uf.Plane((0, 0, t / 2), (0, 0, -1))
+    press = model.press(model.contact("upper", lid, penalty=1e3, cells=2, friction=mu, name="lid"), "z", "press")
+    end = model.prescribe("x1", "x", "pull")
+    return model, [uf.Move(press, force, 2), uf.Move(end, pull, 20), uf.Release(end, tolerance=1e-10)]
+
+
 def let_go(Y: float, t: float, tip: float) -> Built:
     """A cantilever with a support on the way that is taken away."""
     model = uf.Model(uf.mesh.strip(20.0, 2.0, t, (8, 1)), material=metal(Y))
@@ -283,6 +294,12 @@ EXAMPLES: dict[str, Example] = {
         ends=True,
         size=1e-3,
         limit=1e-2,
+    ),
+    "Release of a clamped strip; friction": Example(
+        clamped,
+        {"Y": 160.0, "t": 1.0, "mu": 0.15, "force": -400.0, "pull": 0.2},
+        ("pull", "plastic_work", "friction_work"),
+        ends=True,
     ),
     "Free, of a support": Example(let_go, {"Y": 160.0, "t": 1.0, "tip": -3.0}, ("tip_force", "plastic_work")),
     "Free, of a tool and a support": Example(opened, DRAWN, ("punch_force", "plastic_work", "elastic_energy")),

@@ -27,6 +27,8 @@ _CLOSE, _NEAR_END, _CLOSER = 1e-13, 1e-2, 5
 #: Below this part of the force at the beginning it says nothing of where contact is lost. Where the force falls to this
 #: part of the last one, contact is lost; following runs then go back farther, by the second part of the value.
 _LEFT, _AWAY = 1e-6, 1e-3
+#: Force of a tool, relative to that at the beginning, above which the sheet stays in its tools at the end.
+_CLAMPED = 1e-3
 
 
 @dataclass(frozen=True)
@@ -180,7 +182,7 @@ class Releasing:
         """Repeat the last accepted increment of the loop of a leading run, to the same force. eq. (5.163)
 
         Near the end the force is an equation. Where contact is about to be lost it determines no value any more: the
-        distance from the leading run then stays.
+        distance from the leading run then stays. A sheet that other forces keep in its tools loses no contact.
         """
         assert isinstance(lead.loop, Releasing)
         model, control, led = run.model, _retracted(run, step), lead.loop
@@ -188,7 +190,7 @@ class Releasing:
         assert led.before is not None
         before, saved = (control.value, self.force), Saved.of(model, run.evaluation)
         target, slope = led_to + before[0] - led.before[0], (wanted - led.before[1]) / (led_to - led.before[0])
-        held = abs(wanted) > _LEFT * led.scale or not run.evaluation.touching(ranks)
+        held = abs(wanted) > _LEFT * led.scale or not run.evaluation.touching(ranks) or _clamped(run, led.scale)
         held = (held or (led.done and lead.evaluation.touching(ranks))) and slope != 0.0 and led_to != 0.0
         if led.done and abs(wanted) <= _LEFT * abs(led.before[1]):  # it snaps off: no tool near it any more
             held, target = False, target + math.copysign(_AWAY * led.start_value, led_to - led.before[0])
@@ -225,6 +227,12 @@ def _retracted(run: Run, step: Release) -> Control:
     """The control to retract: for a force-driven tool its travel, which the step prescribes."""
     control = step.control
     return run.model.tools.press_of(control).way if isinstance(control, ToolForce) else control
+
+
+def _clamped(run: Run, scale: float) -> bool:
+    found, ranks = run.evaluation.found, run.model.system.ranks
+    forces = (tool.resultant(found, ranks)[0] for tool in run.model.tools)
+    return any(math.hypot(*force) > _CLAMPED * scale for force in forces)
 
 
 def _secant(one: tuple[float, float], other: tuple[float, float], wanted: float, default: float) -> float:

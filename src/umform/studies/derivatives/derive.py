@@ -182,6 +182,12 @@ def subject_of(subject: Any, by: Any, options: NewtonOptions | None = None, solv
     return OfChain(subject) if has_operations(subject) else OfCase(subject)
 
 
+def paths_of(name: str, known: Mapping[str, Scalar]) -> list[str]:
+    """The paths that a name may mean: itself, or those of which it is the last parts."""
+    parts = name.split(".")
+    return [name] if name in known else [one for one in known if one.split(".")[-len(parts) :] == parts]
+
+
 def known_parameter(path: str, known: Mapping[str, Scalar]) -> Scalar:
     """The number of a path, or of the last parts of one, if that is unique.
 
@@ -190,8 +196,7 @@ def known_parameter(path: str, known: Mapping[str, Scalar]) -> Scalar:
     InvalidValue
         There is none, there are several, or it is no parameter of the part.
     """
-    parts = path.split(".")
-    found = [path] if path in known else [one for one in known if one.split(".")[-len(parts) :] == parts]
+    found = paths_of(path, known)
     if len(found) != 1:
         raise InvalidValue(
             "a path is ambiguous" if found else "there is no number of this path",

@@ -25,7 +25,7 @@ from umform.studies.derivatives.derive import derivatives, known_parameter, subj
 from umform.studies.derivatives.responses import Response, responses
 from umform.studies.derivatives.subjects import Built, OfCase, Subject
 from umform.studies.goals.files import write_text, write_tools
-from umform.studies.goals.sequences import bent, is_sequence, rigid_slopes
+from umform.studies.goals.sequences import bent, by_rigid_legs, rigid_slopes
 from umform.studies.goals.shapes import Shapes, Tools, picture
 
 Floats = NDArray[np.float64]
@@ -326,6 +326,8 @@ class _Search:
         self.scale = np.where(np.isfinite(spans) & (spans > 0.0), spans, sizes)
         self.goal = np.array([one.value for one in want.values()])
         self.tolerance = np.array([one.tolerance for one in want.values()])
+        #: Whether slopes are those of rigid legs.
+        self.rigid = by_rigid_legs(start.given, list(want), [one.path for one in parameters])
         self.trials: list[Trial] = []
         self.responses: list[Response] = []
         self.tick: Tick = silent
@@ -341,7 +343,7 @@ class _Search:
         """Iterate."""
         self.tick = tick
         x = np.array([float(one.value) for one in self.parameters])
-        exact = not (isinstance(self.start, OfCase) and is_sequence(self.start.case))  # slopes: derivatives at x
+        exact = not self.rigid  # slopes: derivatives at x
         y, slopes = self._derived(x) if exact else self._foreseen(x)
         while self._error(y) > 1.0 and len(self.trials) < most and self.longest > _SHORTEST:
             step = self._step(x, y, slopes)
@@ -426,17 +428,17 @@ class _Search:
 
     def _plain(self, x: Floats) -> Floats:
         thing = self.at(x)
-        if isinstance(thing, OfCase) and is_sequence(thing.case):
+        if self.rigid:
             return self._sequence(x)
         built = thing.build()
         results = built.solve(progress=False)
         numbers = {one.name: one.value for one in thing.quantities(built, *results)}
         values = [one.value(numbers, results[-1]) for one in self.responses]
-        return self._keep(x, values, self._shapes(built, results[-1]), results[-1])
+        return self._keep(x, values, *self._shown(built, results[-1]))
 
-    def _shapes(self, built: Built, result: Result) -> Shapes | None:
-        """Shapes of a run of one operation."""
-        return None if built.after else Shapes.of(built.steps, result)
+    def _shown(self, built: Built, result: Result) -> tuple[Shapes | None, Result | None]:
+        """Shapes of a run, and the run, which has the tools; none of several operations."""
+        return (None, None) if built.after else (Shapes.of(built.steps, result), result)
 
     def _foreseen(self, x: Floats) -> tuple[Floats, Floats]:
         """Results of a sequence of bends, and slopes of rigid legs by the scaled strokes."""
@@ -457,8 +459,8 @@ class _Search:
         by = dict(zip((one.path for one in self.parameters), x.tolist(), strict=True))
         found = derivatives(thing.given, by, list(self.want), **thing.settings)
         self.responses = list(found.measured)
-        shapes = self._shapes(thing.build(), found.run)
-        y = self._keep(x, [one.value for one in found.responses], shapes, found.run, derived=True)
+        shown = self._shown(thing.build(), found.run)
+        y = self._keep(x, [one.value for one in found.responses], *shown, derived=True)
         slopes = found.values * self.scale
         for column in np.flatnonzero(~np.isfinite(slopes).all(axis=0)):
             moved, y_new = self._probed(x, int(column))

@@ -1,15 +1,14 @@
-"""Sequences of bends: several runs, one after the other, that have no derivatives yet."""
+"""Sequences of bends whose strokes follow angles: slopes of rigid legs in place of derivatives."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, TypeGuard
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.errors import InvalidValue
 from umform.processes.bend_sequence.spec import BendSequence
 
 if TYPE_CHECKING:
@@ -24,9 +23,10 @@ _ANGLE = re.compile(r"bend (\d+): (?:angle|final_angle|loaded_angle)")
 _SLOPES = np.linspace(0.0, 75.0, 200)
 
 
-def is_sequence(case: Any) -> TypeGuard[BendSequence]:
-    """Whether a case is a sequence of bends."""
-    return isinstance(case, BendSequence)
+def by_rigid_legs(case: Any, wanted: Sequence[str], paths: Sequence[str]) -> bool:
+    """Whether a case is a sequence of bends of which angles are wanted, and strokes follow."""
+    strokes = all(map(_STROKE.fullmatch, paths))
+    return isinstance(case, BendSequence) and strokes and all(map(_ANGLE.fullmatch, wanted))
 
 
 def bent(sequence: BendSequence) -> Part:
@@ -41,11 +41,6 @@ def rigid_slopes(sequence: BendSequence, wanted: Sequence[str], paths: Sequence[
 
     A stroke that is corrected with it moves by the springback that was found, as an angle; what it misses, secants of
     the next runs correct.
-
-    Raises
-    ------
-    InvalidValue
-        If there is another wanted result than an angle, or another parameter than the stroke of a bend.
     """
     angles, strokes = (_numbers(names, pattern) for names, pattern in ((wanted, _ANGLE), (paths, _STROKE)))
     slopes = np.zeros((len(angles), len(strokes)))
@@ -63,14 +58,4 @@ def rigid_slopes(sequence: BendSequence, wanted: Sequence[str], paths: Sequence[
 
 
 def _numbers(names: Sequence[str], pattern: re.Pattern[str]) -> list[int]:
-    found = [pattern.fullmatch(name) for name in names]
-    for name, match in zip(names, found, strict=True):
-        if match is None:
-            raise InvalidValue(
-                "in a sequence of bends angles are wanted, and strokes follow",
-                where="want and by",
-                value=name,
-                cause="a run of several operations has no derivatives",
-                remedy='want "bend 1: final_angle", by bends.0.stroke',
-            )
-    return [int(match[1]) for match in found if match]
+    return [int(match[1]) for match in map(pattern.fullmatch, names) if match]

@@ -170,6 +170,7 @@ class MeasuredCurve:
         y: str,
         deviation: float | None = None,
         step: int | None = None,
+        at: Mapping[str, Any] | None = None,
     ) -> MeasuredCurve:
         """Read a CSV file whose columns have the names of those of the history.
 
@@ -177,7 +178,7 @@ class MeasuredCurve:
         ----------
         path : str or PathLike
             The file; a column ``deviation`` has the standard deviation of each row.
-        x, y, deviation, step
+        x, y, deviation, step, at
             See above.
         """
         rows = read_rows(path, (x.casefold(), y.casefold()), f"{x},{y} / 1.5,320")
@@ -186,7 +187,7 @@ class MeasuredCurve:
         if spread is None and rows and _DEVIATION in rows[0][1]:
             spread = [number(path, row, _DEVIATION) for row in rows]
         try:
-            return cls(x, y, (table[x], table[y]), spread, step)  # type: ignore[arg-type]
+            return cls(x, y, (table[x], table[y]), spread, step, at or {})  # type: ignore[arg-type]
         except InvalidValue as error:
             error.where = str(path)
             raise

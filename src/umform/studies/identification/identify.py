@@ -110,7 +110,7 @@ def identify(
     present = {} if isinstance(thing, OfFunction) else {path: float(known[path].value) for path in sought}
     start = np.array([one.begin(present.get(path), path) for path, one in sought.items()])
     scale = np.array([one.scale(first) for one, first in zip(sought.values(), start, strict=True)])
-    runs = Runs(thing, list(sought), sorted(data, key=lambda one: repr(one.at)), progress, on_run)
+    runs = Runs(thing, list(sought), sorted(data, key=lambda one: repr(one.at)), known, progress, on_run)
     search = _Search(runs, sought, start, scale)
     search.refuse_blind()
     before = runs.at(start)[0]

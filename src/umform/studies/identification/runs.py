@@ -13,7 +13,9 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue, UmformError
 from umform.progress import Show
+from umform.spec import Scalar
 from umform.studies.derivatives import Derivatives, derivatives
+from umform.studies.derivatives.derive import paths_of
 from umform.studies.derivatives.subjects import Subject
 from umform.studies.identification.data import Measured
 
@@ -32,6 +34,8 @@ class Runs:
         What is looked for.
     data : sequence of Measured
         Measurements.
+    known : mapping of str to Scalar
+        Numbers of the problem by their paths.
     count : int
         Runs so far.
     refused : int
@@ -45,6 +49,7 @@ class Runs:
     thing: Subject
     paths: Sequence[str]
     data: Sequence[Measured]
+    known: Mapping[str, Scalar]
     progress: Show = None
     on_run: Callable[[int, float], object] = lambda count, misfit: None
     count: int = 0
@@ -96,7 +101,7 @@ class Runs:
 
     def _run(self, values: Mapping[str, float]) -> tuple[Floats, Floats, list[Derivatives]]:
         numbers, slopes, runs = [], [], []
-        for setting, group in groupby(self.data, lambda one: dict(one.at)):
+        for setting, group in groupby(self.data, lambda one: self._setting(one.at)):
             some = list(group)
             run = self._derivatives({**setting, **values}, [name for one in some for name in one.of])
             for one in some:
@@ -107,6 +112,19 @@ class Runs:
         slope = np.concatenate(slopes)
         self._check(slope, runs)
         return np.concatenate(numbers), slope, runs
+
+    def _setting(self, at: Mapping[str, Any]) -> dict[str, Any]:
+        """Values with which something was measured, by their full paths."""
+        setting = {(paths_of(name, self.known) or [name])[0]: value for name, value in at.items()}
+        both = [path for path in self.paths if path in setting]
+        if both:
+            raise InvalidValue(
+                "a number is looked for, and given with a measurement",
+                where="at",
+                value=", ".join(both),
+                remedy="look for others",
+            )
+        return setting
 
     def _derivatives(self, values: Mapping[str, Any], of: list[Any]) -> Derivatives:
         self.count += 1

@@ -223,6 +223,17 @@ def test_wall_and_curl_of_a_coarse_u_bend_are_reached_to_a_tenth_of_a_degree_in_
     assert again["theta1"].value == pytest.approx(98.5, abs=0.1)
 
 
+def test_a_holder_force_for_a_draw_in_is_found_in_two_more_runs():
+    want = {"draw-in, mean": uf.Wanted(0.2, 0.001)}
+    found = uf.compensate(replace(CUP, stroke=3.0), want, ["holder_force"], bounds={"holder_force": (5e3, 1e5)})
+    assert found.reached
+    assert len(found.trials) <= 3
+    assert found.subject.holder_force > CUP.holder_force  # more force, less draw-in
+    assert found.trials[0].results[0] > 0.21
+    again = draw(found.subject, frames=0, progress=False)
+    assert again["draw-in, mean"].value == pytest.approx(0.2, abs=0.001)
+
+
 @pytest.mark.long
 def test_a_u_bend_springs_back():
     drawn = draw(replace(U, length=350.0, stroke=70.0, turn=20.0), frames=0, progress=False)

@@ -11,6 +11,7 @@ from umform.problem import load
 from umform.problem.templates import template_file
 from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.bend_sequence import Bend, BendSequence
+from umform_book.derivatives.chains import HEM, PART
 
 BEND = AirBending(stroke=3.0, layers=1, elements_per_thickness=1.0)
 STRIP = uf.mesh.strip(20.0, 1.0, 0.5, (8, 1))
@@ -131,10 +132,20 @@ def test_the_angles_of_a_bracket_are_reached_by_its_strokes_in_three_more_runs()
     assert found.trials[0].shapes.formed is None
 
 
-def test_a_sequence_of_bends_has_strokes_for_angles_only():
-    sequence = BendSequence(60.0, (Bend(30.0, stroke=3.0),), AirBending(elements_per_thickness=1, layers=1))
-    with pytest.raises(InvalidValue, match="angles are wanted, and strokes follow"):
-        uf.compensate(sequence, {"bend 1: largest_force": uf.Wanted(40.0, 1.0)}, ["bends.0.stroke"])
+def test_a_flange_of_a_bracket_is_reached_by_its_bend_line(tmp_path):
+    """Other results than angles, and other parameters than strokes, have derivatives."""
+    found = uf.compensate(PART, {"flange 2": uf.Wanted(25.5, 1e-3)}, ["bends.1.position"])
+    assert found.reached
+    assert [trial.derived for trial in found.trials] == [True, False]
+    # tools of several operations stand in no common place
+    assert {file.name for file in found.write(tmp_path)} == {"compensation.csv", "compensation.html"}
+
+
+@pytest.mark.long
+def test_a_height_of_a_hem_is_reached_by_its_insert():
+    found = uf.compensate(HEM, {"height": uf.Wanted(3.2, 0.01)}, ["gap"])
+    assert found.reached
+    assert len(found.trials) <= 3
 
 
 def test_a_start_outside_of_its_bounds_is_refused():
