@@ -57,7 +57,7 @@ def write_files(out: str | Path, bend: AirBend, note: str = "") -> list[Path]:
 
     with staging(out, FILES) as stage:
         here = stage.waiting
-        write_csv(here / "curve.csv", {"step": bend.step, "stroke": bend.stroke, "force": bend.force})
+        write_csv(here / "curve.csv", {"step": bend.step, "stroke mm": bend.stroke, "force N/mm": bend.force})
         if bend.table:
             write_table(here / "table.csv", bend.table)
         bend.write(here)
@@ -77,8 +77,8 @@ def write_files(out: str | Path, bend: AirBend, note: str = "") -> list[Path]:
 
 
 def write_table(path: Path, table: Sequence[Measures]) -> None:
-    """Write all measures of a bending table; NaN for unknown ones."""
-    found = columns([quantities_of(row) for row in table])
+    """Write all measures of a bending table, with units in the header; NaN for unknown ones."""
+    found = columns([quantities_of(row) for row in table], units=True)
     write_csv(path, {name: [math.nan if one is None else one for one in column] for name, column in found.items()})
 
 
