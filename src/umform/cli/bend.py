@@ -36,7 +36,7 @@ from umform.cli.options import (
     print_deck,
 )
 from umform.cli.outcome_screen import show_outcome
-from umform.cli.root import Debug, Overwrite, Verbose, console, printing
+from umform.cli.root import Csv, Debug, Overwrite, Verbose, console, printing
 from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.sequence import run_sequence
 from umform.cli.timing import Timed, show_timing
@@ -98,6 +98,7 @@ def bend(
     quantity: Annotated[list[str] | None, Quantities] = None,
     deck: PrintDeck = False,
     everything: All = False,
+    csv: Csv = "plain",
     overwrite: Overwrite = False,
     force: Force = False,
     timing: Timed = False,

@@ -41,6 +41,22 @@ def test_a_table_of_angles_has_the_bends_to_each_of_them(tmp_path):
         assert [row["stroke mm"] for row in csv.DictReader(file)] == [rows[1]["stroke mm"]]
 
 
+@pytest.mark.parametrize(("typed", "environment"), [(["--csv", "german"], {}), ([], {"UMFORM_CSV": "german"})])
+def test_tables_for_german_spreadsheets(typed, environment, tmp_path):
+    fast = ["--stroke", "0.4", "--table", "0.4:0.4:1", "--layers", "1", "--elements-per-thickness", "1"]
+    done = CliRunner().invoke(app, ["bend", *fast, *typed, "--out", str(tmp_path)], env=environment)
+    assert done.exit_code == 0, done.output
+    for name in ("table.csv", "curve.csv", "quantities.csv"):
+        text = (tmp_path / name).read_text(encoding="utf-8-sig")
+        assert ";" in text.splitlines()[0] and "," not in text.splitlines()[0]
+        assert "0,4;" in text and "0.4" not in text
+
+
+def test_an_unknown_style_of_tables_is_refused(tmp_path):
+    done = CliRunner().invoke(app, ["bend", "--stroke", "1", "--csv", "swiss", "--out", str(tmp_path / "out")])
+    assert done.exit_code == 1 and "--csv, UMFORM_CSV" in done.stderr and "german" in done.stderr
+
+
 @pytest.mark.parametrize(
     "refused",
     [
