@@ -544,7 +544,7 @@ drawn.write(Path("."))
 (row,) = [row for row in csv.DictReader(Path("quantities.csv").open()) if row["name"] == "steady_way"]
 assert row["unit"] == "mm" and float(row["value"]) == way
 with redirect_stdout(StringIO()) as screen:
-    show_outcome(drawn)
+    show_outcome(drawn, note="", everything=True)
 assert "steady travel" in screen.getvalue() and f"{way:.2f}" in screen.getvalue()
 """)
 
@@ -669,7 +669,7 @@ def pull(given: Given, deck: PrintDeck = False) -> None:
     if deck:
         print_deck(case)
         return
-    show_outcome(outcome_of(case, problem_of(case).build().solve(progress=False)))
+    show_outcome(outcome_of(case, problem_of(case).build().solve(progress=False)), note="", everything=True)
 '''
 
 
