@@ -79,7 +79,6 @@ class Slow(RateFactor):
 '''
 CARD = """[X1]
 number = "9.9999"
-aliases = []
 young = 210e3
 poisson = 0.3
 yield_stress = 200

@@ -12,6 +12,7 @@ from umform.elements import element
 from umform.errors import InvalidValue
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
+from umform.materials.laws import full_text
 from umform.processes.air_bending.bend import AirBend
 from umform.processes.air_bending.formulas import shop_forces, strength
 from umform.processes.air_bending.measures import Measures
@@ -111,6 +112,6 @@ def _told(numbers: Mapping[str, float]) -> dict[str, float | None]:
 
 def parameters(case: AirBending) -> dict[str, Any]:
     """Parameters as JSON data; the material as text."""
-    words = {"element": element(case.element).name, "material": repr(case.material)}
+    words = {"element": element(case.element).name, "material": full_text(case.material)}
     drawn = {"punch_section": case.punch_section, "die_section": case.die_section}
     return case.record() | words | {name: None if tool is None else tool.words for name, tool in drawn.items()}
