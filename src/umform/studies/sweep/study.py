@@ -161,6 +161,7 @@ def sweep(
     """
     from umform.io.staging import staging
     from umform.problem import Problem, load
+    from umform.studies.sweep.floating import tools_stay
     from umform.studies.sweep.measures import Measure
     from umform.studies.sweep.plan import make_plan
     from umform.studies.sweep.table import FILES, JOBS, write
@@ -173,6 +174,8 @@ def sweep(
     folder = Path(out) if out is not None else Path("results") / f"{Path(base.source.name).stem}-sweep"
     options = {"files": files, "functions": functions, "force": force}
     plan = make_plan(base, vary or {}, jobs, changes or {}, folder.resolve() / JOBS, **options)
+    if staying := tools_stay(plan):
+        log.warning(staying)
     with staging(folder if out is None else out, FILES) as stage:
         records = plan.known(retry=retry, force=force)
         try:
