@@ -203,8 +203,8 @@ class _Api:
         """The curve of a bend from its file."""
         path = result_file(self.queue, self._job_of(request).id, "curve.csv", _FILES)
         with path.open(newline="") as text:
-            rows = list(csv.DictReader(text))
-        return {"x": [float(row["stroke"]) for row in rows], "y": [float(row["force"]) for row in rows]}
+            _, *rows = csv.reader(text)  # step, stroke, force
+        return {"x": [float(row[1]) for row in rows], "y": [float(row[2]) for row in rows]}
 
     def scene(self, request: Request) -> Response:
         """The present scene of a job, for a page of its shape that is shown."""

@@ -247,7 +247,7 @@ def _run(
 
 
 def _of(case: AirBending, angle: float, entry: Entry) -> StoredBend:
-    numbers = dict(entry.value)
+    numbers = {"below_die": entry.value["stroke"] - case.thickness} | dict(entry.value)  # entries of before lack it
     notes = tuple(numbers.pop("notes"))
     return StoredBend(replace(case, stroke=numbers["stroke"]), angle, Measures(**numbers), notes, entry.key)
 
