@@ -22,7 +22,7 @@ from umform.bench.index import Job
 from umform.bench.jobs import MOST_WAITING, Queue, result_file
 from umform.bench.library import library
 from umform.bench.look import look
-from umform.bench.parts import Parts
+from umform.bench.parts import PARTS, Parts
 from umform.bench.refusals import error_record, problems_of
 from umform.bench.strips import FILES as STRIP_FILES
 from umform.bench.wanted import Wanted
@@ -188,7 +188,8 @@ class _Api:
         values = wanted.values
         if wanted.choices.work == "flat":
             row = self.parts.row(values["part"])
-            return {"files": {row["name"]: self.parts.path_of(row["name"])}, "more": {"part": row}}
+            copies = {row["name"]: self.parts.path_of(row["name"]), SHAPE: self.parts.view_of(row["name"])}
+            return {"files": copies, "more": {"part": row}}
         name = values.get("issue_again")
         if name is None:
             return {}
@@ -265,9 +266,11 @@ class _Api:
         return FileResponse(path, media_type="application/json")
 
     def file(self, request: Request) -> Response:
-        """A file of a job."""
+        """A file of a job, or the 3D view of a part."""
         name, file = request.path_params["name"], request.path_params["file"]
-        path = result_file(self.queue, name, file, _is_known)
+        path = self.parts.view_of(file) if name == PARTS else result_file(self.queue, name, file, _is_known)
+        if not path.is_file():
+            raise InvalidValue("there is no such part", where="part", value=file[:80])
         kind = "inline" if path.suffix in _SHOWN else "attachment"
         headers = {"content-security-policy": _SANDBOX} if path.suffix in (".html", ".svg") else {}
         return FileResponse(path, filename=path.name, content_disposition_type=kind, headers=headers)

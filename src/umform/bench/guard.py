@@ -12,7 +12,7 @@ from starlette.responses import JSONResponse, PlainTextResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 #: Largest request in bytes, and largest ones with a file, by their paths: a drawing, a part.
-LONGEST_BODY, LONGEST_UPLOADS = 1_000_000, {"/api/tools": 8_100_000, "/api/parts": 26_800_000}
+LONGEST_BODY, LONGEST_UPLOADS = 1_000_000, {"/api/tools": 8_100_000, "/api/parts": 26_700_000}
 _OPEN = "/assets/"
 _POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; "

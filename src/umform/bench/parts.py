@@ -17,17 +17,19 @@ from umform.io.atomic import PendingFile
 
 #: Bytes of a part, parts that are kept, and seconds that the reading of one may take.
 LONGEST_PART, MOST_PARTS, _LONGEST_READING = 20_000_000, 200, 60.0
+#: Name of their folder.
+PARTS = "parts"
 _NAME = re.compile(r"\w[\w +.,°-]{0,59}\.(step|stp)", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
 class Parts:
-    """The parts in a folder: that of the bench.
+    """The parts of a bench.
 
     Parameters
     ----------
     folder : Path
-        Folder of ``parts``.
+        Folder of the bench; the parts are in ``parts``.
     """
 
     folder: Path
@@ -48,7 +50,12 @@ class Parts:
                 cause="it does not end in .step or .stp, is too long, or has characters that a file name cannot have",
                 remedy="the STEP file of one part, with 1 to 60 letters, digits, blanks, dots and dashes",
             )
-        return self.folder / "parts" / name
+        return self.folder / PARTS / name
+
+    def view_of(self, name: str) -> Path:
+        """The page with the 3D view of a part."""
+        place = self.path_of(name)
+        return place.with_name(f"{place.name}.html")
 
     def row(self, name: str) -> dict[str, Any]:
         """Name, thickness and bends of a part.
@@ -73,7 +80,7 @@ class Parts:
     def rows(self) -> list[dict[str, Any]]:
         """All parts."""
         found = []
-        for path in sorted((self.folder / "parts").glob("*.json"))[:MOST_PARTS]:
+        for path in sorted((self.folder / PARTS).glob("*.json"))[:MOST_PARTS]:
             try:
                 found.append(self.row(path.name.removesuffix(".json")))
             except UmformError:
@@ -102,10 +109,12 @@ class Parts:
         with tempfile.TemporaryDirectory(prefix="umform-bench-") as folder:
             path = Path(folder) / name
             path.write_bytes(file_of(content, LONGEST_PART, "part", "a STEP file", "an assembly, or an empty file"))
-            arguments = ["umform.bench.read_part", str(path)]
+            view = path.with_name("view.html")
+            arguments = ["umform.bench.read_part", str(path), str(view)]
             found: dict[str, Any] = json_of_module(arguments, _LONGEST_READING, "the reading of the part")
             if "problem" in found:
                 return found
+            shutil.move(view, self.view_of(name))
             shutil.move(path, place)
         with PendingFile(_record_of(place)) as waiting:
             waiting.write_text(json.dumps(found), encoding="utf-8")
@@ -115,6 +124,7 @@ class Parts:
         """Delete a part; jobs have their own copies."""
         place = self.path_of(name)
         _record_of(place).unlink(missing_ok=True)
+        self.view_of(name).unlink(missing_ok=True)
         place.unlink(missing_ok=True)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from umform.bench.folders import RESULTS, SHAPE
+from umform.bench.folders import RESULTS
 from umform.bench.live import write_live
 from umform.bench.wanted import Wanted
 from umform.errors import UmformError
@@ -17,22 +17,18 @@ from umform.flat_pattern.files import record, write_files
 from umform.io.staging import staging
 from umform.io.store import Store
 from umform.processes.bend_sequence import Bodies
-from umform.report.solid_page import write_solid
-from umform.surfaces.cad.read_solid import read_solid
 
 #: Progress after the bends, and before the files are written.
 _BENDS, _BEFORE_FILES = 0.8, 0.95
 
 
-def run_flat(folder: Path, title: str, wanted: Wanted, part: Mapping[str, Any]) -> dict[str, Any]:
-    """Unfold the part of a job and write its files.
+def run_flat(folder: Path, wanted: Wanted, part: Mapping[str, Any]) -> dict[str, Any]:
+    """Unfold the part of a job, which has a copy of it, and write its files.
 
     Parameters
     ----------
     folder : Path
-        Folder of the job, which has a copy of the part.
-    title : str
-        For the page of the part.
+        Folder of the job.
     wanted : Wanted
         The form.
     part : mapping
@@ -45,7 +41,6 @@ def run_flat(folder: Path, title: str, wanted: Wanted, part: Mapping[str, Any]) 
     """
     name, k = wanted.values["part"], wanted.values["k_factor"]
     try:
-        write_solid(folder / SHAPE, read_solid(folder / name), title)
         thickness = float(part["thickness"])
         tooling, bodies = wanted.tooling(thickness), Bodies()
         provider: AllowanceProvider = ComputedBends(tooling, Store()) if k is None else KFactor(k)

@@ -201,11 +201,11 @@ class Wanted:
                 cause="all combinations of the lists are bent",
                 remedy="shorter lists, or several tables",
             )
-        metals = [get(name).name for name in values["metals"]]  # of the library, no file
         try:
+            metals = [get(name).name for name in values["metals"]]  # of the library, no file
             found = setups(metals, self.sheet(), **lists)
         except InvalidValue as error:
-            error.where = MANY.get(error.where, error.where)
+            error.where = {**MANY, "sheet_metals": "metals"}.get(error.where, error.where)
             raise
         for setup in found:
             for angle in values["angles"]:

@@ -139,7 +139,7 @@ def _other(folder: Path, order: dict[str, Any], wanted: Wanted) -> dict[str, Any
     if wanted.choices.work == "flat":
         from umform.bench.unfold import run_flat
 
-        return run_flat(folder, order["title"], wanted, order["part"])
+        return run_flat(folder, wanted, order["part"])
     if wanted.choices.work == "table":
         from umform.bench.bend_tables import run_table
 

@@ -20,7 +20,7 @@ _STYLE = """
 main { max-width: none; padding: 0 .2rem; }
 header, footer, .player, .panel label, .legend { display: none; }
 .panel { margin: 0; }
-.stage { height: clamp(15rem, 52vw, 26rem); }
+.stage { height: calc(100vh - 4.2rem); min-height: 12rem; }
 """
 _SCRIPTS = ("unpack.js", "space.js", "shape.js", "start_solid.js")
 #: Colours of flat faces and of bends.
@@ -83,7 +83,8 @@ def scene_of_solid(solid: Solid) -> Scene:
 def _map() -> str:
     """The colours of the field, 64 in hexadecimal."""
     steps = np.linspace(0.0, 1.0, 64)[:, None]
-    return np.round((1.0 - steps) * _FLAT + steps * _BENT).astype(np.uint8).tobytes().hex()
+    colours = np.round((1.0 - steps) * _FLAT + steps * _BENT)
+    return bytes(colours.astype(np.uint8)).hex()
 
 
 def _outward(face: Any, corners: NDArray[np.float64]) -> NDArray[np.float64]:

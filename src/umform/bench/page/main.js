@@ -41,10 +41,11 @@ async function start() {
       await jobs.refresh();
       go(`bend/${answer.jobs[0]}`);
     },
+    sketch,
     tables: () => tables(),
   });
   const form = new Form(library, (found, values) => {
-    element("sketch").hidden = !found.drawing && viewOf(values.work) === "flat";
+    if (!result.name) sketch(found, values.work);
     if (found.drawing && !result.name) drawing.set(found.drawing, { ...values, ...found.shown });
     element("sketch").classList.toggle("old", !found.drawing);
     if (!result.name) expected(found, values);
@@ -116,6 +117,24 @@ async function start() {
   await show();
   document.documentElement.dataset.ready = "yes";
   tour(false);
+}
+
+/**
+ * The card above the results: tools and sheet, or the part that is to be unfolded; nothing above an unfolded one.
+ * @param {any} found @param {string} work
+ */
+function sketch(found, work) {
+  const flat = viewOf(work) === "flat";
+  const [card, place] = [element("sketch"), element("part-view")];
+  card.hidden = flat && !found.part;
+  place.hidden = !flat;
+  element("drawing").style.display = flat ? "none" : "";
+  element("drawing-text").hidden = flat;
+  if (!found.drawing) element("expected").replaceChildren();
+  const seen = flat && found.part ? JSON.stringify(found.part) : "";
+  if (seen === place.dataset.seen) return;
+  place.dataset.seen = seen;
+  place.replaceChildren(...(seen ? [make("iframe", { class: "alone", title: t("shape.title"), sandbox: "allow-scripts", src: `/files/parts/${encodeURIComponent(found.part.name)}` })] : []));
 }
 
 /** Tables by angle and opening below the jobs that are compared. @param {any[]} rows */

@@ -84,6 +84,7 @@ export class Result {
     if (!this.job) {
       this.looked = job.kind === "bend" ? await post("/api/look", known(job.parameters)) : {};
       if (job.id !== this.name) return; // another job was opened meanwhile
+      if (job.kind === "bend") this.actions.sketch({ drawing: this.looked.drawing }, job.parameters.work);
       if (this.looked.drawing) this.drawing.set(this.looked.drawing, { ...job.parameters, ...this.looked.shown });
     }
     if (this.looked.drawing) this.actions.expected(this.looked, job.parameters, job.summary.press);
