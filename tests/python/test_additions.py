@@ -79,7 +79,6 @@ class Slow(RateFactor):
 '''
 CARD = """[X1]
 number = "9.9999"
-aliases = []
 young = 210e3
 poisson = 0.3
 yield_stress = 200
@@ -544,7 +543,7 @@ drawn.write(Path("."))
 (row,) = [row for row in csv.DictReader(Path("quantities.csv").open()) if row["name"] == "steady_way"]
 assert row["unit"] == "mm" and float(row["value"]) == way
 with redirect_stdout(StringIO()) as screen:
-    show_outcome(drawn)
+    show_outcome(drawn, note="", everything=True)
 assert "steady travel" in screen.getvalue() and f"{way:.2f}" in screen.getvalue()
 """)
 
@@ -669,7 +668,7 @@ def pull(given: Given, deck: PrintDeck = False) -> None:
     if deck:
         print_deck(case)
         return
-    show_outcome(outcome_of(case, problem_of(case).build().solve(progress=False)))
+    show_outcome(outcome_of(case, problem_of(case).build().solve(progress=False)), note="", everything=True)
 '''
 
 

@@ -113,11 +113,12 @@ def test_an_executor_of_the_user_takes_the_place_of_processes():
 
 
 SCRIPT = """
+import os
 import time
 from umform.pool import run_all
 
 def tell_and_sleep(number):
-    print(number, flush=True)
+    os.write(1, f"{number}\\n".encode())  # at once: print writes the end of the line by itself
     time.sleep(300)
 
 if __name__ == "__main__":

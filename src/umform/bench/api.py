@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import re
 from collections.abc import Callable
 from dataclasses import asdict
 from typing import Any
@@ -15,21 +16,25 @@ from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, R
 from starlette.routing import Route
 
 from umform.bench.decks import checked_deck, known_templates, schema_text, template_text, title_of
-from umform.bench.folders import RESULTS, SCENE, SHAPE
+from umform.bench.folders import METAL, RESULTS, SCENE, SHAPE, TABLE
 from umform.bench.form import form_fields
 from umform.bench.index import Job
 from umform.bench.jobs import MOST_WAITING, Queue, result_file
 from umform.bench.library import library
 from umform.bench.look import look
+from umform.bench.parts import PARTS, Parts
 from umform.bench.refusals import error_record, problems_of
 from umform.bench.strips import FILES as STRIP_FILES
 from umform.bench.wanted import Wanted
 from umform.errors import InvalidValue, UmformError
+from umform.flat_pattern import FILES as FLAT_FILES
 from umform.problem.results import FILES as DECK_FILES
 from umform.processes.air_bending.files import RESULTS as BEND_FILES
 from umform.results.quantity import Quantity, columns
 
-_FILES = frozenset({*BEND_FILES, *DECK_FILES, *STRIP_FILES, SHAPE})
+_FILES = frozenset({*BEND_FILES, *DECK_FILES, *STRIP_FILES, *FLAT_FILES, METAL, SHAPE})
+#: Names of the files of bend tables; most follow from the setups.
+_OF_TABLES = re.compile(r"bends\.(csv|json)|[A-Za-z0-9][A-Za-z0-9.-]{0,120}\.(FCStd|bnd|inventor\.txt|solidworks\.txt)")
 #: Reports contain programs. They are served without an origin, so that they cannot use this server.
 _SANDBOX = "sandbox allow-scripts allow-downloads allow-popups"
 _SHOWN = (".html", ".png", ".svg")
@@ -49,15 +54,18 @@ def routes(queue: Queue) -> list[Route]:
         "/api/jobs/{name}/curve": api.curve,
         "/api/jobs/{name}/scene": api.scene,
         "/api/tools": lambda request: {"tools": queue.shelf.rows()},
+        "/api/parts": lambda request: {"parts": api.parts.rows()},
         "/api/decks": lambda request: {"templates": known_templates()},
         "/api/decks/schema": lambda request: Response(schema_text(), media_type="application/json"),
         "/api/decks/template/{name}": lambda request: {"text": template_text(request.path_params["name"])},
         "/files/{name}/{file}": api.file,
     }
     post: dict[str, Callable[[Any, Request], _Json]] = {
-        "/api/look": lambda body, request: look(body, queue.shelf),
+        "/api/look": lambda body, request: look(body, queue.shelf, api.parts),
         "/api/tools": api.add_tool,
         "/api/tools/remove": api.remove_tool,
+        "/api/parts": api.add_part,
+        "/api/parts/remove": api.remove_part,
         "/api/jobs": api.add,
         "/api/decks/check": lambda body, request: checked_deck(_text(body), queue.folder),
         "/api/decks/jobs": api.add_deck,
@@ -114,7 +122,7 @@ class _Api:
     """Requests about jobs."""
 
     def __init__(self, queue: Queue) -> None:
-        self.queue = queue
+        self.queue, self.parts = queue, Parts(queue.folder)
 
     def jobs(self, request: Request) -> _Json:
         """All jobs, the latest first, and how far those are that run."""
@@ -127,7 +135,8 @@ class _Api:
         """A job with its numbers, live data and files."""
         job = self._job_of(request)
         folder = self.queue.folder_of(job.id)
-        files = [file for file in sorted(_FILES) if (folder / RESULTS / file).is_file()]
+        there = folder / RESULTS
+        files = sorted(one.name for one in there.iterdir() if _is_known(one.name)) if there.is_dir() else []
         shape = (folder / SHAPE).is_file()
         return {**asdict(job), "live": self.queue.live(job.id), "files": files, "has_shape": shape}
 
@@ -155,15 +164,58 @@ class _Api:
         good, refused = [], []
         for number, one in enumerate(wanted):
             try:
-                good.append(one.as_ordered(one.case(self.queue.shelf)))
+                good.append(self._checked(one))
             except UmformError as error:
                 if len(wanted) == 1:
                     raise
                 refused.append({**error_record(error), "form": number, "title": one.title})
         series = str(body.get("series", ""))[:80]
         add = self.queue.add
-        names = [add("bend", one.title, dict(one.values), series=series, tools=one.drawn) for one in good]
+        names = [
+            add("bend", one.title, dict(one.values), series=series, tools=one.drawn, **self._with(one)) for one in good
+        ]
         return {"jobs": names, "refused": refused}
+
+    def _checked(self, wanted: Wanted) -> Wanted:
+        """A form that can be run, with the sizes of its drawn tools."""
+        if wanted.choices.work == "flat":
+            wanted.tooling(self.parts.row(wanted.values["part"])["thickness"])
+            return wanted
+        return wanted.as_ordered(wanted.case(self.queue.shelf))
+
+    def _with(self, wanted: Wanted) -> dict[str, Any]:
+        """Files and entries of the order that a job needs besides its form: a part, a table."""
+        values = wanted.values
+        if wanted.choices.work == "flat":
+            row = self.parts.row(values["part"])
+            copies = {row["name"]: self.parts.path_of(row["name"]), SHAPE: self.parts.view_of(row["name"])}
+            return {"files": copies, "more": {"part": row}}
+        name = values.get("issue_again")
+        if name is None:
+            return {}
+        job = self.queue.index.job(name)
+        if job is None or wanted.choices.material not in job.parameters.get("metals", ()):
+            raise InvalidValue(
+                "this is no table of this metal",
+                where="issue_again",
+                value=name[:40],
+                cause="another metal, or a table that was deleted",
+                remedy="order a bend table of this metal first",
+            )
+        return {"files": {TABLE: result_file(self.queue, name, "bends.json", _is_known)}}
+
+    def add_part(self, body: Any, request: Request) -> _Json:
+        """Read the STEP file of a part and keep it."""
+        name, content = (_text(body, part) for part in ("name", "content"))
+        full = self.queue.disk.problem()
+        if full is not None:
+            raise full
+        return self.parts.add(name, content)
+
+    def remove_part(self, body: Any, request: Request) -> _Json:
+        """Delete a part."""
+        self.parts.remove(_text(body, "name"))
+        return {}
 
     def add_deck(self, body: Any, request: Request) -> _Json:
         """Order the run of a deck."""
@@ -201,10 +253,10 @@ class _Api:
 
     def curve(self, request: Request) -> _Json:
         """The curve of a bend from its file."""
-        path = result_file(self.queue, self._job_of(request).id, "curve.csv", _FILES)
+        path = result_file(self.queue, self._job_of(request).id, "curve.csv", _is_known)
         with path.open(newline="") as text:
-            rows = list(csv.DictReader(text))
-        return {"x": [float(row["stroke"]) for row in rows], "y": [float(row["force"]) for row in rows]}
+            _, *rows = csv.reader(text)  # step, stroke, force
+        return {"x": [float(row[1]) for row in rows], "y": [float(row[2]) for row in rows]}
 
     def scene(self, request: Request) -> Response:
         """The present scene of a job, for a page of its shape that is shown."""
@@ -214,9 +266,11 @@ class _Api:
         return FileResponse(path, media_type="application/json")
 
     def file(self, request: Request) -> Response:
-        """A file of a job."""
+        """A file of a job, or the 3D view of a part."""
         name, file = request.path_params["name"], request.path_params["file"]
-        path = result_file(self.queue, name, file, _FILES)
+        path = self.parts.view_of(file) if name == PARTS else result_file(self.queue, name, file, _is_known)
+        if not path.is_file():
+            raise InvalidValue("there is no such part", where="part", value=file[:80])
         kind = "inline" if path.suffix in _SHOWN else "attachment"
         headers = {"content-security-policy": _SANDBOX} if path.suffix in (".html", ".svg") else {}
         return FileResponse(path, filename=path.name, content_disposition_type=kind, headers=headers)
@@ -242,6 +296,11 @@ class _Api:
             table.writerow([job.number, _cell(job.title), *cells, *(column[number] for column in found.values())])
         headers = {"content-disposition": 'attachment; filename="bends.csv"'}
         return Response(text.getvalue(), media_type="text/csv", headers=headers)
+
+
+def _is_known(name: str) -> bool:
+    """Whether jobs write files of this name."""
+    return name in _FILES or _OF_TABLES.fullmatch(name) is not None
 
 
 def _cell(value: Any) -> Any:

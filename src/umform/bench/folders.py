@@ -21,6 +21,9 @@ ORDER, OUTCOME, LIVE, SHAPE, SCENE, LOCK, DECK, RESULTS = (
     "results",
 )
 
+#: Corrected metal, and the table that is issued again with it.
+METAL, TABLE = "metal.toml", "table.json"
+
 #: Names of the folders of jobs.
 NAME = re.compile(r"[0-9a-f]{12}")
 

@@ -8,17 +8,18 @@ from functools import cache
 from types import MappingProxyType
 from typing import Annotated, Any, ClassVar, Literal
 
-from annotated_types import Gt, Le
+from annotated_types import Ge, Gt, Le
 
 from umform.processes.air_bending.goal import Goal
 from umform.processes.air_bending.spec import AirBending, SizeOf
 from umform.processes.bend_sequence import BendSequence
 from umform.processes.hemming import Hemming
 from umform.spec import About, Parameter, note_of, parameters
-from umform.spec.types import Length, Stress
+from umform.spec.types import Degrees, Length, Positive, Stress
 
-#: Kinds of work.
-WORKS = ("bend", "bottom", "sequence", "hem")
+#: Kinds of work: those in the tools, and those with a view of their own.
+WORKS = ("bend", "bottom", "sequence", "hem", "correct", "flat", "table")
+_IN_TOOLS = WORKS[:5]
 #: Meshes by name: a quick look, the default of `umform bend`, and what docs/air-bending.md says is better.
 MESHES: dict[str, dict[str, Any]] = {
     "quick": {"layers": 1, "elements_per_thickness": 1.0, "increment": 0.02},
@@ -28,10 +29,10 @@ MESHES: dict[str, dict[str, Any]] = {
 #: Longest bend, and longest strip of several bends or a hem, in mm: a longer one would take the memory of the server.
 LONGEST, LONGEST_STRIP = 20000.0, 4000.0
 #: Fields that stand first; those of these groups follow, the other groups are folded away.
-_FIRST = ("work", "material", "thickness", "opening", "length")
-_SHOWN = ("What to do", "Part", "Hem")
+_FIRST = ("work", "part", "material", "metals", "thickness", "thicknesses", "opening", "openings", "angles", "length")
+_SHOWN = ("What to do", "Measured bend", "Part", "Hem", "Flat pattern", "Bend table")
 #: What the form contains at first, where the Spec has no default.
-_AT_FIRST = {"angle": 90.0, "strip_length": 80.0}
+_AT_FIRST = {"angle": 90.0, "strip_length": 80.0, "angles": [90.0, 105.0, 120.0, 135.0, 150.0]}
 _BENDS = ({"position": 20.0, "angle": 90.0}, {"position": 60.0, "angle": 90.0})
 #: Parameters that the chosen mesh determines where they are empty.
 BY_MESH = frozenset(name for mesh in MESHES.values() for name in mesh)
@@ -44,7 +45,7 @@ class Choices:
     groups: ClassVar = {"work": "What to do", "die": "Tools", "yield_stress": "Sheet", "mesh": "Solution"}
     """Group of the parameters from each of these on."""
 
-    work: Literal["bend", "bottom", "sequence", "hem"] = "bend"
+    work: Literal["bend", "bottom", "sequence", "hem", "correct", "flat", "table"] = "bend"
     """Kind of work."""
     material: str = "DC04"
     """Material; a sheet metal of the library."""
@@ -69,6 +70,51 @@ class Choices:
 
 
 @dataclass(frozen=True)
+class Measured:
+    """What was measured of a bend, to correct its metal."""
+
+    groups: ClassVar = {"measured_angle": "Measured bend"}
+    """Group of the parameters from each of these on."""
+
+    measured_angle: Degrees | None = None
+    """Measured angle between the legs after springback."""
+    measured_force: Annotated[Positive, About("kN/m")] | None = None
+    """Measured force at the stroke; without it, only the flow stress is corrected."""
+    measured_radius: Length | None = None
+    """Measured inside radius."""
+    issue_again: str | None = None
+    """Bend table to issue again; a finished table of this metal."""
+
+
+@dataclass(frozen=True)
+class FlatChoices:
+    """What the form asks of a part that is unfolded."""
+
+    groups: ClassVar = {"part": "Flat pattern"}
+    """Group of the parameters from each of these on."""
+
+    part: str | None = None
+    """Part; a STEP file of one bent part."""
+    die_opening: Length | None = None
+    """Opening of the dies; without it, 8 to 12 thicknesses, by the radius of the drawing."""
+    k_factor: Annotated[float, Ge(0.0), Le(1.0), About(cause="the factor of DIN 6935, or percent")] | None = None
+    """K-factor of ANSI in place of computed bends; without it, bends are computed."""
+    simulated: bool = False
+    """Whether the whole part is bent by simulation."""
+
+
+@dataclass(frozen=True)
+class TableChoices:
+    """What the form asks of a bend table."""
+
+    groups: ClassVar = {"check": "Bend table"}
+    """Group of the parameters from each of these on."""
+
+    check: bool = False
+    """Whether the errors between the angles are measured by more runs."""
+
+
+@dataclass(frozen=True)
 class FormField:
     """A field of the form.
 
@@ -82,19 +128,24 @@ class FormField:
         Its group; empty for those that are not folded away.
     works : tuple of str
         Kinds of work that have it.
+    many : bool
+        Whether its value is a list of values of the parameter.
     """
 
     name: str
     parameter: Parameter
     group: str
     works: tuple[str, ...]
+    many: bool = False
 
     @property
     def kind(self) -> str:
-        """How the page asks for it: "bends", "select", "check" or "number"."""
+        """How the page asks for it: "bends", "select", "check" or "number"; of lists "words" or "numbers"."""
         types = {kind.type for kind in self.parameter.kinds}
         if self.name == "bends":
             return self.name
+        if self.many:
+            return "words" if types == {str} else "numbers"
         return "select" if types == {str} else "check" if types == {bool} else "number"
 
     @property
@@ -114,6 +165,8 @@ class FormField:
         if self.kind == "bends":
             return [dict(bend) for bend in _BENDS]
         default = _AT_FIRST.get(self.name, self.parameter.default)
+        if self.many and not isinstance(default, list):
+            return [default]
         return None if default is MISSING or self.name in BY_MESH else default
 
     @property
@@ -123,7 +176,7 @@ class FormField:
 
     def record(self) -> dict[str, Any]:
         """What the page needs of it."""
-        one, size = self.parameter, note_of(self.parameter.hint, SizeOf)
+        one, size = self.parameter, None if self.many else note_of(self.parameter.hint, SizeOf)
         numbers = [kind for kind in one.kinds if kind.type in (int, float)]
         states, label = one.noun.startswith("whether "), one.noun.removeprefix("whether ")
         return {
@@ -150,7 +203,7 @@ class _Source:
     """A Spec whose parameters the form has.
 
     ``works``: the kinds of work that have them; ``only``: those of single parameters; ``called``: other names in the
-    form; ``omit``: parameters that follow from the choices.
+    form; ``omit``: parameters that follow from the choices; ``many``: lists of the parameters of ``called``.
     """
 
     spec: type
@@ -158,12 +211,44 @@ class _Source:
     only: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     called: Mapping[str, str] = field(default_factory=dict)
     omit: tuple[str, ...] = ()
+    many: bool = False
 
 
+#: Parameters of which a bend table has lists.
+MANY = {
+    "thickness": "thicknesses",
+    "opening": "openings",
+    "punch_radius": "punch_radii",
+    "die_radius": "die_radii",
+}
+_ALONE, _NO_TABLE = ("bend", "bottom", "correct"), WORKS[:6]
 _SOURCES = (
-    _Source(Choices, only={"budget": ("bend", "bottom"), "whole": ("bend", "bottom")}),
-    _Source(Goal, ("bend",), only={"force_per_metre": ("bottom",), "travel": ("bottom",)}),
-    _Source(AirBending, only={"stroke": ("bend",), "width_elements": ("bend", "bottom")}, omit=("width", "bottoming")),
+    _Source(
+        Choices,
+        only={
+            "budget": ("bend", "bottom"),
+            "whole": _ALONE,
+            **dict.fromkeys(("length", "die", "punch"), _IN_TOOLS),
+            **dict.fromkeys(("material", "yield_stress", "tensile_strength", "uniform_elongation"), _NO_TABLE),
+        },
+    ),
+    _Source(Choices, ("table",), called={"material": "metals"}, many=True),
+    _Source(Goal, ("bend", "correct"), only={"force_per_metre": ("bottom",), "travel": ("bottom",)}),
+    _Source(
+        AirBending,
+        only={
+            "stroke": ("bend", "correct"),
+            "width_elements": _ALONE,
+            **dict.fromkeys(("thickness", "opening"), _IN_TOOLS),
+            **dict.fromkeys(("punch_radius", "die_radius"), _NO_TABLE),
+        },
+        omit=("width", "bottoming"),
+    ),
+    _Source(AirBending, ("table",), called=MANY, many=True),
+    _Source(Goal, ("table",), called={"angle": "angles"}, many=True),
+    _Source(Measured, ("correct",)),
+    _Source(FlatChoices, ("flat",)),
+    _Source(TableChoices, ("table",)),
     _Source(BendSequence, ("sequence",), called={"length": "strip_length"}),
     _Source(Hemming, ("hem",), called={"angle": "first_angle"}),
 )
@@ -186,9 +271,10 @@ def _of(source: _Source) -> list[FormField]:
     for key, one in parameters(source.spec).items():
         group = groups.get(key, group)
         plain = all(kind.choices or kind.type in (int, float, bool, str) for kind in one.kinds)
-        if key in source.omit or not (plain or key == "bends"):
+        if key in source.omit or not (plain or key == "bends") or (source.many and key not in source.called):
             continue
         name = source.called.get(key, key)
         shown = group in _SHOWN or name in _FIRST
-        found.append(FormField(name, one, "" if shown else group, source.only.get(key, source.works)))
+        works = source.only.get(key, source.works)
+        found.append(FormField(name, one, "" if shown else group, works, source.many))
     return found

@@ -11,9 +11,8 @@ from starlette.requests import cookie_parser
 from starlette.responses import JSONResponse, PlainTextResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-#: Largest request in bytes, and largest one with a drawing.
-LONGEST_BODY, LONGEST_UPLOAD = 1_000_000, 8_100_000
-_UPLOAD = "/api/tools"
+#: Largest request in bytes, and largest ones with a file, by their paths: a drawing, a part.
+LONGEST_BODY, LONGEST_UPLOADS = 1_000_000, {"/api/tools": 8_100_000, "/api/parts": 26_700_000}
 _OPEN = "/assets/"
 _POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; "
@@ -112,7 +111,7 @@ def _is_page(scope: Scope) -> bool:
 
 
 def _longest(scope: Scope) -> int:
-    return LONGEST_UPLOAD if scope["path"] == _UPLOAD else LONGEST_BODY
+    return LONGEST_UPLOADS.get(scope["path"], LONGEST_BODY)
 
 
 def _too_long(most: int) -> Response:

@@ -12,7 +12,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -119,8 +119,12 @@ class Queue:
         series: str = "",
         deck: str = "",
         tools: Mapping[str, str | None] | None = None,
+        files: Mapping[str, Path] | None = None,
+        more: Mapping[str, Any] | None = None,
     ) -> str:
-        """Add a job and return its name; ``tools``: drawn tools by kind, which are copied to it.
+        """Add a job and return its name.
+
+        ``tools``: drawn tools by kind, ``files``: others by name, copied to it; ``more``: entries of its order.
 
         Raises
         ------
@@ -150,7 +154,9 @@ class Queue:
             if deck:
                 (folder / DECK).write_text(deck, encoding="utf-8")
             self.shelf.copy_to(folder, tools or {})
-            order = {"kind": kind, "title": title, "series": series, "parameters": dict(parameters)}
+            for place, path in (files or {}).items():
+                shutil.copyfile(path, folder / place)
+            order = {"kind": kind, "title": title, "series": series, "parameters": dict(parameters), **(more or {})}
             with PendingFile(folder / ORDER) as waiting:
                 waiting.write_text(json.dumps(order | {"created": time.time()}), encoding="utf-8")
             self.index.add(name, kind, title, series, parameters)
@@ -283,7 +289,7 @@ class Queue:
         return True
 
 
-def result_file(queue: Queue, name: str, file: str, known: frozenset[str]) -> Path:
+def result_file(queue: Queue, name: str, file: str, known: Callable[[str], bool]) -> Path:
     """A file of a job by its name.
 
     Raises
@@ -293,6 +299,6 @@ def result_file(queue: Queue, name: str, file: str, known: frozenset[str]) -> Pa
     """
     folder = queue.folder_of(name)
     path = folder / file if file == SHAPE else folder / RESULTS / file
-    if file not in known or path.is_symlink() or not path.is_file():
+    if not known(file) or path.is_symlink() or not path.is_file():
         raise UmformError("there is no such file", where="file", value=file[:60])
     return path

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from umform.bench.forces import largest, rule_forces
 from umform.bench.library import ROOM, tools_for
+from umform.bench.parts import Parts
 from umform.bench.refusals import problems_of
 from umform.bench.shelf import Shelf
 from umform.bench.wanted import Mistakes, Wanted
@@ -22,7 +24,7 @@ from umform.processes.bend_sequence.spec import Bodies
 _NARROW, _WIDE = 5.0, 16.0
 
 
-def look(values: object, shelf: Shelf | None = None) -> dict[str, Any]:
+def look(values: object, shelf: Shelf | None = None, parts: Parts | None = None) -> dict[str, Any]:
     """Check the values of a form.
 
     Parameters
@@ -31,6 +33,8 @@ def look(values: object, shelf: Shelf | None = None) -> dict[str, Any]:
         The request of the page; any JSON.
     shelf : Shelf, optional
         Drawn tools.
+    parts : Parts, optional
+        Parts to unfold.
 
     Returns
     -------
@@ -43,7 +47,9 @@ def look(values: object, shelf: Shelf | None = None) -> dict[str, Any]:
     except Mistakes as error:
         return {"problems": problems_of(error), "warnings": []}
     try:
-        case = wanted.at_tools(shelf)
+        if wanted.choices.work == "flat":
+            return _look_at_part(wanted, parts)
+        case = wanted.case() if wanted.choices.work == "table" else wanted.at_tools(shelf)
     except UmformError as error:
         return {"problems": problems_of(error), "warnings": [], "change": tools_for(wanted)}
     found: dict[str, Any] = {
@@ -51,6 +57,11 @@ def look(values: object, shelf: Shelf | None = None) -> dict[str, Any]:
         "warnings": _warnings(wanted, case),
         "drawing": drawing(case, bodies=wanted.of_strip),
     }
+    if wanted.choices.work == "table":
+        middle = wanted.values["angles"][len(wanted.values["angles"]) // 2]
+        return found | {
+            "shown": {"angle": middle, "stroke": None, "thickness": case.thickness, "opening": case.opening}
+        }
     found["expected"] = _expected(wanted, case)
     angles = {"bottom": case.die_angle, "hem": wanted.values.get("first_angle")}  # a bottomed sheet has that of the die
     if wanted.choices.work in angles:
@@ -63,6 +74,13 @@ def look(values: object, shelf: Shelf | None = None) -> dict[str, Any]:
     else:
         found["change"] = tools_for(wanted) if any(row["kind"] == "close" for row in found["warnings"]) else None
     return found
+
+
+def _look_at_part(wanted: Wanted, parts: Parts | None) -> dict[str, Any]:
+    """What is known of a part before it is unfolded."""
+    row = (parts or Parts(Path())).row(wanted.values["part"])
+    wanted.tooling(row["thickness"])
+    return {"problems": [], "warnings": [], "part": row}
 
 
 def drawing(case: AirBending, *, bodies: bool = False) -> dict[str, Any]:

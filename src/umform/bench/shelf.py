@@ -24,6 +24,7 @@ from umform.surfaces.segments import Arc, Line, Segment
 KINDS = ("punch", "die")
 #: Bytes of a drawing, tools on the shelf, and seconds that the reading of a drawing may take.
 LONGEST_DRAWING, MOST_TOOLS, _LONGEST_READING = 6_000_000, 200, 60.0
+_TOO_LARGE = "a drawing of the whole machine, or an empty file"
 _NAME = re.compile(r"\w[\w +.,°-]{0,39}")
 
 
@@ -100,7 +101,7 @@ class Shelf:
             raise InvalidValue(f"there are {MOST_TOOLS} tools already", where="name", remedy="delete some")
         with tempfile.TemporaryDirectory(prefix="umform-bench-") as folder:
             path = Path(folder) / "drawing.dxf"
-            path.write_bytes(_bytes(drawing))
+            path.write_bytes(file_of(drawing, LONGEST_DRAWING, "drawing", "a drawing", _TOO_LARGE))
             arguments = ["umform.bench.read_tool", kind, str(path), layer]
             found: dict[str, Any] = json_of_module(arguments, _LONGEST_READING, "the reading of the drawing")
             if "problem" in found:
@@ -173,17 +174,24 @@ def _row(kind: str, place: Path) -> dict[str, Any]:
     return row | {name: round(value, 4) for name, value in sizes.items()}
 
 
-def _bytes(drawing: str) -> bytes:
+def file_of(coded: str, most: int, where: str, what: str, cause: str) -> bytes:
+    """The content of a file of a request.
+
+    Raises
+    ------
+    InvalidValue
+        If it is not base64, empty, or too large.
+    """
     try:
-        content = base64.b64decode(drawing, validate=True)
+        content = base64.b64decode(coded, validate=True)
     except (binascii.Error, ValueError) as error:
-        raise InvalidValue("a drawing is sent as base64", where="drawing", cause=str(error)) from error
-    if not content or len(content) > LONGEST_DRAWING:
+        raise InvalidValue("a file is sent as base64", where=where, cause=str(error)) from error
+    if not content or len(content) > most:
         raise InvalidValue(
-            f"a drawing has 1 to {LONGEST_DRAWING} bytes here",
-            where="drawing",
+            f"{what} has 1 to {most} bytes here",
+            where=where,
             value=len(content),
-            cause="a drawing of the whole machine, or an empty file",
-            remedy="save the section alone as DXF",
+            cause=cause,
+            remedy="save the section alone as DXF" if where == "drawing" else "export one sheet-metal part",
         )
     return content

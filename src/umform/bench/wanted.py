@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from umform.bench.form import MESHES, WORKS, Choices, FormField, form_fields
+from umform.bench.form import MANY, MESHES, WORKS, Choices, FormField, Measured, form_fields
 from umform.bench.shelf import KINDS, Shelf
 from umform.errors import InvalidValue
 from umform.materials import J2, Metal
@@ -21,8 +21,12 @@ from umform.processes.bend_sequence import Bend, BendSequence
 from umform.processes.hemming import Hemming
 from umform.spec import check_value, parameters
 
-#: Largest number of bends of a part on the page.
-_MOST_BENDS = 20
+if TYPE_CHECKING:
+    from umform.flat_pattern import Tooling
+    from umform.studies.bend_table import Setup
+
+#: Largest number of bends of a part on the page, of entries of a list, and of bends of a table.
+_MOST_BENDS, _MOST_LISTED, _MOST_OF_TABLE = 20, 40, 1000
 
 
 class Mistakes(InvalidValue):
@@ -87,7 +91,7 @@ class Wanted:
         return {
             one.parameter.name: self.values[name]
             for name, one in form_fields().items()
-            if one.parameter.spec is spec and self.values.get(name) is not None
+            if one.parameter.spec is spec and not one.many and self.values.get(name) is not None
         }
 
     @cached_property
@@ -100,13 +104,23 @@ class Wanted:
         """Angle, force or way that is wanted."""
         return Goal(**self.of(Goal))
 
-    def law(self) -> tuple[J2 | Metal, str]:
-        """Law of the sheet, and a note on its source."""
+    @property
+    def measured(self) -> Measured:
+        """What was measured of a bend."""
+        return Measured(**self.of(Measured))
+
+    @property
+    def of_coil(self) -> bool:
+        """Whether the values of a coil are given."""
+        return self.choices.yield_stress is not None
+
+    def law(self, thickness: float | None = None) -> tuple[J2 | Metal, str]:
+        """Law of the sheet, and a note on its source; the thickness is that of the form, or of a part."""
         from umform.sheet_metals import get, of_certificate
 
         own = self.choices
         if own.yield_stress is None or own.tensile_strength is None:
-            metal = get(own.material, self.values["thickness"])
+            metal = get(own.material, self.values.get("thickness", thickness))
         else:
             elongation = None if own.uniform_elongation is None else 0.01 * own.uniform_elongation
             metal = of_certificate(own.material, own.yield_stress, own.tensile_strength, elongation)
@@ -125,6 +139,8 @@ class Wanted:
         InvalidValue
             ``where`` is the name of the parameter.
         """
+        if self.choices.work == "table":
+            return self.setups()[0].case
         case = self.at_tools(shelf)
         if self.of_strip:
             self.strip(case)
@@ -147,6 +163,59 @@ class Wanted:
             material=self.law()[0],
         )
         return case if self.goal.travel is None else with_travel(case, self.goal.travel)
+
+    def sheet(self) -> AirBending:
+        """Mesh and tools of the bends of a part or of a table; sizes that follow from them have their defaults."""
+        return AirBending(**MESHES[self.choices.mesh] | self.of(AirBending))
+
+    def tooling(self, thickness: float) -> Tooling:
+        """Metal and tools of the bends of a part."""
+        from umform.flat_pattern import Tooling
+        from umform.sheet_metals import get
+
+        law, _ = self.law(thickness)
+        opening = self.values["die_opening"]
+        if self.of_coil:
+            return Tooling(replace(self.sheet(), material=law), opening=opening)
+        return Tooling(self.sheet(), get(self.choices.material, thickness).name, opening)
+
+    def setups(self) -> list[Setup]:
+        """Sheets and tools of a bend table; angles that they cannot have are refused.
+
+        Raises
+        ------
+        InvalidValue
+            ``where`` is the name of the field.
+        """
+        from umform.sheet_metals import get
+        from umform.studies.bend_table import setups
+        from umform.studies.bend_table.stored import check_bend
+
+        values, lists = self.values, {many: self.values[many] for many in MANY.values()}
+        count = math.prod(len(values[name]) for name in (*lists, "metals", "angles"))
+        if count > _MOST_OF_TABLE:
+            raise InvalidValue(
+                f"a bend table has at most {_MOST_OF_TABLE} bends here",
+                where="angles",
+                value=count,
+                cause="all combinations of the lists are bent",
+                remedy="shorter lists, or several tables",
+            )
+        try:
+            metals = [get(name).name for name in values["metals"]]  # of the library, no file
+            found = setups(metals, self.sheet(), **lists)
+        except InvalidValue as error:
+            error.where = {**MANY, "sheet_metals": "metals"}.get(error.where, error.where)
+            raise
+        for setup in found:
+            for angle in values["angles"]:
+                try:
+                    check_bend(setup.case, angle)
+                except InvalidValue as error:
+                    error.where = "angles"
+                    error.value = f"{setup.name}, {angle:g}"
+                    raise
+        return found
 
     @property
     def of_strip(self) -> bool:
@@ -174,7 +243,7 @@ class Wanted:
     @property
     def drawn(self) -> dict[str, str | None]:
         """Names of the drawn tools."""
-        return {kind: self.values[kind] for kind in KINDS}
+        return {kind: self.values.get(kind) for kind in KINDS}
 
     def changed(self, changes: Mapping[str, Any]) -> Wanted:
         """The same form with other values."""
@@ -188,12 +257,19 @@ class Wanted:
     def title(self) -> str:
         """A few words for lists."""
         values, goal, work = self.values, self.goal, self.choices.work
+        if work == "flat":
+            return f"{values['part']}, {self.choices.material}"
+        if work == "table":
+            sheets = f"{', '.join(values['metals'])}, {_listed(values['thicknesses'])} mm"
+            return f"{sheets}, V{_listed(values['openings'])}, {_listed(values['angles'])}°"
         sheet = f"{self.choices.material} {values['thickness']:g} mm"
         if work == "sequence":
             angles = [f"{row['angle']:g}°" for row in values["bends"] if "angle" in row]
             return f"{sheet}, {' '.join(angles)}"
         if work == "hem":
             return f"{sheet}, hem {values['gap']:g} mm"
+        if work == "correct":
+            return f"{sheet}, V{values['opening']:.4g}, measured {values['measured_angle']:g}°"
         if work == "bottom":
             aim = f"{goal.force_per_metre:g} kN/m" if goal.force_per_metre is not None else f"{goal.travel:+g} mm"
         else:
@@ -213,6 +289,26 @@ def _value(one: FormField, value: Any) -> Any:
         return None
     if one.kind == "bends":
         return _bends(value)
+    if one.many:
+        return _list(one, value)
+    return _single(one, value)
+
+
+def _list(one: FormField, values: Any) -> list[Any]:
+    """The entries of a list, each once; numbers in their order."""
+    if not isinstance(values, list) or not 1 <= len(values) <= _MOST_LISTED:
+        raise InvalidValue(
+            f"this is no list of 1 to {_MOST_LISTED} entries",
+            value=values,
+            cause="an empty field, or text between the numbers",
+            remedy="numbers with blanks between them, or first:last:step",
+        )
+    found = list(dict.fromkeys(_single(one, value) for value in values))
+    return sorted(found) if one.kind == "numbers" else found
+
+
+def _single(one: FormField, value: Any) -> Any:
+    """A single value of a field."""
     value = _checked(one.parameter.spec, one.parameter.name, value)
     if one.parameter.about.unit == "mm" and value > one.most:
         raise InvalidValue(
@@ -267,6 +363,10 @@ def _bends(rows: Any) -> list[dict[str, Any]]:
     return found
 
 
+def _listed(values: list[float]) -> str:
+    return " ".join(f"{value:.4g}" for value in values)
+
+
 def _unknown(name: object) -> InvalidValue:
     return InvalidValue("the form has no such field", where=str(name)[:60], cause="a form of another version")
 
@@ -281,5 +381,13 @@ def _unfit(values: Mapping[str, Any]) -> Iterator[InvalidValue]:
         yield InvalidValue("give the force or the way beyond the bottom, one of them", where="travel")
     if values["work"] == "bend" and given("angle", "stroke") != 1:
         yield InvalidValue("give the angle or the stroke, one of them", where="angle")
+    if values["work"] == "correct" and given("stroke", "measured_angle") != 2:
+        yield InvalidValue(
+            "a measured bend has a stroke and an angle",
+            where="measured_angle" if given("stroke") else "stroke",
+            cause="one of them is missing",
+        )
+    if values["work"] == "flat" and not given("part"):
+        yield InvalidValue("choose the part", where="part", remedy="a STEP file of one bent part")
     if given("yield_stress", "tensile_strength") == 1 or (given("uniform_elongation") and not given("yield_stress")):
         yield InvalidValue("a coil has both, Re and Rm", where="yield_stress")

@@ -48,6 +48,10 @@ _PRELOAD = (
 )
 
 
+#: Work with a run of its own.
+_OTHERS = ("flat", "table", "correct")
+
+
 def main(arguments: list[str]) -> int:
     """Run the job of a folder and write its outcome there."""
     text = arguments[0] if arguments else _read_folder()
@@ -94,6 +98,8 @@ def _outcome(folder: Path) -> dict[str, Any]:
 def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     """A bend, by the calls of `umform bend`: the numbers are equal."""
     wanted = Wanted.read(order["parameters"])
+    if wanted.choices.work in _OTHERS:
+        return _other(folder, order, wanted)
     case, note, length = wanted.case(Shelf(folder)), wanted.law()[1], wanted.choices.length
     if wanted.of_strip:
         return run_strip(folder, order["title"], wanted, case, note) | {"length": length, "note": note}
@@ -126,6 +132,21 @@ def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     watch.phase("end", 1.0)
     needed = largest(computed_forces(wanted, case, {wanted.choices.work: done.measures.largest_force}))
     return {**record(done), "length": length, "note": note, "press": needed.over(length)}
+
+
+def _other(folder: Path, order: dict[str, Any], wanted: Wanted) -> dict[str, Any]:
+    """Work of other commands, which need modules of their own."""
+    if wanted.choices.work == "flat":
+        from umform.bench.unfold import run_flat
+
+        return run_flat(folder, wanted, order["part"])
+    if wanted.choices.work == "table":
+        from umform.bench.bend_tables import run_table
+
+        return run_table(folder, wanted)
+    from umform.bench.corrections import run_correction
+
+    return run_correction(folder, wanted)
 
 
 def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:

@@ -29,7 +29,7 @@ from umform.cli.options import (
     print_deck,
 )
 from umform.cli.outcome_screen import show_outcome
-from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
@@ -66,6 +66,7 @@ def bead(
     derive: Derive = None,
     deck: PrintDeck = False,
     everything: All = False,
+    csv: Csv = "plain",
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,

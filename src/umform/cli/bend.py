@@ -36,7 +36,7 @@ from umform.cli.options import (
     print_deck,
 )
 from umform.cli.outcome_screen import show_outcome
-from umform.cli.root import Debug, Overwrite, Verbose, console, printing
+from umform.cli.root import Csv, Debug, Overwrite, Verbose, console, printing
 from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.sequence import run_sequence
 from umform.cli.timing import Timed, show_timing
@@ -69,6 +69,9 @@ def bend(
         typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/bend."),
     ] = None,
     table: Annotated[str | None, option("Bending table at strokes first:last:step, such as 4:6:0.5.", _GOAL)] = None,
+    angles: Annotated[
+        str | None, option("Bending table at angles first:last:step, such as 90:150:15, or 90,120.", _GOAL)
+    ] = None,
     sequence: Annotated[
         Path | None, option("Several bends in one part: a TOML file, see docs/bending-operations.md.", _GOAL)
     ] = None,
@@ -95,6 +98,7 @@ def bend(
     quantity: Annotated[list[str] | None, Quantities] = None,
     deck: PrintDeck = False,
     everything: All = False,
+    csv: Csv = "plain",
     overwrite: Overwrite = False,
     force: Force = False,
     timing: Timed = False,
@@ -105,24 +109,28 @@ def bend(
 ) -> None:
     """Air-bend a sheet in a V-die, and unload it.
 
-    Give the stroke, the angle after springback, or a table of strokes. Each number is defined in docs/air-bending.md.
+    Give the stroke, the angle after springback, or a table of strokes or angles. Each number is defined in
+    docs/air-bending.md.
     """
     from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.processes.air_bending.bottoming import with_travel
     from umform.processes.air_bending.branches import FRAMES, Brake
     from umform.processes.air_bending.files import FILES, RESULTS, write_files
-    from umform.processes.air_bending.search import bending_table
+    from umform.processes.air_bending.search import angle_table, bending_table
     from umform.timing import Timing, timings
 
     print_warnings_once()
     angle, force_per_metre, travel, tolerance = (given.pop(name) for name in parameters(Goal))
     stroke, bottoming = given["stroke"], given["bottoming"]
     if not bottoming and sequence is None:
-        check_goal(angle, stroke, table, force_per_metre, travel)
+        check_goal(angle, stroke, table, angles, force_per_metre, travel)
     strokes = [] if table is None else strokes_of(table)
     if strokes and angle is None and stroke is None and not bottoming:
         stroke = strokes[-1]
+    others = [] if angles is None else sorted(set(bend_table.values_of(angles, "--angles")), reverse=True)
+    last_row = bool(others) and angle is None and stroke is None and not bottoming
+    angle = others.pop() if last_row else angle
     check_value(Goal, "tolerance", tolerance)
     check_length(length)
     if processes is not None:
@@ -134,7 +142,9 @@ def bend(
     case = AirBending(**{**given, "stroke": stroke}, **tools, material=law)
     if sequence is not None:
         studies = bool(find or quantity)
-        check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, deck, studies)
+        check_no_goal(
+            "--sequence", angle, stroke, table, angles, force_per_metre, travel, bottoming, budget, deck, studies
+        )
         run_sequence(
             sequence,
             case,
@@ -153,7 +163,7 @@ def bend(
     if scatter_options:  # refuse what is wrong before the run
         scatter_options.check(replace(case, stroke=stroke or 0.5 * case.largest_stroke))
     if bottoming:
-        check_press(angle, table, budget, stroke, force_per_metre, travel)
+        check_press(angle, table, angles, budget, stroke, force_per_metre, travel)
         case = case if travel is None else with_travel(case, travel)
         check_value(Goal, "force_per_metre", force_per_metre)
     goals = compensated(case, want, by)
@@ -161,14 +171,15 @@ def bend(
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
     if find or quantity:
-        check_measured(angle, table, force_per_metre, budget, derive)
+        check_measured(angle, table, angles, force_per_metre, budget, derive)
         identify_case(case, find or (), None, quantity, out, Path("results/bend-identified"), MOST, overwrite)
         return
     if deck:
         _print_deck(case, angle, force_per_metre, tolerance)
         return
-    if angle is not None:
-        check_angle(case, angle)
+    for one in [*others, angle]:
+        if one is not None:
+            check_angle(case, one)
     said: list[str] = []
     place = folder_for(out, Path("results/bend"), RESULTS, overwrite=overwrite, say=said.append)
     with timings() as spent:
@@ -179,7 +190,9 @@ def bend(
     with staging(place, FILES):
         with _what_was_reached(place) as rows:
             rows += bending_table(case, strokes, brake=brake) if strokes else []
-            done = replace(_bent(brake, case, angle, force_per_metre, tolerance), table=tuple(rows), bend_length=length)
+            rows += angle_table(case, others, tolerance=tolerance, brake=brake) if others else []
+            done = _bent(brake, case, angle, force_per_metre, tolerance)
+            done = replace(done, table=(*rows, *[done.measures] * last_row), bend_length=length)
         more: list[Path] = []
         scatter: list[Path] = []
         wanted: list[Path] = []

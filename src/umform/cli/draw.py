@@ -30,7 +30,7 @@ from umform.cli.options import (
     print_deck,
 )
 from umform.cli.outcome_screen import show_outcome
-from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
@@ -115,6 +115,7 @@ def cup(
     derive: Derive = None,
     deck: PrintDeck = False,
     everything: All = False,
+    csv: Csv = "plain",
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
@@ -181,6 +182,7 @@ def u(
     derive: Derive = None,
     deck: PrintDeck = False,
     everything: All = False,
+    csv: Csv = "plain",
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,

@@ -12,22 +12,35 @@ _MOST_ROWS = 1000
 
 
 def check_goal(
-    angle: float | None, stroke: float | None, table: str | None, force: float | None, travel: float | None
+    angle: float | None,
+    stroke: float | None,
+    table: str | None,
+    angles: str | None,
+    force: float | None,
+    travel: float | None,
 ) -> None:
-    """Refuse a bend without a goal, or with both stroke and angle."""
+    """Refuse a bend without a goal, with both stroke and angle, or with two tables."""
     if force is not None or travel is not None:
         raise InvalidValue(
             "a force or a way beyond the bottom is one of bottoming",
             where="--force-per-metre, --travel",
             remedy="--bottoming beside it",
         )
+    if table is not None and angles is not None:
+        raise InvalidValue(
+            "a bend has one table",
+            where="--table, --angles",
+            cause="both are given",
+            remedy="--table 4:6:0.5 over strokes, or --angles 90:150:15 over angles",
+        )
     both = angle is not None and stroke is not None
-    if both or (angle is None and stroke is None and table is None):
+    if both or (angle, stroke, table, angles) == (None,) * 4:
         raise InvalidValue(
             "give the stroke or the angle, one of them",
             where="umform bend",
-            cause="both are given" if both else "none of them is given, and no --table",
-            remedy="--angle 90 looks for the stroke, --stroke 6 bends to it, --table 4:6:0.5 to several strokes",
+            cause="both are given" if both else "none of them is given, and no table",
+            remedy="--angle 90 looks for the stroke, --stroke 6 bends to it, --table 4:6:0.5 to several strokes, "
+            "--angles 90:150:15 to several angles",
         )
 
 
@@ -49,7 +62,7 @@ def check_no_goal(option: str, *goals: object) -> None:
         raise InvalidValue(
             "the bends of a file have angles and strokes of their own",
             where=option,
-            cause="--angle, --stroke, --table, --bottoming, --budget, --print-deck or --find beside it",
+            cause="--angle, --stroke, --table, --angles, --bottoming, --budget, --print-deck or --find beside it",
             remedy=f"leave them out, or {option}",
         )
 
@@ -60,7 +73,7 @@ def check_measured(*goals: object) -> None:
         raise InvalidValue(
             "a measured bend has a stroke",
             where="--find",
-            cause="--angle, --table, --force-per-metre, --budget or --derive beside it",
+            cause="--angle, --table, --angles, --force-per-metre, --budget or --derive beside it",
             remedy="--stroke 6.1 --find strength=400:700 --quantity angle=91.6+-.1; find the stroke of the next bend "
             "with the corrected metal",
         )
@@ -69,6 +82,7 @@ def check_measured(*goals: object) -> None:
 def check_press(
     angle: float | None,
     table: str | None,
+    angles: str | None,
     budget: bool,
     stroke: float | None,
     force: float | None,
@@ -81,11 +95,11 @@ def check_press(
             where="--bottoming",
             remedy="--force-per-metre 400, or --travel 0.05",
         )
-    if angle is not None or table is not None or budget:
+    if angle is not None or table is not None or angles is not None or budget:
         raise InvalidValue(
             "bottoming has no search for an angle, no table and no budget",
             where="--bottoming",
-            cause="--angle, --table or --budget beside it",
+            cause="--angle, --table, --angles or --budget beside it",
             remedy="the angle is about that of the die; leave them out",
         )
 

@@ -14,7 +14,7 @@ from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
 from umform.cli.options import All, Curve, FlowCurve, Material, Modulus, Poisson, Yield, Young
 from umform.cli.outcome_screen import show_outcome
-from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.warnings import print_warnings_once
 from umform.processes.air_bending.spec import AirBending
@@ -55,6 +55,7 @@ def hem(
     flow_curve: FlowCurve = None,
     everything: All = False,
     derive: Derive = None,
+    csv: Csv = "plain",
     overwrite: Overwrite = False,
     verbose: Verbose = 0,
     debug: Debug = False,

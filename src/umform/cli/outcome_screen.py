@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 _TEXT = ("quantity", "outcome", "unit")
 
 
-def show_outcome(outcome: Outcome, *more: str, note: str, everything: bool, without: Iterable[str] = ()) -> None:
+def show_outcome(
+    outcome: Outcome, *more: str, note: str = "", everything: bool = True, without: Iterable[str] = ()
+) -> None:
     """Print an outcome.
 
     Parameters

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -12,12 +13,22 @@ from umform.cli.root import Debug, app
 if TYPE_CHECKING:
     from umform.io.histories import History
 
+#: Columns along the horizontal axis of histories and of curves, the first that all runs have.
+_ACROSS = ("time", "stroke", "way")
+
 
 @app.command()
 def plot(
-    runs: Annotated[list[Path], typer.Argument(metavar="RUN...", help="history.csv of runs, or their folders.")],
-    x: Annotated[str, typer.Option("--x", help="Column along the horizontal axis.")] = "time",
-    y: Annotated[list[str] | None, typer.Option("--y", help="Column along the vertical axis; repeatable.")] = None,
+    runs: Annotated[
+        list[Path], typer.Argument(metavar="RUN...", help="history.csv or curve.csv of runs, or their folders.")
+    ],
+    x: Annotated[
+        str | None, typer.Option("--x", help="Column along the horizontal axis; default: time, stroke or way.")
+    ] = None,
+    y: Annotated[
+        list[str] | None,
+        typer.Option("--y", help="Column along the vertical axis, with or without its unit; repeatable."),
+    ] = None,
     out: Annotated[Path, typer.Option(metavar="FILE", help="Picture: .png, .svg or .pdf.")] = Path("comparison.png"),
     debug: Debug = False,
 ) -> None:
@@ -32,8 +43,16 @@ def plot(
     if not y:
         _list_columns(histories)
         return
-    compare_histories(histories, x, y, out)
+    across = x or next((name for name in _ACROSS if all(_column(name, [run]) for run in histories.values())), "time")
+    names = [_column(name, histories.values()) or name for name in (across, *y)]
+    compare_histories(histories, names[0], names[1:], out)
     typer.echo(f"Written to {out}")
+
+
+def _column(name: str, runs: Iterable[History]) -> str:
+    """The column of a name, or the first one that is the name with a unit behind it; empty without either."""
+    columns = [column for run in runs for column in run]
+    return name if name in columns else next((column for column in columns if column.startswith(f"{name} ")), "")
 
 
 def _list_columns(histories: dict[str, History]) -> None:

@@ -18,7 +18,7 @@ import umform
 from umform.cli import INTERRUPTED
 from umform.cli.typed import message, options_of
 from umform.cli.usage import is_usage_error, usage_problem
-from umform.errors import FileProblem, UmformError
+from umform.errors import FileProblem, InvalidValue, UmformError
 from umform.io.atomic import write_problem
 
 
@@ -178,6 +178,19 @@ def _log(count: int) -> int:
     return count
 
 
+def _write_csv_as(ctx: typer.Context, name: str) -> str:
+    """Write the CSV files of a command in a style."""
+    from umform.io.tables import csv_style  # it loads NumPy
+
+    if not ctx.resilient_parsing and name != "plain":
+        try:
+            ctx.with_resource(csv_style(name))
+        except InvalidValue as error:
+            error.where = "--csv, UMFORM_CSV"
+            raise
+    return name
+
+
 def _remember_debug(ctx: typer.Context, wanted: bool) -> bool:
     ctx.meta["debug"] = wanted or ctx.meta.get("debug", False)
     return wanted
@@ -188,6 +201,15 @@ Verbose = Annotated[
 ]
 Debug = Annotated[bool, typer.Option("--debug", callback=_remember_debug, help="Show the traceback of an error.")]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Overwrite results of another run.")]
+Csv = Annotated[
+    str,
+    typer.Option(
+        "--csv",
+        envvar="UMFORM_CSV",
+        callback=_write_csv_as,
+        help="CSV files: plain, or german with semicolons and decimal commas.",
+    ),
+]
 Version = Annotated[
     bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Show the version and exit.")
 ]

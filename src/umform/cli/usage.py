@@ -9,7 +9,13 @@ from umform.errors import InvalidValue
 
 _NO_NUMBER = re.compile(r"'(?P<value>[^']*)' is not a valid (?P<kind>float|integer|int)\b")
 _COMMA = re.compile(r"[-+]?\d*,\d+")
-_UNIT = re.compile(r"(?P<number>[-+]?\d+(?:\.\d+)?)\s*[^\W\d]\w*")
+_UNIT = re.compile(r"(?P<number>[-+]?\d*\.?\d+)\s*(?P<unit>[^\W\d]\w*|[\"″])")
+#: Other units of length in mm.
+_MILLIMETRES = {"in": 25.4, "inch": 25.4, "inches": 25.4, '"': 25.4, "″": 25.4, "cm": 10.0}
+#: Commands of a group that are too many for a message.
+_MANY = 10
+#: What there is beside the commands of a group.
+_BESIDE = {"draw": "other parts are decks, such as `umform new square-cup`; `umform new` lists them"}
 
 
 def is_usage_error(error: BaseException) -> bool:
@@ -32,6 +38,9 @@ def usage_problem(error: Any) -> InvalidValue:
             remedy=f"perhaps {near} is meant; {more}" if near else more,
         )
     text, place = error.format_message(), _place(error, command)
+    commands = list(getattr(getattr(error.ctx, "command", None), "commands", {}))
+    if text.startswith("No such command") and len(commands) < _MANY:
+        more = f"{command} {', '.join(commands)}; {_BESIDE.get(command.split()[-1], more)}"
     value, kind = _refused(error, text)
     if kind in ("float", "integer", "int"):
         return _no_number(value, place, whole=kind != "float")
@@ -56,6 +65,9 @@ def _no_number(value: str, place: str, *, whole: bool) -> InvalidValue:
         cause, remedy = "a fraction or a word in place of a whole number", "digits only, such as 2"
     elif _COMMA.fullmatch(value):
         cause, remedy = "a decimal comma", f"write {value.replace(',', '.')}"
+    elif unit and unit["unit"] in _MILLIMETRES:
+        cause = "a length in another unit: lengths are in mm"
+        remedy = f"write {_MILLIMETRES[unit['unit']] * float(unit['number']):.6g}"
     elif unit:
         cause, remedy = "a unit behind the number", f"write {unit['number']}; the help names the unit"
     what = "a whole number is needed here" if whole else "a number is needed here"

@@ -67,20 +67,24 @@ def view(
 
 
 def _file_of(path: Path) -> Path:
-    """The file, or the only file of fields in a folder."""
+    """The file, or the file of fields in a folder that was written last."""
     from umform.errors import FileProblem
 
     if not path.is_dir():
         return path
-    files = sorted(path.glob("*.vtkhdf"))
-    if len(files) == 1:
-        return files[0]
-    raise FileProblem(
-        "this is a folder with several files of fields" if files else "this is a folder without a file of fields",
-        where=str(path),
-        cause="it has " + ", ".join(file.name for file in files) if files else "no name in it ends in .vtkhdf",
-        remedy=f"umform view {files[0]}" if files else "`umform run` writes fields.vtkhdf, unless [output] says no",
-    )
+    files = sorted(path.glob("*.vtkhdf"), key=lambda file: (file.stat().st_mtime_ns, file.name))
+    if not files:
+        raise FileProblem(
+            "this is a folder without a file of fields",
+            where=str(path),
+            cause="no name in it ends in .vtkhdf",
+            remedy="`umform run` writes fields.vtkhdf, unless [output] says no; bends and draws write theirs",
+        )
+    *others, last = files
+    if others:
+        names = ", ".join(file.name for file in others)
+        typer.echo(f"umform: {last.name}, the last one in {path}; it also has {names}", err=True)
+    return last
 
 
 def _check_names(file: Path, png: Path | None) -> None:

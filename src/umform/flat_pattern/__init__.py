@@ -32,6 +32,9 @@ __all__ = [
     "flat",
 ]
 
+#: Files of a flat pattern.
+FILES = ("flat.dxf", "flat.svg", "flat.json", "sheet.html")
+
 _HOME = {
     "Allowance": "allowance",
     "AllowanceProvider": "allowance",

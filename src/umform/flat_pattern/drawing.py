@@ -9,11 +9,14 @@ from typing import Any
 from xml.sax.saxutils import escape
 
 import numpy as np
+from numpy.typing import NDArray
 
 from umform.errors import FileProblem
 from umform.flat_pattern.contour import Contour
 from umform.flat_pattern.pattern import FlatBend, FlatPattern
 from umform.surfaces.segments import Arc, Line
+
+Floats = NDArray[np.float64]
 
 #: Layers of the DXF file with their colours by the AutoCAD index.
 LAYERS = {"CONTOUR": 7, "HOLES": 5, "BEND_UP": 1, "BEND_DOWN": 3, "BEND_TEXT": 2}
@@ -93,12 +96,12 @@ def _label(pattern: FlatPattern, bend: FlatBend) -> tuple[float, float]:
 
 
 def svg(pattern: FlatPattern) -> str:
-    """The pattern as SVG; bends up are drawn in red, bends down in green."""
+    """The pattern as SVG with its length and width; bends up are drawn in red, bends down in green."""
     x = pattern.outer.points()
     low, high = x.min(axis=0), x.max(axis=0)
-    edge = 0.05 * float((high - low).max())
-    width, height = (high - low + 2.0 * edge).tolist()
     size = text_height(pattern)
+    edge = 0.05 * float((high - low).max()) + 3.0 * size
+    width, height = (high - low + 2.0 * edge).tolist()
     rows = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{low[0] - edge:.3f} {-high[1] - edge:.3f} {width:.3f} '
         f'{height:.3f}" role="img"><title>Flat pattern of {escape(pattern.path.name)}</title>',
@@ -119,7 +122,28 @@ def svg(pattern: FlatPattern) -> str:
             f'text-anchor="middle" fill="{colour}" transform="rotate({-_upright(bend):.3f} {at[0]:.3f} {-at[1]:.3f})">'
             f"{text}</text>"
         )
-    return "\n".join([*rows, "</svg>", ""])
+    return "\n".join([*rows, *_dimensions(low, high, size), "</svg>", ""])
+
+
+def _dimensions(low: Floats, high: Floats, size: float) -> list[str]:
+    """Length below and width to the left of the pattern, with their lines."""
+    (x0, y0), (x1, y1), away = low.tolist(), high.tolist(), 2.0 * size
+    pen = f'stroke="#56616c" stroke-width="{0.06 * size:.3f}"'
+    rows = []
+    for length, ax, ay, bx, by in ((x1 - x0, x0, y0 - away, x1, y0 - away), (y1 - y0, x0 - away, y0, x0 - away, y1)):
+        upright = ax == bx
+        dx, dy = (0.4 * size, 0.0) if upright else (0.0, 0.4 * size)
+        for px, py in ((ax, ay), (bx, by)):
+            rows.append(f'<line x1="{px - dx:.4f}" y1="{-py - dy:.4f}" x2="{px + dx:.4f}" y2="{-py + dy:.4f}" {pen}/>')
+        x, y = 0.5 * (ax + bx), -0.5 * (ay + by)
+        turn = f' transform="rotate(-90 {x:.3f} {y:.3f})"' if upright else ""
+        shift = -0.35 * size if upright else 1.15 * size
+        rows += [
+            f'<line x1="{ax:.4f}" y1="{-ay:.4f}" x2="{bx:.4f}" y2="{-by:.4f}" {pen}/>',
+            f'<text class="dimension" x="{x:.3f}" y="{y + shift:.3f}" font-size="{size:.3f}" font-family="sans-serif" '
+            f'text-anchor="middle" fill="#56616c"{turn}>{length:.2f}</text>',
+        ]
+    return rows
 
 
 def _path(contour: Contour) -> str:

@@ -6,6 +6,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
+from umform.flat_pattern import FILES
 from umform.flat_pattern.bending import BentPart
 from umform.flat_pattern.drawing import svg, write_dxf
 from umform.flat_pattern.operator_sheet import Step, steps_of, write_sheet
@@ -16,8 +17,6 @@ from umform.io.tables import write_json
 from umform.processes.bend_sequence.files import write_files as write_sequence
 from umform.report.versions import versions
 
-#: Files of a flat pattern.
-FILES = ("flat.dxf", "flat.svg", "flat.json", "sheet.html")
 RESULTS = FILES
 
 

@@ -133,7 +133,7 @@ def write_sheet(path: Path, orders: Orders, bent: BentPart | None = None, note: 
     content = [parts.pairs(given), *(parts.note(text, bad=True) for text in _red(pattern, bent))]
     content += [
         parts.heading("Bends in their order"),
-        parts.table(_HEAD, [_row(k, s) for k, s in enumerate(steps_of(orders, bent), 1)]),
+        _table([_row(k, s) for k, s in enumerate(steps_of(orders, bent), 1)]),
     ]
     content += [parts.paragraph(text) for text in _remarks(orders, bent)]
     content += [parts.heading("Flat pattern"), f'<figure><div class="wide">{svg(pattern)}</div></figure>']
@@ -147,9 +147,13 @@ def write_sheet(path: Path, orders: Orders, bent: BentPart | None = None, note: 
         ]
         content += [parts.table(["flange", "drawing, mm", "simulation, mm", "difference, mm"], rows)]
     content += [parts.note(text) for text in (*pattern.warnings, *([note] if note else []))]
-    return parts.write_html(path, f"Operator's sheet: {pattern.path.stem}", f"{len(pattern.bends)} bends", content)
+    return parts.write_html(
+        path, f"Operator's sheet: {pattern.path.stem}", f"{len(pattern.bends)} bends", content, style=_STYLE
+    )
 
 
+#: The whole flat pattern is seen at once.
+_STYLE = "figure svg { max-height: 70vh; }"
 _HEAD = [
     "step",
     "bend",
@@ -165,6 +169,12 @@ _HEAD = [
     "length, mm",
     "force, kN",
 ]
+
+
+def _table(rows: list[list[str]]) -> str:
+    """The steps, without columns that no step has a value of."""
+    used = [k for k in range(len(_HEAD)) if any(row[k] for row in rows)]
+    return parts.table([_HEAD[k] for k in used], [[row[k] for k in used] for row in rows])
 
 
 def _row(place: int, step: Step) -> list[str]:

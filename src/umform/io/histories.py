@@ -16,8 +16,8 @@ Floats = NDArray[np.float64]
 #: Columns by name.
 History = dict[str, Floats]
 
-#: Name of the history in the folder of a run.
-HISTORY = "history.csv"
+#: Names of the history in the folder of a run, of the curve of a bend or a draw, and of those of several bends.
+HISTORIES = ("history.csv", "curve.csv", "curves.csv")
 _REMEDY = "give the history.csv of a run"
 
 
@@ -27,7 +27,8 @@ def read_history(path: str | os.PathLike[str]) -> History:
     Parameters
     ----------
     path : str or os.PathLike
-        A CSV file with one header row, or a folder that holds ``history.csv``.
+        A CSV file with one header row, or a folder with one of `HISTORIES`. Semicolons in the header stand for decimal
+        commas in the numbers.
 
     Returns
     -------
@@ -42,7 +43,9 @@ def read_history(path: str | os.PathLike[str]) -> History:
     file = _file(Path(path))
     try:
         with file.open(newline="", encoding="utf-8-sig") as text:
-            header, *rows = list(csv.reader(text)) or [[]]
+            german = ";" in text.readline()
+            text.seek(0)
+            header, *rows = list(csv.reader(text, delimiter=";" if german else ",")) or [[]]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         cause = getattr(error, "strerror", None) or "another kind of file, or text that is not UTF-8"
         raise FileProblem("the history cannot be read", where=str(file), cause=cause, remedy=_REMEDY) from error
@@ -55,7 +58,10 @@ def read_history(path: str | os.PathLike[str]) -> History:
             raise FileProblem(what, where=f"{file}, line {number}", cause=cause, remedy=_REMEDY)
     values = np.array(
         [
-            [_number(cell, f"{file}, line {number}, column {name}") for name, cell in zip(header, row, strict=True)]
+            [
+                _number(cell.replace(",", ".") if german else cell, f"{file}, line {number}, column {name}")
+                for name, cell in zip(header, row, strict=True)
+            ]
             for number, row in enumerate(rows, start=2)
         ]
     )
@@ -92,20 +98,21 @@ def read_histories(paths: Sequence[str | os.PathLike[str]]) -> dict[str, History
 
 
 def _file(path: Path) -> Path:
-    file = path / HISTORY if path.is_dir() else path
+    files = [path / name for name in HISTORIES] if path.is_dir() else [path]
+    file = next((one for one in files if one.is_file()), path)
     if not file.is_file():
         raise FileProblem(
             "there is no history here",
             where=str(path),
-            cause=f"the folder holds no {HISTORY}" if path.is_dir() else "there is no such file",
-            remedy="give a CSV file that result.write() made, or the folder of a run",
+            cause=f"the folder holds none of {', '.join(HISTORIES)}" if path.is_dir() else "there is no such file",
+            remedy="give a CSV file that result.write() made, or the folder of a run, a bend or a draw",
         )
     return file
 
 
 def _name(path: Path) -> str:
-    """The folder of a history.csv, the name of another file."""
+    """The folder of one of `HISTORIES`, the name of another file."""
     path = path.resolve()
     if path.is_dir():
         return path.name
-    return path.parent.name if path.name == HISTORY else path.stem
+    return path.parent.name if path.name in HISTORIES else path.stem

@@ -6,7 +6,10 @@ import csv
 import json
 import math
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -17,10 +20,51 @@ from umform.io.atomic import PendingFile
 Scalar = bool | int | float | str | None
 
 
+@dataclass(frozen=True)
+class CsvStyle:
+    """How a CSV table is written.
+
+    Attributes
+    ----------
+    separator, decimal : str
+        Between the cells, and in front of the digits behind the point.
+    encoding : str
+        Name of the encoding.
+    """
+
+    separator: str
+    decimal: str
+    encoding: str
+
+
+#: Styles by name; a spreadsheet with German settings opens the second one, whose mark tells that it is UTF-8.
+CSV_STYLES = {"plain": CsvStyle(",", ".", "utf-8"), "german": CsvStyle(";", ",", "utf-8-sig")}
+_style = ContextVar("csv style", default=CSV_STYLES["plain"])
+
+
+@contextmanager
+def csv_style(name: str) -> Iterator[None]:
+    """Write all CSV tables inside in a style of `CSV_STYLES`.
+
+    Raises
+    ------
+    InvalidValue
+        There is no such style.
+    """
+    if name not in CSV_STYLES:
+        raise InvalidValue("there is no such style of CSV tables", value=name, remedy="one of " + ", ".join(CSV_STYLES))
+    token = _style.set(CSV_STYLES[name])
+    try:
+        yield
+    finally:
+        _style.reset(token)
+
+
 def write_csv(path: str | os.PathLike[str], columns: Mapping[str, Iterable[Any]]) -> None:
     """Write named columns as a CSV table with one header row.
 
     Floats are written with enough digits to be read back exactly; NaN is written as ``nan`` and None as an empty field.
+    `csv_style` chooses separator and decimal sign.
 
     Parameters
     ----------
@@ -45,10 +89,15 @@ def write_csv(path: str | os.PathLike[str], columns: Mapping[str, Iterable[Any]]
             value=lengths,
             remedy="give every column the same number of entries",
         )
-    with PendingFile(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
+    style = _style.get()
+    cells = (
+        [repr(value).replace(".", style.decimal) if isinstance(value, float) else value for value in column]
+        for column in table.values()
+    )
+    with PendingFile(path) as temporary, temporary.open("w", newline="", encoding=style.encoding) as file:
+        writer = csv.writer(file, delimiter=style.separator, lineterminator="\n")
         writer.writerow(table)
-        writer.writerows(zip(*table.values()))
+        writer.writerows(zip(*cells))
 
 
 def write_json(path: str | os.PathLike[str], record: Any) -> None:

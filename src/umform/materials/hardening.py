@@ -51,6 +51,9 @@ Curve = Annotated[
     OneOf("curve", partial(known, Hardening)),
 ]
 
+#: Points of a table up to which its repr has all of them.
+_FEW = 8
+
 
 @dataclass(frozen=True)
 class LinearVoce(Hardening):
@@ -217,6 +220,12 @@ class Table(Hardening):
                 remedy="give the plastic strain, not the total one",
             )
         Perfect(self.stress[0])
+
+    def __repr__(self) -> str:
+        if len(self.eqps) <= _FEW:
+            return f"Table(eqps={self.eqps}, stress={self.stress})"
+        ranges = (f"{name} {values[0]:.6g} to {values[-1]:.6g}" for name, values in vars(self).items())
+        return f"Table({len(self.eqps)} points: {', '.join(ranges)})"
 
     def curve(self) -> _core.Hardening:
         """The curve as the kernels take it."""

@@ -17,6 +17,7 @@ from umform.problem.clearance import away, clearances
 from umform.problem.contents import Contents
 from umform.problem.controls import ControlPart, Displacement, Drive, MidLine, Moment, Press, Spring, Turn
 from umform.problem.findings import Finding, error, ok, warning
+from umform.problem.floating import changed_thickness
 from umform.problem.material import FromLibrary
 from umform.problem.placement import out_of_the_sheet
 from umform.problem.planes import planes
@@ -51,6 +52,7 @@ def check(deck: Problem, problem: Prepared) -> Iterator[Finding]:
     with np.errstate(all="ignore"):
         yield supports(problem)
         yield from before_run(deck, problem)
+        yield from changed_thickness(deck)
         with carried(problem.model, problem.steps):
             yield effort(deck.contents, problem)
 

@@ -31,7 +31,7 @@ _Answer = TypeVar("_Answer")
 log = logging.getLogger("umform")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ProblemOutcome(Outcome):
     """Outcome of a run.
 

@@ -139,6 +139,17 @@ def parse(
         data = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         raise DeckError([no_toml(text, name, error)]) from None
+    if "bends" in data and "mesh" not in data:
+        raise DeckError(
+            [
+                DeckKey(
+                    "this is a sequence of bends and no deck",
+                    where=name,
+                    cause="it has a table [[bends]], and no mesh",
+                    remedy=f"umform bend --sequence {folder / name} --material DC04",
+                )
+            ]
+        )
     change(data, changes or {}, default)
     return Source(name, folder, text, data, lines_of(text), dict(changes or {}), trust=trust)
 

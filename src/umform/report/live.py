@@ -85,7 +85,7 @@ class Live:
         known = drawn or {}
         shape = _shape(result, scene, stills, known.get("shape"))
         curves = _curves(result, columns, stills, first, known.get("curve"))
-        return cls(shape, curves, _table(columns), tuple(scene.notes), _scripts(scene))
+        return cls(shape, curves, _table(columns), tuple(scene.notes), shape_scripts(scene))
 
 
 def style() -> str:
@@ -93,10 +93,21 @@ def style() -> str:
     return _asset("run.css")
 
 
-def _scripts(scene: Scene) -> str:
-    """Data and programs."""
+def shape_part(scene: Scene, still: str = "") -> str:
+    """The 3D view of a scene, with a picture for browsers that cannot draw it."""
+    options = "".join(f"<option>{escape(name)}</option>" for name in scene.fields)
+    hidden = {
+        "without_tools": "" if scene.tools else " hidden",
+        "without_mirrors": "" if scene.mirrors else " hidden",
+        "without_rolling": "" if scene.rolling else " hidden",
+    }
+    return _filled("shape.html", still=still, fields=options, last=str(scene.frames - 1), **hidden)
+
+
+def shape_scripts(scene: Scene, names: Iterable[str] = _SCRIPTS) -> str:
+    """Data and programs of a page with a scene."""
     library = b64encode(_packed_asset("three/three.min.js.gz")).decode("ascii")
-    program = "\n".join(_asset(name) for name in _SCRIPTS)
+    program = "\n".join(_asset(name) for name in names)
     return (
         f'<script type="application/octet-stream" id="scene">{scene.data}</script>\n'
         f'<script type="application/octet-stream" id="three">{library}</script>\n'
@@ -106,17 +117,11 @@ def _scripts(scene: Scene) -> str:
 
 def _shape(result: History, scene: Scene, stills: bool, drawn: Figure | None) -> str:
     """The 3D view, or a still of the last state if it cannot be drawn."""
-    options = "".join(f"<option>{escape(name)}</option>" for name in scene.fields)
     caption = "The sheet in its last state, in true proportion" + ("; one part is modelled." if scene.mirrors else ".")
     still = ""
     if stills:
         still = parts.figure(drawn or shape_picture(whole(Shape.of(result), scene.mirrors)), caption)
-    hidden = {
-        "without_tools": "" if scene.tools else " hidden",
-        "without_mirrors": "" if scene.mirrors else " hidden",
-        "without_rolling": "" if scene.rolling else " hidden",
-    }
-    return _filled("shape.html", still=still, fields=options, last=str(scene.frames - 1), **hidden)
+    return shape_part(scene, still)
 
 
 def _curves(

@@ -69,6 +69,10 @@ class History:
         self._ahead: tuple[Evaluation, ExternalWork] | None = None  # the work with a state that is not kept yet
         self._writes = model.system.ranks.rank == 0  # one rank writes for all
 
+    def __repr__(self) -> str:
+        columns = len(self.rows[0]) if self.rows else 0
+        return f"{type(self).__name__}({len(self.rows)} rows, {columns} columns, {len(self.frames)} frames)"
+
     def add(self, evaluation: Evaluation, iterations: list[Iteration], *, step: int = 0, frame: bool = True) -> None:
         """Add the converged state of the model, which the evaluation was made at, to the history."""
         with self.timing.output:

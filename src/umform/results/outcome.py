@@ -74,6 +74,10 @@ class Outcome(ABC):
     def quantities(self) -> list[Quantity]:
         """The numbers that the process reports, in the order of tables."""
 
+    def __repr__(self) -> str:
+        numbers = ", ".join(f"{one.name}={one.full_text}" for one in self.leading)
+        return f"{type(self).__name__}({numbers})"
+
     @property
     def leading(self) -> list[Quantity]:
         """The few numbers that are shown first: those that are marked, and those beyond a limit; without marks, all."""

@@ -34,7 +34,7 @@ def made_card(name: str) -> SheetMetal:
     return SheetMetal(
         name=name,
         number="",
-        aliases=tuple(row["aliases"]),
+        aliases=tuple(row.get("aliases", ())),
         law=law,
         young=float(row["E"]),
         poisson=float(row["nu"]),

@@ -111,7 +111,7 @@ def _known() -> dict[str, str]:
     return {
         _plain(other): name
         for name, row in rows.items()
-        for other in (name, row.get("number", ""), *row["aliases"])
+        for other in (name, row.get("number", ""), *row.get("aliases", ()))
         if other
     }
 
@@ -210,7 +210,7 @@ def _from_row(name: str, row: dict[str, Any]) -> SheetMetal:
     return SheetMetal(
         name=name,
         number=row["number"],
-        aliases=tuple(row["aliases"]),
+        aliases=tuple(row.get("aliases", ())),
         law=law,
         young=young,
         poisson=float(row["poisson"]),

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import umform
 from umform import errors
-from umform.bench.form import Choices, form_fields
+from umform.bench.form import Choices, FlatChoices, Measured, TableChoices, form_fields
 from umform.processes.air_bending.goal import Goal
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence.spec import Bend, BendSequence
@@ -17,7 +17,14 @@ from umform.spec import parameters
 
 SOURCE = Path(umform.__file__).parent
 #: Code that a form can lead to, before a run.
-ROOMS = ("bench", "processes/air_bending", "processes/bend_sequence", "processes/hemming", "sheet_metals")
+ROOMS = (
+    "bench",
+    "processes/air_bending",
+    "processes/bend_sequence",
+    "processes/hemming",
+    "sheet_metals",
+    "flat_pattern",
+)
 FILES = (
     "processes/rules.py",
     "spec/types.py",
@@ -26,9 +33,12 @@ FILES = (
     "surfaces/profile.py",
     "surfaces/segments.py",
     "surfaces/crossings.py",
+    "surfaces/cad/read_solid.py",
 )
 #: What makes messages of its arguments, beside the classes of errors.
 MAKERS = {
+    "refusal",
+    "_refuse",
     "_unfit",
     "Rule",
     "length",
@@ -39,10 +49,10 @@ MAKERS = {
     "NoAnswer",
 }
 #: What the form asks for.
-SPECS = (AirBending, Bend, BendSequence, Choices, Goal, Hemming)
+SPECS = (AirBending, Bend, BendSequence, Choices, FlatChoices, Goal, Hemming, Measured, TableChoices)
 PARTS = ("what", "cause", "remedy")
 GERMAN = json.loads(files("umform.bench").joinpath("page", "messages.de.json").read_text(encoding="utf-8"))
-#: What no form can lead to: files of curves, the Python interface, the start of the server.
+#: What no form can lead to: files of curves and tables, the Python interface, the start of the server.
 ELSEWHERE = (
     "sheet_metals/curve_fit.py",
     "sheet_metals/flow_curve.py",
@@ -51,6 +61,8 @@ ELSEWHERE = (
     "processes/air_bending/problem.py",
     "processes/bend_sequence/form.py",
     "bench/server.py",
+    "flat_pattern/allowance.py",
+    "flat_pattern/drawing.py",
 )
 #: Beginnings of what only Python users can cause: friction, drawn tools, the interface of profiles.
 PYTHON = (
@@ -58,6 +70,7 @@ PYTHON = (
     *("a profile needs", "an empty list", "give lines and arcs", "an open profile", "it goes on", "close it:"),
     *("the solid of", "a closed section", "solid=", "another name of the unit", "the unit of the model"),
     *("bottoming=True;", "let each segment", "a J2 or a Metal", "AirBending(", "read_{}(", "umform "),
+    *("nothing says how", "neither a metal nor", 'metal="DC04" for'),
 )
 
 

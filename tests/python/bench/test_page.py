@@ -1,4 +1,4 @@
-"""The page in Chromium: bend, stop, resume, compare, table, deck, phone, two tabs, keyboard, both languages."""
+"""The page in Chromium: bend, stop, resume, compare, table, deck, parts, tables, phone, tabs, keyboard, languages."""
 
 import contextlib
 import shutil
@@ -368,7 +368,105 @@ def test_kinds_of_work_have_their_own_fields(visit):
     assert page.locator("#table").is_hidden()
 
 
-@pytest.mark.parametrize("view", ["bend", "compare", "deck"])
+@pytest.fixture(scope="module")
+def step(tmp_path_factory):
+    """STEP files of brackets by their names."""
+    pytest.importorskip("OCP")
+    pytest.importorskip("ezdxf")
+    from brackets import BRACKETS
+
+    folder = tmp_path_factory.mktemp("brackets")
+    return lambda name: BRACKETS[name].file(folder / f"{name}.step")
+
+
+def coarse(page):
+    """Take the mesh that is done in a moment."""
+    page.locator("#fields details[data-group=Solution] summary").click()
+    page.select_option("#f-mesh", "quick")
+
+
+def test_part_is_dropped_seen_and_unfolded(visit, step):
+    page = visit.page
+    page.click("nav [data-view=flat]")
+    assert page.inner_text("#form-title") == "Unfold a part" and page.locator("#f-work").count() == 0
+    page.wait_for_selector("#run:disabled")
+    page.set_input_files("#part-file", step("tube"))
+    page.wait_for_selector("#part-said.bad")
+    assert "the section is closed" in page.inner_text("#part-said")
+    data = page.evaluate_handle(
+        "(text) => { const data = new DataTransfer(); data.items.add(new File([text], 'an U.step')); return data; }",
+        step("u").read_text(),
+    )
+    page.dispatch_event("#form", "drop", {"dataTransfer": data})
+    page.locator("#n-part", has_text="2.000 mm thick").wait_for()
+    assert page.input_value("#f-part") == "an U.step" and page.inner_text("#part-said") == ""
+    page.frame_locator("#part-view iframe").locator(READY).wait_for(state="attached")
+    coarse(page)
+    page.wait_for_selector("#run:enabled")
+    page.click("#run")
+    page.wait_for_selector("#flat-steps")
+    assert page.locator("#flat-bends tbody tr").count() == 2
+    assert "computed: DC04" in page.locator("#flat-bends").inner_text()
+    assert page.locator(".paper img").evaluate("(one) => one.decode().then(() => one.naturalWidth)") > 0
+    for file in ("flat.dxf", "flat.svg", "flat.json", "sheet.html"):
+        assert page.locator(f"a[href$='{file}']").is_visible()
+    page.select_option("#language", "de")
+    page.locator("#flat-steps", has_text="flache Kante").wait_for()
+    assert page.locator("nav [aria-current]").inner_text() == "Zuschnitt"
+    page.click("nav [data-view=bend]")
+    page.wait_for_selector("#f-angle")
+    assert page.locator("#drawing").is_visible()
+
+
+def test_bend_table_is_computed_and_corrected_by_a_measured_bend(visit):
+    page = visit.page
+    page.click("nav [data-view=table]")
+    coarse(page)
+    page.fill("#f-thicknesses", "1")
+    page.fill("#f-openings", "8")
+    page.fill("#f-angles", "140:150")
+    page.locator("#n-angles", has_text="is no range").wait_for()
+    assert page.locator("#run").is_disabled()
+    page.fill("#f-angles", "140:150:10")
+    page.select_option("#f-metals", ["DC04"])
+    page.wait_for_selector("#run:enabled")
+    page.click("#run")
+    page.wait_for_selector("a[href$='bends.csv']")
+    assert page.locator("#bend-table tbody tr").count() == 3
+    assert page.locator("a[href$='.FCStd'], a[href$='.bnd'], a[href$='.txt']").count() == 4
+
+    page.click("nav [data-view=bend]")
+    page.fill("#f-thickness", "1")
+    page.fill("#f-opening", "8")
+    page.fill("#f-angle", "140")
+    page.wait_for_selector("#run:enabled")
+    page.click("#run")
+    page.click("#measured summary")
+    page.fill("#m-measured_angle", "1,403")
+    page.click("#measured-go")
+    page.locator("#measured-said.bad", has_text="may mean").wait_for()
+    page.fill("#m-measured_angle", "139,4")
+    assert page.inner_text("#measured-said") == "read as 139.4"
+    assert page.input_value("#m-issue_again") != ""
+    page.click("#measured-go")
+    page.wait_for_selector("[data-measure=new_stroke]")
+    assert page.locator("[data-factor=flow_stress] b").inner_text().startswith("×")
+    assert page.locator("#measured-bends tbody tr").count() == 6
+    assert page.locator("#bend-table .was").count() == 14  # two bends of seven numbers, and what they were
+    assert page.locator("a[href$='metal.toml']").is_visible()
+
+
+@pytest.mark.parametrize("view", ["flat", "table"])
+def test_further_views_fit_a_phone(browser, link, view):
+    visit = Visit(browser, link, viewport={"width": 390, "height": 844}, color_scheme="dark", locale="de-DE")
+    visit.page.click(f"nav [data-view={view}]")
+    visit.page.wait_for_selector("#form-title:has-text('abwickeln'), #form-title:has-text('Biegetabelle')")
+    assert visit.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    assert visit.complaints == []
+    visit.context.close()
+
+
+@pytest.mark.parametrize("view", ["bend", "compare", "deck", "flat", "table"])
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_axe_finds_nothing_serious(browser, link, view, scheme):
     axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="no axe").Axe()

@@ -153,7 +153,7 @@ def test_ctrl_c_keeps_the_rows_of_a_bending_table(monkeypatch, tmp_path):
     assert f"results so far are in {tmp_path / 'out'}: table.csv" in run.stderr
     with (tmp_path / "out" / "table.csv").open() as file:
         rows = list(csv.DictReader(file))
-    assert [float(row["stroke"]) for row in rows] == pytest.approx([0.4, 0.6])
+    assert [float(row["stroke mm"]) for row in rows] == pytest.approx([0.4, 0.6])
 
 
 def test_ctrl_c_in_the_budget_keeps_the_bend(monkeypatch, tmp_path):

@@ -26,6 +26,11 @@ TYPED = [
     ("metal fit --yield-function hill48", 2, ["--young", "`umform metal fit --help`"]),
     ("draw cup --opening 200", 1, ["half of --opening"]),
     ("view", 2, ["where:  umform view"]),
+    ("draw box", 2, ["umform draw cup, u", "umform new"]),
+    ("bend --stroke 6 --thickness 0.08in", 2, ["lengths are in mm", "write 2.032"]),
+    ('bend --stroke 6 --thickness .5"', 2, ["lengths are in mm", "write 12.7"]),
+    ("bend --stroke 6 --thickness 2mm", 2, ["write 2;"]),
+    ("hem --gap 0", 1, ["no contact with itself", "half a thickness"]),
     ("bnd", 2, ["'bend'", "remedy:"]),
 ]
 
@@ -46,6 +51,17 @@ def test_only_names_of_parameters_are_translated():
     text = "bottoming=True, angle=90.5, a punch_radius, the angle, my_punch_radius, punch_radius(), other=3"
     said = "--bottoming, --angle 90.5, a --punch-radius, the angle, my_punch_radius, punch_radius(), other=3"
     assert as_typed(text, options) == said
+
+
+@pytest.mark.parametrize("command", ["run", "check"])
+def test_a_sequence_of_bends_is_no_deck(command, tmp_path):
+    file = tmp_path / "z.toml"
+    file.write_text("length = 110.0\n[[bends]]\nposition = 30.0\nangle = 90.0\n")
+    done = CliRunner().invoke(app, [command, str(file)])
+    assert done.exit_code == 1
+    assert "this is a sequence of bends and no deck" in done.stderr
+    assert f"umform bend --sequence {file}" in done.stderr
+    assert done.stderr.count("remedy:") == 1
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ import pytest
 
 from umform.errors import FileProblem, InvalidValue, NotFinite
 from umform.io import write_csv, write_json
+from umform.io.tables import csv_style
 
 
 def test_csv_is_read_back_bit_by_bit(tmp_path):
@@ -23,6 +24,14 @@ def test_csv_is_read_back_bit_by_bit(tmp_path):
 def test_csv_text(tmp_path):
     write_csv(tmp_path / "a.csv", {"t": [0, np.float64(0.1)], "on": [True, None], "x": [np.nan, -np.inf]})
     assert (tmp_path / "a.csv").read_bytes() == b"t,on,x\n0,True,nan\n0.1,,-inf\n"
+
+
+def test_german_csv_has_semicolons_and_decimal_commas(tmp_path):
+    with csv_style("german"):
+        write_csv(tmp_path / "a.csv", {"t mm": [0, np.float64(0.1)], "name": ["1.5", "ä"], "x": [np.nan, None]})
+    assert (tmp_path / "a.csv").read_text(encoding="utf-8") == "\ufefft mm;name;x\n0;1.5;nan\n0,1;ä;\n"
+    write_csv(tmp_path / "a.csv", {"t": [0.5]})
+    assert (tmp_path / "a.csv").read_bytes() == b"t\n0.5\n"
 
 
 @pytest.mark.parametrize("columns", [{}, {"a": [1], "b": [1, 2]}, {"a": np.eye(2)}, {"a": [1j]}])

@@ -52,6 +52,20 @@ def test_gaps(texts, found):
     assert levels(centre) == ERROR
 
 
+def test_a_changed_thickness_leaves_tools_behind(texts):
+    text = texts("air-bending")
+    thinner = Problem.read(text, changes={"mesh.thickness": 1.6})
+    (said,) = [one for one in check(thinner, thinner.build()) if one.about == "thickness"]
+    assert said.level is Level.WARNING and said.remedy
+    assert "at 2 and 1.6 the gap" in said.text and "that of die is 0 and 0.2" in said.text
+    places = {"tools.die.origin": [0.0, 0.0, -0.8], "tools.punch.origin": [0.0, 0.0, 0.8]}
+    for changes in ({"mesh.cells": [20, 1]}, {"mesh.thickness": 2.0}):
+        same = Problem.read(text, changes=changes)
+        assert not [one for one in check(same, same.build()) if one.about == "thickness"]
+    moved = Problem.read(text, changes={"mesh.thickness": 1.6} | places)
+    assert not [one for one in check(moved, moved.build()) if one.about == "thickness"]
+
+
 def test_the_default_bend_passes():
     deck = Problem.read(problem_of(AirBending(stroke=6.0)).toml())
     assert {finding.level for finding in check(deck, deck.build())} == {Level.OK}

@@ -69,6 +69,13 @@ def test_flat_length_is_legs_and_allowance(bend):
     assert m.bend_allowance == pytest.approx(theta * (m.radius + m.k_factor * bend.case.thickness), rel=1e-12)
 
 
+def test_the_depth_of_the_punch_counts_from_the_top_of_the_die(bend):
+    case = bend.case
+    tip = case.punch.profile.points(1e-4, 20.0)[:, 1].min() + case.punch.origin[2] - bend.measures.stroke
+    top = case.die.profile.points(1e-4, 20.0)[:, 1].max()
+    assert bend.measures.below_die == pytest.approx(top - tip, abs=1e-9)
+
+
 def test_the_bend_is_plausible(bend):
     m = bend.measures
     assert 0.3 < m.k_factor < 0.5

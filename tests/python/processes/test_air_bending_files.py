@@ -146,7 +146,7 @@ def test_all_files_are_written(tmp_path, bend, errors):
     with (tmp_path / "out" / "curve.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == len(bend.stroke)
-    assert float(rows[-1]["stroke"]) == bend.stroke[-1]
+    assert float(rows[-1]["stroke mm"]) == bend.stroke[-1]
     page = (tmp_path / "out" / "report.html").read_text()
     assert "% thrown away" in page and "<td>work of punch</td>" in page
     assert all(one.label in page for one in declared(Measures).values())
@@ -201,8 +201,8 @@ def test_the_printed_deck_gives_the_curve_of_the_bend_and_its_way_back(scale, ch
     assert run.exit_code == 0, run.output
     curve, history = columns_of(tmp_path / "bend" / "curve.csv"), columns_of(tmp_path / "run" / "history.csv")
     assert set(curve["step"]) == {0.0, 1.0, 2.0}
-    assert np.array_equal(curve["stroke"], history["stroke"])
-    assert np.array_equal(curve["force"], scale * history["stroke_force"])
+    assert np.array_equal(curve["stroke mm"], history["stroke"])
+    assert np.array_equal(curve["force N/mm"], scale * history["stroke_force"])
 
 
 def test_a_failed_refinement_does_not_spoil_the_files(tmp_path, bend):

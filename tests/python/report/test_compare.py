@@ -7,7 +7,7 @@ from typer.testing import CliRunner
 from umform import cli
 from umform.errors import FileProblem, InvalidValue
 from umform.io.histories import read_histories, read_history
-from umform.io.tables import write_csv
+from umform.io.tables import csv_style, write_csv
 from umform.plotting import COLOURS, compare_histories
 
 
@@ -100,6 +100,24 @@ def test_an_unknown_column_is_refused_with_the_nearest(runs, tmp_path):
     assert "perhaps punch is meant" in run.stderr
     assert "where:  run coarse" in run.stderr
     assert not (tmp_path / "c.png").exists()
+
+
+@pytest.mark.parametrize("style", ["plain", "german"])
+def test_folders_of_bends_have_a_curve(style, tmp_path):
+    u = np.linspace(0.0, 1.0, 5)
+    for name in ("bend", "hem"):
+        (tmp_path / name).mkdir()
+        with csv_style(style):
+            write_csv(tmp_path / name / "curve.csv", {"stroke mm": u, "force N/mm": u / 3})
+    histories = read_histories([tmp_path / "bend", tmp_path / "hem" / "curve.csv"])
+    assert list(histories) == ["bend", "hem"]
+    np.testing.assert_array_equal(histories["bend"]["force N/mm"], u / 3)
+    listed = plot(tmp_path / "bend")
+    assert listed.stdout == "bend: stroke mm, force N/mm\n"
+    drawn = plot(tmp_path / "bend", tmp_path / "hem", "--y", "force", "--out", tmp_path / "c.svg")
+    assert drawn.exit_code == 0, drawn.output
+    text = (tmp_path / "c.svg").read_text()
+    assert "stroke mm" in text and "force N/mm" in text
 
 
 def test_command_writes_a_picture(runs, tmp_path):

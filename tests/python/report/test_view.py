@@ -1,5 +1,6 @@
 """``umform view``: a picture of a file of fields, and what is refused."""
 
+import os
 import subprocess
 import sys
 
@@ -83,12 +84,12 @@ def test_a_folder_stands_for_the_one_file_in_it(file, tmp_path):
     empty = view(tmp_path, "--png", tmp_path / "a.png")
     assert empty.exit_code == 1
     assert "a folder without a file of fields" in empty.stderr
-    for name in ("bend.vtkhdf", "fields.vtkhdf"):
-        (tmp_path / name).write_bytes(file.read_bytes())
-    several = view(tmp_path, "--png", tmp_path / "a.png")
-    assert several.exit_code == 1
-    assert "bend.vtkhdf, fields.vtkhdf" in several.stderr
-    assert f"umform view {tmp_path / 'bend.vtkhdf'}" in several.stderr
+    for age, name in enumerate(("draw.vtkhdf", "release.vtkhdf", "before.vtkhdf")):
+        (tmp_path / name).write_bytes(file.read_bytes() if name == "release.vtkhdf" else b"")
+        os.utime(tmp_path / name, ns=(0, -abs(age - 1) * 10**9))
+    last = view(tmp_path, "--png", tmp_path / "a.png", "--field", "thicknes")
+    assert "umform: release.vtkhdf, the last one in" in last.stderr
+    assert "no such field" in last.stderr
 
 
 def test_without_pyvista_the_remedy_is_told(file, tmp_path, monkeypatch):

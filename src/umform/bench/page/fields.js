@@ -6,7 +6,7 @@ import { t } from "./texts.js";
 
 /**
  * @typedef {{name: string, label: string, help: string, valid: string, unit: string, group: string, works: string[],
- *   kind: "number" | "select" | "check" | "bends", integer: boolean, bounds: {gt?: number, ge?: number, lt?: number, le?: number},
+ *   kind: "number" | "numbers" | "words" | "select" | "check" | "bends", integer: boolean, bounds: {gt?: number, ge?: number, lt?: number, le?: number},
  *   choices: string[], default: any, times: number | null, tool: "" | "punch" | "die", size: string, usual: number[]}} Field
  */
 

@@ -7,10 +7,16 @@ import { element, make } from "./dom.js";
 import { fields, help, label, sizeField, sizesIn } from "./fields.js";
 import { store, stored } from "./storage.js";
 import { put } from "./notes.js";
+import { takingList, typedList, unclearList } from "./lists.js";
 import { howRead, numberField, show, unclear } from "./number_field.js";
+import { Parts, partText } from "./parts.js";
 import { has, number, problemText, t } from "./texts.js";
 import { sizesText, Tools } from "./tools.js";
 
+/** Kinds of work with a view of their own. */
+export const VIEWS_OF_WORK = ["flat", "table"];
+/** Lists that the server fills. */
+const LISTS = ["punch", "die", "part", "issue_again"];
 /** Milliseconds after which a request without an answer is repeated. */
 const AGAIN = 2000;
 
@@ -22,6 +28,9 @@ export class Form {
     this.values = structuredClone({ ...Object.fromEntries(fields.map((one) => [one.name, one.default])), ...stored(fields.map(({ name }) => name)) });
     this.bends = new Bends(() => this.look());
     this.tools = new Tools((kind, name) => this.takeTool(kind, name));
+    this.parts = new Parts((name) => this.takePart(name));
+    /** Finished bend tables, by metal, which a correction may issue again. @type {() => any[]} */
+    this.tables = () => [];
     this.round = 0;
     /** @type {AbortController | null} */
     this.asking = null;
@@ -30,12 +39,12 @@ export class Form {
     this.remedy = make("button", { type: "button", onclick: () => this.takeRemedy() });
     this.build();
     this.look();
-    this.tools.refresh().then(() => this.fillTools());
+    Promise.all([this.tools.refresh(), this.parts.refresh()]).then(() => this.fillLists());
   }
 
   /** The fields of this kind of work. */
   shown() {
-    return fields.filter(({ works }) => works.includes(this.values.work));
+    return fields.filter(({ name, works }) => works.includes(this.values.work) && !(name === "work" && VIEWS_OF_WORK.includes(this.values.work)));
   }
 
   build() {
@@ -48,7 +57,10 @@ export class Form {
       return make("details", { "data-group": group, open: open.has(group) }, make("summary", {}, t(`group.${group}`, {}, group)),
         make("div", { class: "group" }, ...hint, ...rows, ...more));
     });
-    element("table").hidden = this.values.work !== "bend"; // a table is one of angles
+    const { work } = this.values;
+    element("table").hidden = work !== "bend"; // a table is one of angles
+    element("form-title").textContent = t(`form.title.${work}`, {}, t("form.title"));
+    element("run").textContent = t(`run.${work}`, {}, t("run"));
     element("fields").replaceChildren(...groups);
   }
 
@@ -60,7 +72,14 @@ export class Form {
     const common = { id: `f-${name}`, "aria-describedby": `n-${name}` };
     /** @type {any} */
     let input;
-    if (kind === "select") {
+    if (kind === "words") {
+      const chosen = () => [...input.selectedOptions].map((one) => one.value);
+      input = make("select", { ...common, multiple: true, size: 6, onchange: () => this.take(name, chosen()) }, ...this.options(field));
+      for (const one of input.options) one.selected = Array.isArray(value) && value.includes(one.value);
+    } else if (kind === "numbers") {
+      input = make("input", { ...common, type: "text", autocomplete: "off", value: typedList(value) });
+      input.addEventListener("input", () => this.take(name, takingList(input.value)));
+    } else if (kind === "select") {
       input = make("select", { ...common, onchange: () => this.take(name, input.value || null) }, ...this.options(field));
       input.value = value ?? "";
     } else if (kind === "check") {
@@ -70,15 +89,16 @@ export class Form {
       input = numberField({ ...common, list, placeholder: this.placeholder(field) }, value, (taken) => this.take(name, taken), field);
     }
     const unitText = unit ? make("span", { class: "unit", "aria-hidden": "true" }, unit) : null;
-    const offered = usual.length ? make("datalist", { id: `l-${name}` }, ...usual.map((one) => make("option", { value: one }))) : null;
+    const offered = usual.length && kind === "number" ? make("datalist", { id: `l-${name}` }, ...usual.map((one) => make("option", { value: one }))) : null;
     const text = make("label", { for: `f-${name}` }, label(name));
     const box = make("span", { class: "input" }, input, unitText, offered);
-    return make("div", { class: `row ${kind}`, "data-field": name, title: help(field) }, text, box, make("p", { class: "note", id: `n-${name}`, role: "status" }));
+    const more = name === "part" ? this.parts.controls(value) : null;
+    return make("div", { class: `row ${kind}`, "data-field": name, title: help(field) }, text, box, more, make("p", { class: "note", id: `n-${name}`, role: "status" }));
   }
 
-  /** Fill the lists of drawn tools. The rest of the form stays: the user may be typing there. */
-  fillTools() {
-    for (const field of fields.filter(({ name }) => name === "punch" || name === "die")) {
+  /** Fill the lists that the server gave. The rest of the form stays: the user may be typing there. */
+  fillLists() {
+    for (const field of this.shown().filter(({ name }) => LISTS.includes(name))) {
       const list = element(`f-${field.name}`);
       list.replaceChildren(...this.options(field));
       list.value = this.values[field.name] ?? "";
@@ -88,7 +108,13 @@ export class Form {
   /** @param {import("./fields.js").Field} field */
   options({ name, choices }) {
     if (name === "punch" || name === "die") return this.tools.options(name, this.values[name]);
-    if (name !== "material") return choices.map((one) => make("option", { value: one }, t(`${name}.${one}`, {}, one)));
+    if (name === "part") return this.parts.options(this.values.part);
+    if (name === "issue_again") {
+      const rows = this.tables().filter((row) => row.parameters.metals.includes(this.values.material));
+      return [make("option", { value: "" }, t("again.none")), ...rows.map((row) => make("option", { value: row.id }, `${row.number} · ${row.title}`))];
+    }
+    const offered = name === "work" ? choices.filter((one) => !VIEWS_OF_WORK.includes(one)) : choices;
+    if (name !== "material" && name !== "metals") return offered.map((one) => make("option", { value: one }, t(`${name}.${one}`, {}, one)));
     const group = (/** @type {boolean} */ card) => this.library.metals.filter((/** @type {any} */ metal) => metal.card === card)
       .map((/** @type {any} */ metal) => make("option", { value: metal.name }, metal.number && metal.number !== metal.name ? `${metal.name} (${metal.number})` : metal.name));
     return [make("optgroup", { label: t("metals.standard") }, ...group(false)), make("optgroup", { label: t("metals.cards") }, ...group(true))];
@@ -121,11 +147,29 @@ export class Form {
     const before = this.values[name];
     this.values[name] = value;
     if (name === "work") this.suitWork(before);
-    for (const pair of [["force_per_metre", "travel"], ["stroke", "angle"]]) {
+    const pairs = this.values.work === "correct" ? [] : [["force_per_metre", "travel"], ["stroke", "angle"]];
+    for (const pair of pairs) {
       if (pair.includes(name) && value !== null) this.change({ [pair[1 - pair.indexOf(name)]]: null });
     }
     if (name === "opening") this.suitRadius();
     if (name === "material") this.suitMaterial();
+    if (name === "part") this.build();
+    this.look();
+  }
+
+  /** The work of another view. @param {string} work */
+  setWork(work) {
+    if (this.values.work === work) return;
+    const before = this.values.work;
+    this.values.work = work;
+    this.suitWork(before, false);
+    this.look();
+  }
+
+  /** A part was read; null: it was deleted. @param {string | null} name */
+  takePart(name) {
+    this.values.part = name;
+    this.build();
     this.look();
   }
 
@@ -136,8 +180,8 @@ export class Form {
     this.look();
   }
 
-  /** Change tools and goal for another kind of work. @param {string} before */
-  suitWork(before) {
+  /** Change tools and goal for another kind of work. @param {string} before @param {boolean} [focus] */
+  suitWork(before, focus = true) {
     const { work, thickness, force_per_metre: force, travel } = this.values;
     const { proportions, fields: known } = this.library;
     const t = Number.isFinite(thickness) ? thickness : known.find((/** @type {any} */ one) => one.name === "thickness").default;
@@ -150,8 +194,9 @@ export class Form {
       this.change({ travel: 0, [sizeField("die", "angle")]: 88, [sizeField("punch", "angle")]: 88, punch: null, die: null });
     }
     if (work === "bend" && this.values.angle === null && this.values.stroke === null) this.change({ angle: 90 });
+    if (work === "correct" && this.values.angle === null) this.change({ angle: 90 });
     this.build();
-    element("f-work").focus();
+    if (focus) element("f-work")?.focus();
   }
 
   /** The shoulder radius of the library's die with this opening. */
@@ -174,6 +219,7 @@ export class Form {
       if (!input) continue;
       if (input.type === "checkbox") input.checked = Boolean(value);
       else if (input.tagName === "SELECT") input.value = value ?? "";
+      else if (Array.isArray(value)) input.value = typedList(value);
       else show(input, value);
     }
   }
@@ -201,7 +247,7 @@ export class Form {
   /** Show the findings beside the fields. @param {any} found */
   say(found) {
     this.change(found.measured ?? {});
-    for (const { name, tool } of fields.filter((one) => one.tool)) element(`f-${name}`).disabled = Boolean(this.values[tool]);
+    for (const { name, tool } of this.shown().filter((one) => one.tool)) element(`f-${name}`).disabled = Boolean(this.values[tool]) && element(`f-${tool}`) !== null;
     const offer = (/** @type {"punch" | "die"} */ tool) => sizesText(sizesIn(tool, found.change));
     this.remedy.textContent = found.change ? t("offer", { die: offer("die"), punch: offer("punch") }) : "";
     this.offered = found.change ?? {};
@@ -212,9 +258,10 @@ export class Form {
       notes.delete(name);
       put(element(`n-${name}`), kind, texts, name === "angle" && found.change ? this.remedy : null);
       if (kind) element(`n-${name}`).closest("details")?.setAttribute("open", "");
-      element(`f-${name}`).toggleAttribute("aria-invalid", false);
+      element(`f-${name}`).removeAttribute("aria-invalid");
       if (kind === "bad") element(`f-${name}`).setAttribute("aria-invalid", "true");
     }
+    if (found.part) put(element("n-part"), "", [partText(found.part)]);
     const others = [...notes.values()];
     put(element("form-note"), others.some(({ kind }) => kind === "bad") ? "bad" : "warn", others.flatMap(({ texts }) => texts));
     element("run").disabled = found.problems.length > 0;
@@ -241,7 +288,8 @@ export class Form {
         const [, bend, part] = /^bend (\d+)(?:, (\w+))?/.exec(row.where) ?? [];
         const typed = bend ? this.values.bends[Number(bend) - 1]?.[part] : this.values[row.where];
         const asked = bend ? part : fields.find((one) => one.name === row.where)?.kind === "number";
-        const text = asked && typeof typed === "string" ? unclear(typed) : problemText(row);
+        const many = fields.find((one) => one.name === row.where)?.kind === "numbers";
+        const text = many && typeof typed === "string" && typed.trim() ? unclearList(typed) : asked && typeof typed === "string" ? unclear(typed) : problemText(row);
         add(bend ? "bends" : row.where, row.level ?? kind, bend ? `${t("bend.number", { number: Number(bend) })}: ${text}` : text);
       }
     }

@@ -7,7 +7,7 @@ import { Deck } from "./deck.js";
 import { element, make } from "./dom.js";
 import { Drawing } from "./drawing.js";
 import { known, setFields } from "./fields.js";
-import { Form } from "./form.js";
+import { Form, VIEWS_OF_WORK } from "./form.js";
 import { Jobs } from "./jobs.js";
 import { Result } from "./result.js";
 import { askTable, seriesTable } from "./table.js";
@@ -15,6 +15,8 @@ import { loadTexts, number, problemText, t } from "./texts.js";
 import { showAgain, tour } from "./tour.js";
 
 const VIEWS = ["bend", "compare", "deck"];
+/** The view of a kind of work. @param {string} work */
+const viewOf = (work) => (VIEWS_OF_WORK.includes(work) ? work : "bend");
 
 async function start() {
   if (location.search) history.replaceState(null, "", location.pathname + location.hash); // the token stays in the cookie
@@ -25,21 +27,31 @@ async function start() {
   const jobs = new Jobs((name) => go(`bend/${name}`), (chosen) => chosen.length && comparing() && go(`compare/${chosen.join(",")}`),
     () => comparing() && show());
   const result = new Result(library, drawing, {
-    gone: () => go("bend"),
+    gone: () => go(viewOf(form.values.work)),
     expected,
     ask: (/** @type {string} */ name, /** @type {any} */ what) => jobs.ask(name, what),
     again: (/** @type {any} */ job) => {
       Object.assign(form.values, structuredClone(known(job.parameters)));
       form.build();
-      go("bend");
+      go(viewOf(form.values.work));
       form.look();
     },
+    correct: async (/** @type {any} */ values) => {
+      const answer = await post("/api/jobs", { forms: [values] });
+      await jobs.refresh();
+      go(`bend/${answer.jobs[0]}`);
+    },
+    sketch,
+    tables: () => tables(),
   });
   const form = new Form(library, (found, values) => {
+    if (!result.name) sketch(found, values.work);
     if (found.drawing && !result.name) drawing.set(found.drawing, { ...values, ...found.shown });
     element("sketch").classList.toggle("old", !found.drawing);
     if (!result.name) expected(found, values);
   });
+  const tables = () => jobs.rows.filter((row) => row.state === "done" && row.parameters.work === "table");
+  form.tables = tables;
   const deck = new Deck((name) => go(`bend/${name}`));
 
   element("form").addEventListener("submit", async (/** @type {Event} */ event) => {
@@ -53,7 +65,7 @@ async function start() {
       form.refuse((answer?.problems ?? [{ what: String(problem) }]).map(problemText).join("; "));
     }
   });
-  element("fields").addEventListener("input", () => result.name && go("bend"));
+  element("fields").addEventListener("input", () => result.name && go(viewOf(form.values.work)));
   element("table").addEventListener("click", () => askTable(form, library, () => jobs.refresh()));
   element("tour").addEventListener("click", () => {
     go("bend");
@@ -80,11 +92,15 @@ async function start() {
     const [wanted, rest = ""] = location.hash.slice(1).split("/");
     const view = VIEWS.includes(wanted) ? wanted : "bend";
     for (const one of VIEWS) element(`view-${one}`).hidden = one !== view;
+    if (view === "bend" && !rest && viewOf(form.values.work) !== (wanted || "bend")) {
+      if (wanted) form.setWork(VIEWS_OF_WORK.includes(wanted) ? wanted : "bend");
+    }
+    const current = view === "bend" ? viewOf(form.values.work) : view;
     for (const link of document.querySelectorAll("nav [data-view]")) {
-      if (/** @type {any} */ (link).dataset.view === view) link.setAttribute("aria-current", "page");
+      if (/** @type {any} */ (link).dataset.view === current) link.setAttribute("aria-current", "page");
       else link.removeAttribute("aria-current");
     }
-    if (view === "bend" && rest !== result.name) {
+    if (view === "bend" && rest !== result.name) { // `rest`: a job
       jobs.mark(rest);
       await result.open(rest);
       if (!rest) form.look();
@@ -101,6 +117,24 @@ async function start() {
   await show();
   document.documentElement.dataset.ready = "yes";
   tour(false);
+}
+
+/**
+ * The card above the results: tools and sheet, or the part that is to be unfolded; nothing above an unfolded one.
+ * @param {any} found @param {string} work
+ */
+function sketch(found, work) {
+  const flat = viewOf(work) === "flat";
+  const [card, place] = [element("sketch"), element("part-view")];
+  card.hidden = flat && !found.part;
+  place.hidden = !flat;
+  element("drawing").style.display = flat ? "none" : "";
+  element("drawing-text").hidden = flat;
+  if (!found.drawing) element("expected").replaceChildren();
+  const seen = flat && found.part ? JSON.stringify(found.part) : "";
+  if (seen === place.dataset.seen) return;
+  place.dataset.seen = seen;
+  place.replaceChildren(...(seen ? [make("iframe", { class: "alone", title: t("shape.title"), sandbox: "allow-scripts", src: `/files/parts/${encodeURIComponent(found.part.name)}` })] : []));
 }
 
 /** Tables by angle and opening below the jobs that are compared. @param {any[]} rows */
@@ -120,7 +154,7 @@ function series(rows) {
  */
 function expected(found, values, needed) {
   const facts = found.expected;
-  element("drawing-text").textContent = facts ? t("drawing.text", { angle: values.angle ?? "?", opening: values.opening, thickness: values.thickness }) : t("drawing.old");
+  element("drawing-text").textContent = found.drawing ? t("drawing.text", { opening: values.opening, thickness: values.thickness, ...found.shown }) : t("drawing.old");
   const press = needed ?? facts?.press;
   const range = (/** @type {any} */ { force: [low, high], beyond }) =>
     `${low === high ? number(low, 0) : `${number(low, 0)}–${number(high, 0)}`}${beyond ? ` ${t("rule.beyond")}` : ""} kN/m`;

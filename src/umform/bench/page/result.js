@@ -8,7 +8,10 @@ import { message } from "./messages.js";
 import { howRead, numberField, taking, unclear } from "./number_field.js";
 import { plot } from "./plot.js";
 import { forShop, table, tile } from "./quantities.js";
+import { corrected, measuredForm } from "./correct.js";
+import { flatNumbers } from "./flat.js";
 import { stripNumbers } from "./strips.js";
+import { tableNumbers, tableRows } from "./bend_table.js";
 import { language, number, problemText, t } from "./texts.js";
 
 const OFTEN = 200;
@@ -26,6 +29,8 @@ export class Result {
     /** @type {any} */
     this.job = null;
     this.shapeOf = "";
+    /** The fields of a measured bend: they stay while numbers change. @type {any} */
+    this.measured = null;
     /** Findings of the server for the form of the job. @type {any} */
     this.looked = {};
     // Buttons and the frame of the 3D view are kept while numbers change: no click is lost, nothing is loaded again.
@@ -42,6 +47,7 @@ export class Result {
     this.name = name;
     this.job = null;
     this.shapeOf = "";
+    this.measured = null;
     this.space.replaceChildren();
     element("result").hidden = !name;
     this.drawing.setComputed(null);
@@ -78,6 +84,7 @@ export class Result {
     if (!this.job) {
       this.looked = job.kind === "bend" ? await post("/api/look", known(job.parameters)) : {};
       if (job.id !== this.name) return; // another job was opened meanwhile
+      if (job.kind === "bend") this.actions.sketch({ drawing: this.looked.drawing }, job.parameters.work);
       if (this.looked.drawing) this.drawing.set(this.looked.drawing, { ...job.parameters, ...this.looked.shown });
     }
     if (this.looked.drawing) this.actions.expected(this.looked, job.parameters, job.summary.press);
@@ -87,6 +94,9 @@ export class Result {
     if (job.state === "failed" || job.reason) parts.push(this.failure(job));
     if (job.state === "stopped") parts.push(make("p", { class: "soft" }, t(`stopped.${job.kind}`)));
     if (job.state === "done" && job.summary.measures) parts.push(...this.numbers(job));
+    if (job.state === "running" && job.live.table?.length) parts.push(tableRows(job.live.table));
+    const results = { flat: flatNumbers, table: tableNumbers, correct: corrected }[/** @type {string} */ (job.parameters.work)];
+    if (job.state === "done" && results) parts.push(...results(job));
     if (job.state === "done" && job.summary.profile) parts.push(...stripNumbers(job));
     if (job.state === "done" && job.summary.last) parts.push(this.last(job));
     const curve = this.curve(job);
@@ -128,7 +138,7 @@ export class Result {
     const { live } = job;
     const percent = Math.round(100 * (live.fraction ?? 0));
     const text = job.state === "waiting" ? t("state.waiting") : [live.operations > 1 ? t("operation", live) : "", t(`phase.${live.phase}`, live),
-      live.increments ? t("increments", live) : "", live.stroke === undefined ? "" : `${number(live.stroke, 2)} mm`,
+      live.increments ? t("increments", live) : "", live.count ? t("bends.done", live) : "", live.stroke === undefined ? "" : `${number(live.stroke, 2)} mm`,
       live.angle === undefined ? "" : `${number(live.angle, 1)}°`, live.seconds ? `${number(live.seconds, 0)} s` : ""].filter(Boolean).join(" · ");
     return make("div", { class: "progress" }, make("progress", { max: 100, value: percent, "aria-label": t("progress") }), make("p", { role: "status" }, text));
   }
@@ -151,6 +161,7 @@ export class Result {
       make("dl", { class: "heroes" }, ...heroes),
       ...notes.map((text) => make("p", { class: "note" }, text)),
       this.flat(measures),
+      ...(job.parameters.work === "bend" ? [this.measured ??= measuredForm(job, this.actions)] : []),
       make("details", {}, make("summary", {}, t("all")), table([...quantities, ...checks])),
     ];
   }
@@ -184,7 +195,7 @@ export class Result {
   /** @param {any} job */
   curve(job) {
     const { curve } = job.live;
-    if (!curve?.x.length) return null;
+    if (job.parameters.work === "correct" || !curve?.x.length) return null;
     const bend = job.kind === "bend";
     const words = { x: bend ? t("axis.stroke") : curve.names[0], y: bend ? t("axis.force") : curve.names[1], label: t("curve.label"), band: bend ? job.summary.shop_forces : undefined };
     const caption = make("figcaption", {}, bend && words.band ? t("curve.band") : t("curve.live"));
@@ -198,12 +209,15 @@ export class Result {
     if (version === this.shapeOf) return;
     const before = this.shapeOf;
     this.shapeOf = version;
+    if (before && job.parameters.work === "flat") return;
     if (before) {
       this.renew(job.id);
       return;
     }
     const frame = make("iframe", { title: t("shape.title"), sandbox: "allow-scripts allow-downloads", src: `/files/${job.id}/shape.html` });
-    frame.addEventListener("load", () => this.renew(job.id)); // the page of the shape is as old as the first state
+    const alone = job.parameters.work === "flat"; // a solid has no later state
+    frame.classList.toggle("alone", alone);
+    if (!alone) frame.addEventListener("load", () => this.renew(job.id)); // the page of the shape is as old as the first state
     this.space.replaceChildren(frame);
   }
 
@@ -218,10 +232,16 @@ export class Result {
 
   /** @param {any} job */
   files(job) {
-    const named = { "report.html": "file.report", "curve.csv": "file.csv", "history.csv": "file.history", "bend.toml": "file.deck", "as-run.toml": "file.deck", "bend.json": "file.json", "sequence.json": "file.json", "hem.json": "file.json", "curves.csv": "file.csv", "profile.csv": "file.profile" };
+    const named = { "report.html": "file.report", "curve.csv": "file.csv", "history.csv": "file.history", "bend.toml": "file.deck", "as-run.toml": "file.deck", "bend.json": "file.json", "sequence.json": "file.json", "hem.json": "file.json", "curves.csv": "file.csv", "profile.csv": "file.profile",
+      "flat.dxf": "file.dxf", "flat.svg": "file.svg", "flat.json": "file.json", "sheet.html": "file.sheet", "bends.csv": "file.table", "bends.json": "file.json", "metal.toml": "file.metal" };
     const link = (/** @type {string} */ file, /** @type {string} */ text) => make("a", { class: "button", href: `/files/${job.id}/${file}`, target: file.endsWith(".html") ? "_blank" : null, rel: "noopener" }, text);
     const first = Object.entries(named).filter(([file]) => job.files.includes(file)).map(([file, key]) => link(file, t(key)));
-    const others = job.files.filter((/** @type {string} */ file) => !(file in named)).map((/** @type {string} */ file) => make("li", {}, link(file, file)));
+    const formats = Object.entries({ ".FCStd": "FreeCAD", ".inventor.txt": "Inventor", ".bnd": "Creo", ".solidworks.txt": "SolidWorks" });
+    for (const [ending, name] of formats) {
+      const of = job.files.filter((/** @type {string} */ file) => file.endsWith(ending));
+      first.push(...of.map((/** @type {string} */ file) => link(file, of.length > 1 ? `${name}: ${file.slice(0, -ending.length)}` : name)));
+    }
+    const others = job.files.filter((/** @type {string} */ file) => !(file in named) && !formats.some(([ending]) => file.endsWith(ending))).map((/** @type {string} */ file) => make("li", {}, link(file, file)));
     return make("footer", {}, make("div", { class: "bar" }, ...first, make("button", { type: "button", id: "do-print", onclick: () => window.print() }, t("print"))),
       make("details", {}, make("summary", {}, t("files.more")), make("ul", { class: "bar" }, ...others), make("p", { class: "soft" }, t("files.where", { folder: job.folder }))));
   }

@@ -4,15 +4,14 @@
 import { post } from "./api.js";
 import { element, make } from "./dom.js";
 import { label } from "./fields.js";
-import { taking, unclear } from "./number_field.js";
+import { takingList, unclearList } from "./lists.js";
 import { number, problemText, t } from "./texts.js";
 
-/** Numbers of a list; an unclear number is an error. @param {string} text @returns {number[]} */
+/** Numbers of a list; an unclear one is an error. @param {string} text @returns {number[]} */
 function listed(text) {
-  const numbers = text.split(/[;\s]+|,\s+/).filter(Boolean).slice(0, 12).map(taking);
-  const wrong = numbers.find((value) => typeof value === "string");
-  if (wrong !== undefined) throw new Error(unclear(String(wrong)));
-  return numbers.map(Number).filter((value) => value > 0);
+  const numbers = takingList(text);
+  if (typeof numbers === "string") throw new Error(unclearList(numbers));
+  return numbers.slice(0, 12).filter((value) => value > 0);
 }
 
 /** @param {any} form @param {any} library @param {(names: string[]) => void} ordered */

@@ -4,6 +4,7 @@
 import { get, post } from "./api.js";
 import { element, make } from "./dom.js";
 import { label } from "./fields.js";
+import { coded } from "./files.js";
 import { number, problemText, t } from "./texts.js";
 
 /** @typedef {{kind: "punch" | "die", name: string, angle?: number, radius?: number, opening?: number, layer?: string, unit?: string, layers?: string[]}} Tool */
@@ -103,14 +104,4 @@ export class Tools {
 /** Sizes of a tool in short. @param {{opening?: number, angle?: number, radius?: number}} one */
 export function sizesText({ opening, angle, radius }) {
   return [opening === undefined ? "" : `V ${number(opening, 1)}`, angle === undefined ? "?" : `${number(angle, 1)}°`, radius === undefined ? "" : `R ${number(radius, 2)}`].filter(Boolean).join(" ");
-}
-
-/** A file as base64. @param {File} file @returns {Promise<string>} */
-function coded(file) {
-  return new Promise((resolve, reject) => {
-    const reader = new FileReader();
-    reader.onload = () => resolve(String(reader.result).split(",")[1] ?? "");
-    reader.onerror = () => reject(reader.error);
-    reader.readAsDataURL(file);
-  });
 }

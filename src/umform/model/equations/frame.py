@@ -21,3 +21,8 @@ class Frame:
     points: dict[str, Floats]
     cells: dict[str, Floats]
     contacts: dict[str, ContactPoints]
+
+    def __repr__(self) -> str:
+        found = {"points": list(self.points), "cells": list(self.cells), "contacts": list(self.contacts)}
+        names = "; ".join(f"{kind} {', '.join(fields)}" for kind, fields in found.items() if fields)
+        return f"Frame({self.number}, time {self.time:.6g}: {names})"

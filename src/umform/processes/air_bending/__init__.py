@@ -1,7 +1,7 @@
 """Air bending: a sheet in a V-die, bent by a punch and unloaded.
 
 `air_bending` runs one bend with a given stroke, `find_stroke` finds the stroke for an angle, `bending_table` gives the
-angles for several strokes; `AirBending` holds the parameters.
+angles for several strokes, `angle_table` the strokes for several angles; `AirBending` holds the parameters.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     from umform.processes.air_bending.bend import AirBend
     from umform.processes.air_bending.case import air_bending
     from umform.processes.air_bending.measures import Measures
-    from umform.processes.air_bending.search import Found, bending_table, find_stroke
+    from umform.processes.air_bending.search import Found, angle_table, bending_table, find_stroke
     from umform.processes.air_bending.spec import AirBending
 
-__all__ = ["AirBend", "AirBending", "Found", "Measures", "air_bending", "bending_table", "find_stroke"]
+__all__ = ["AirBend", "AirBending", "Found", "Measures", "air_bending", "angle_table", "bending_table", "find_stroke"]
 
 _HOME = {
     "AirBend": "bend",
@@ -25,6 +25,7 @@ _HOME = {
     "Found": "search",
     "Measures": "measures",
     "air_bending": "case",
+    "angle_table": "search",
     "bending_table": "search",
     "find_stroke": "search",
 }

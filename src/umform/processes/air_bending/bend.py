@@ -58,7 +58,7 @@ class Loaded:
         return measure(self.stroke, self.force, self.largest_force, self.section, released)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class AirBend(Outcome):
     """A bend.
 

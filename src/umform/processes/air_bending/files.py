@@ -12,6 +12,7 @@ from umform.elements import element
 from umform.errors import InvalidValue
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
+from umform.materials.laws import full_text
 from umform.processes.air_bending.bend import AirBend
 from umform.processes.air_bending.formulas import shop_forces, strength
 from umform.processes.air_bending.measures import Measures
@@ -57,7 +58,7 @@ def write_files(out: str | Path, bend: AirBend, note: str = "") -> list[Path]:
 
     with staging(out, FILES) as stage:
         here = stage.waiting
-        write_csv(here / "curve.csv", {"step": bend.step, "stroke": bend.stroke, "force": bend.force})
+        write_csv(here / "curve.csv", {"step": bend.step, "stroke mm": bend.stroke, "force N/mm": bend.force})
         if bend.table:
             write_table(here / "table.csv", bend.table)
         bend.write(here)
@@ -77,8 +78,8 @@ def write_files(out: str | Path, bend: AirBend, note: str = "") -> list[Path]:
 
 
 def write_table(path: Path, table: Sequence[Measures]) -> None:
-    """Write all measures of a bending table; NaN for unknown ones."""
-    found = columns([quantities_of(row) for row in table])
+    """Write all measures of a bending table, with units in the header; NaN for unknown ones."""
+    found = columns([quantities_of(row) for row in table], units=True)
     write_csv(path, {name: [math.nan if one is None else one for one in column] for name, column in found.items()})
 
 
@@ -111,6 +112,6 @@ def _told(numbers: Mapping[str, float]) -> dict[str, float | None]:
 
 def parameters(case: AirBending) -> dict[str, Any]:
     """Parameters as JSON data; the material as text."""
-    words = {"element": element(case.element).name, "material": repr(case.material)}
+    words = {"element": element(case.element).name, "material": full_text(case.material)}
     drawn = {"punch_section": case.punch_section, "die_section": case.die_section}
     return case.record() | words | {name: None if tool is None else tool.words for name, tool in drawn.items()}

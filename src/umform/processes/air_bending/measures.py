@@ -21,6 +21,8 @@ class Measures:
 
     stroke: Annotated[float, Quantity("stroke", "mm", 3, leading=True)]
     """Travel of the punch from first contact with the sheet."""
+    below_die: Annotated[float, Quantity("punch below the top of the die", "mm", 3, hint="for the machine")]
+    """Depth of the tip of the punch below the top of the die at the stroke: the stroke less the thickness."""
     force: Annotated[float, Quantity("force at the stroke", "N/mm", 1)]
     """Force of the punch per length of bend at the stroke."""
     largest_force: Annotated[float, Quantity("largest force", "N/mm", 1, hint="choose the press by it", leading=True)]
@@ -85,6 +87,7 @@ def measure(stroke: float, force: float, largest_force: float, loaded: Section, 
     """
     return Measures(
         stroke=stroke,
+        below_die=stroke - loaded.thickness,
         force=force,
         largest_force=largest_force,
         loaded_angle=loaded.angle,

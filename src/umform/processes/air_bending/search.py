@@ -157,17 +157,72 @@ def bending_table(
     -----
     An exception that ends it early has the rows before as its attribute ``rows``.
     """
-    rows: list[Measures] = []
     ordered = sorted(strokes)
     for stroke in ordered:
         replace(case, stroke=stroke)  # refuses a stroke beyond air bending
+
+    def row(brake: Brake, stroke: float) -> Measures:
+        brake.load(stroke)
+        return brake.unload()
+
+    return _rows(brake or Brake(case, solver), ordered, row, progress)
+
+
+def angle_table(
+    case: AirBending,
+    angles: Sequence[float],
+    *,
+    tolerance: float = Goal.tolerance,
+    solver: str = "auto",
+    progress: bool | None = None,
+    brake: Brake | None = None,
+) -> list[Measures]:
+    """Measures at several angles after unloading, from one loading; `find_stroke` looks for each from there.
+
+    Parameters
+    ----------
+    case, solver, progress, brake
+        As of `bending_table`.
+    angles : sequence of float
+        Angles between the legs in degrees, in any order.
+    tolerance : float
+        Largest deviation of each angle in degrees, 0.001 to 10.
+
+    Returns
+    -------
+    list of Measures
+        In the order of growing strokes; each as `find_stroke` gives it for the angle.
+
+    Raises
+    ------
+    InvalidValue
+        If the sheet lies against a flank before it has an angle, or angles or tolerance are none of a bend.
+
+    Notes
+    -----
+    An exception that ends it early has the rows before as its attribute ``rows``.
+    """
+    ordered = sorted(angles, reverse=True)
+    for angle in ordered:
+        check_angle(case, angle)
+    check_value(Goal, "tolerance", tolerance)
+
+    def row(brake: Brake, angle: float) -> Measures:
+        return bent_to_angle(brake, angle, tolerance)[1]
+
+    return _rows(brake or Brake(case, solver), ordered, row, progress)
+
+
+def _rows(
+    brake: Brake, goals: Sequence[float], row: Callable[[Brake, float], Measures], progress: bool | None
+) -> list[Measures]:
+    """Rows of a table; an exception has those before as its attribute ``rows``."""
+    rows: list[Measures] = []
     with progress_bar(progress) as tick:
-        brake = brake or Brake(case, solver)
         try:
-            for number, stroke in enumerate(ordered, start=1):
-                brake.load(stroke)
-                rows.append(brake.unload())
-                tick("table", number / len(ordered))
+            for number, goal in enumerate(goals, start=1):
+                rows.append(row(brake, goal))
+                tick("table", number / len(goals))
         except BaseException as error:
             error.rows = rows  # type: ignore[attr-defined]
             raise

@@ -76,7 +76,7 @@ class BendDone:
     problem: Problem
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Part(Outcome):
     """A part after all of its bends.
 

@@ -51,7 +51,7 @@ _RIPPLE = "half of the ripple of the force as elements pass the edge of the die"
 _HELD = 0.05
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Drawn(Outcome):
     """A drawn part.
 

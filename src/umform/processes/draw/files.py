@@ -90,9 +90,11 @@ def draw_blank(out: str | Path, case: Cup | UBend) -> tuple[Path, Figure]:
 
 def _write_tables(here: Path, drawn: Drawn) -> None:
     result = drawn.result
-    forces = {f"{name}_force": values for name, values in drawn.forces.items()}
-    work = {name: drawn.case.parts * result[name] for name in ("external_work", "plastic_work", "friction_work")}
-    write_csv(here / "curve.csv", {"stroke": drawn.stroke, **forces, **work})
+    forces = {f"{name}_force N": values for name, values in drawn.forces.items()}
+    work = {
+        f"{name} N mm": drawn.case.parts * result[name] for name in ("external_work", "plastic_work", "friction_work")
+    }
+    write_csv(here / "curve.csv", {"stroke mm": drawn.stroke, **forces, **work})
     mesh = result.model.mesh
     middle = mesh.points[mesh.connectivity].mean(axis=1)
     distance = drawn.punch_distance[mesh.connectivity].mean(axis=1)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from umform.elements import element
+from umform.materials.laws import full_text
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.u_bend import UBend
@@ -17,7 +18,7 @@ def parameters(case: Cup | UBend) -> dict[str, Any]:
         found |= {"holder_gap": case.gap, "die_radius": case.throat}
     else:
         found["opening"] = case.throat
-    found |= {"element": element(case.element).name, "material": repr(case.material)}
+    found |= {"element": element(case.element).name, "material": full_text(case.material)}
     return case.record() | found | {"newton": vars(case.newton), "pace": vars(case.pace)}
 
 

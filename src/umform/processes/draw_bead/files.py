@@ -45,7 +45,11 @@ def write_files(out: str | Path, drawn: Drawn, note: str = "") -> list[Path]:
 
     with staging(out, FILES) as stage:
         here = stage.waiting
-        columns = {"way": drawn.way, "restraint": drawn.restraint_curve, "uplift": drawn.uplift_curve}
+        columns = {
+            "way mm": drawn.way,
+            "restraint N/mm": drawn.restraint_curve,
+            "uplift N/mm": drawn.uplift_curve,
+        }
         write_csv(here / "curve.csv", columns)
         drawn.write(here)
         write_json(here / "bead.json", record(drawn))

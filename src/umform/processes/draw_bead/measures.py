@@ -22,7 +22,7 @@ Floats = NDArray[np.float64]
 _ENERGIES = ("elastic_energy", "plastic_work", "contact_energy", "friction_work")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Drawn(Outcome):
     """A strip that was drawn through a bead; forces are per length of bead in N/mm.
 

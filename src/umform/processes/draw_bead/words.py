@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from umform.elements import element
+from umform.materials.laws import full_text
 from umform.processes.draw_bead.measures import Drawn
 
 
@@ -12,4 +13,4 @@ def parameters(drawn: Drawn) -> dict[str, Any]:
     """Parameters with their defaults; the material as text."""
     case = drawn.case
     found = {"groove": case.width, "gap": case.air, "draw": case.way}
-    return case.record() | found | {"element": element(case.element).name, "material": repr(case.material)}
+    return case.record() | found | {"element": element(case.element).name, "material": full_text(case.material)}

@@ -47,7 +47,7 @@ def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:
     with staging(out, FILES) as stage:
         here = stage.waiting
         write_json(here / "hem.json", record(hem) | {"note": note})
-        write_csv(here / "curve.csv", {"stroke": hem.stroke, "force": hem.force})
+        write_csv(here / "curve.csv", {"stroke mm": hem.stroke, "force N/mm": hem.force})
         hem.write(here)
         write_csv(here / "profile.csv", {"x": hem.profile[:, 0], "z": hem.profile[:, 1]})
         hem.result.write(here / "hem.vtkhdf")

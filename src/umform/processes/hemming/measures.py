@@ -49,7 +49,7 @@ class HemMeasures:
     """Smallest thickness relative to that of the flat sheet."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Hem(Outcome):
     """A hem.
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Annotated, Any, ClassVar
 
-from annotated_types import Ge, Le
+from annotated_types import Ge, Gt, Le
 
 from umform.errors import InvalidValue
 from umform.processes.air_bending.spec import AirBending
@@ -60,7 +60,15 @@ class Hemming:
     proportions: ClassVar = {"gap": 1.0, "flange": 12.0, "base": 30.0}
     """Lengths over the thickness where none is given."""
 
-    gap: Length = FOLLOWS
+    gap: Annotated[
+        float,
+        Gt(0.0),
+        About(
+            "mm",
+            cause="a closed hem, but the sheet has no contact with itself; or a sign",
+            remedy="a gap over an insert, such as half a thickness, in mm",
+        ),
+    ] = FOLLOWS
     """Final distance of flange and base; the plate stops at two thicknesses and the gap above the table."""
     flange: Length = FOLLOWS
     """Length of the flange, flat, from the bend line to its end."""

@@ -2,7 +2,7 @@
 
 from umform.studies.bend_table.correct import Corrected, correct
 from umform.studies.bend_table.formats import FORMATS, write_table
-from umform.studies.bend_table.stored import StoredBend, bend, bend_key, bends
+from umform.studies.bend_table.stored import StoredBend, bend, bend_key, bends, stored_bends
 from umform.studies.bend_table.table import BendTable, Between, Setup, Tabled, bend_table, setups
 
 __all__ = [
@@ -19,5 +19,6 @@ __all__ = [
     "bends",
     "correct",
     "setups",
+    "stored_bends",
     "write_table",
 ]

@@ -187,6 +187,31 @@ def bends(
     return [found[angle] for angle in angles if angle in found]
 
 
+def stored_bends(
+    case: AirBending,
+    angles: Sequence[float],
+    *,
+    tolerance: float = TOLERANCE,
+    store: Store | None = None,
+    solver: str = "auto",
+) -> list[StoredBend]:
+    """Those bends that are in the store; no bend is run.
+
+    Parameters
+    ----------
+    case, angles, tolerance, store, solver
+        As of :func:`bends`.
+
+    Returns
+    -------
+    list of StoredBend
+        In the order of the angles.
+    """
+    store = Store() if store is None else store
+    entries = [(angle, store.get(bend_key(case, angle, tolerance, solver))) for angle in angles]
+    return [_of(case, angle, entry) for angle, entry in entries if entry is not None]
+
+
 def check_bend(case: AirBending, angle: float, tolerance: float = TOLERANCE) -> None:
     """Refuse what air bending with these tools cannot reach.
 
@@ -247,7 +272,7 @@ def _run(
 
 
 def _of(case: AirBending, angle: float, entry: Entry) -> StoredBend:
-    numbers = dict(entry.value)
+    numbers = {"below_die": entry.value["stroke"] - case.thickness} | dict(entry.value)  # entries of before lack it
     notes = tuple(numbers.pop("notes"))
     return StoredBend(replace(case, stroke=numbers["stroke"]), angle, Measures(**numbers), notes, entry.key)
 

@@ -173,6 +173,8 @@ def sweep(
     folder = Path(out) if out is not None else Path("results") / f"{Path(base.source.name).stem}-sweep"
     options = {"files": files, "functions": functions, "force": force}
     plan = make_plan(base, vary or {}, jobs, changes or {}, folder.resolve() / JOBS, **options)
+    if staying := _tools_stay(plan):
+        log.warning(staying)
     with staging(folder if out is None else out, FILES) as stage:
         records = plan.known(retry=retry, force=force)
         try:
@@ -187,6 +189,19 @@ def sweep(
             raise
         rows, names = plan.table(records, wanted)
         return Sweep(plan.varied, names, rows, write(stage, rows, plan.varied, names))
+
+
+def _tools_stay(plan: Plan) -> str:
+    """A warning if tools do not follow the thickness that is varied; or nothing."""
+    from umform.problem.floating import tools_stay
+
+    name = next((name for name in plan.varied if name.split(".")[-1] == "thickness"), "")
+    decks = {plan.values[number].get(name): job.deck for number, job in plan.jobs.items()}
+    ordered = sorted(value for value in decks if isinstance(value, int | float))
+    if not name or not ordered:
+        return ""
+    text = tools_stay(decks[ordered[0]], decks[ordered[-1]])
+    return text and f"{text}: vary the places too, as columns of --jobs"
 
 
 def _run(

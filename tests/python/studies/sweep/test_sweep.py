@@ -261,3 +261,18 @@ def test_the_table_as_parquet(deck):
     assert kept["cells"] == ["[4, 1]", None]
     assert kept["outcome"] == ["done", "refused"]
     assert kept["pull_force:peak"] == found["pull_force:peak"]
+
+
+def test_tools_that_do_not_follow_the_thickness_are_told_once(tmp_path, monkeypatch, caplog):
+    monkeypatch.chdir(tmp_path)
+    write_template("air-bending", tmp_path / "deck.toml")
+    changes = {"mesh.cells": [14, 1], "steps.0.to.stroke": 0.3, "steps.0.increments": 3}
+    sweep("deck.toml", {"thickness": [1.8, 2.0]}, changes=changes)
+    (said,) = [text for text in caplog.messages if "do not follow the thickness" in text]
+    assert "at 1.8 and 2 the gap" in said and "that of die is 0.1 and " in said and "that of punch is 0.1" in said
+    caplog.clear()
+    follow = [
+        {"thickness": t, "die.origin": [0, 0, -0.5 * t], "punch.origin": [0, 0, 0.5 * t], **changes} for t in (1.8, 2.0)
+    ]
+    sweep("deck.toml", jobs=follow)
+    assert not [text for text in caplog.messages if "follow the thickness" in text]
