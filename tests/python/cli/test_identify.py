@@ -73,6 +73,7 @@ CURVE = ("--curve", "stroke,stroke_force=FILE")
         (["--find", "strength"], ["nothing was measured"]),
         (["--find", "strength", "--quantity", "stroke_force:peak=90@strength=5"], ["looked for, and given with"]),
         (["--find", "strength", "--quantity", "stroke_force:peak=90@nowhere=5"], ["nowhere"]),
+        (["--find", "strength", "--quantity", "stroke_force:peak=90@width=5"], ["a path is ambiguous"]),
         (["--find", "strength", "--quantity", "stroke_force:peak=90@stroke"], ["this option cannot be read"]),
         (["--curve", "stroke,stroke_force=FILE"], ["missing option '--find'"]),
         (["--find", "thickness", "--find", "material.nu=.2:.4", *CURVE, "--quantity", "stroke=1+-.1"], ["deviation"]),

@@ -115,7 +115,7 @@ class Runs:
 
     def _setting(self, at: Mapping[str, Any]) -> dict[str, Any]:
         """Values with which something was measured, by their full paths."""
-        setting = {(paths_of(name, self.known) or [name])[0]: value for name, value in at.items()}
+        setting = {self._path(name): value for name, value in at.items()}
         both = [path for path in self.paths if path in setting]
         if both:
             raise InvalidValue(
@@ -125,6 +125,18 @@ class Runs:
                 remedy="look for others",
             )
         return setting
+
+    def _path(self, name: str) -> str:
+        found = paths_of(name, self.known) or [name]
+        if len(found) > 1:
+            raise InvalidValue(
+                "a path is ambiguous",
+                where="at",
+                value=name,
+                cause=", ".join(found),
+                remedy=f"write more of it, as {found[0]}",
+            )
+        return found[0]
 
     def _derivatives(self, values: Mapping[str, Any], of: list[Any]) -> Derivatives:
         self.count += 1
