@@ -29,6 +29,10 @@ if TYPE_CHECKING:
 _MOST_BENDS, _MOST_LISTED, _MOST_OF_TABLE = 20, 40, 1000
 
 
+#: Most letters of the title of a bend table.
+_LONGEST_TITLE = 120
+
+
 class Mistakes(InvalidValue):
     """A form with invalid fields.
 
@@ -261,7 +265,7 @@ class Wanted:
             return f"{values['part']}, {self.choices.material}"
         if work == "table":
             sheets = f"{', '.join(values['metals'])}, {_listed(values['thicknesses'])} mm"
-            return f"{sheets}, V{_listed(values['openings'])}, {_listed(values['angles'])}°"
+            return f"{sheets}, V{_listed(values['openings'])}, {_listed(values['angles'])}°"[:_LONGEST_TITLE]
         sheet = f"{self.choices.material} {values['thickness']:g} mm"
         if work == "sequence":
             angles = [f"{row['angle']:g}°" for row in values["bends"] if "angle" in row]

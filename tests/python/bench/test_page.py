@@ -357,8 +357,9 @@ def test_kinds_of_work_have_their_own_fields(visit):
     page.fill("#f-strip_length", "110")
     page.wait_for_selector("#run:enabled")
     page.wait_for_function("() => document.querySelectorAll('#drawing .mark').length === 3")
-    page.fill("#b-1-angle", "5")
-    page.locator("#n-bends", has_text="Bend 2").wait_for()
+    page.fill("#b-1-angle", "-5")
+    page.locator("#n-bends", has_text="(-5)").wait_for()
+    assert "Bend 2" in page.inner_text("#n-bends")
     assert page.locator("#run").is_disabled()
     page.click("#b-1-remove")
     page.wait_for_selector("#run:enabled")
@@ -388,7 +389,8 @@ def coarse(page):
 def test_part_is_dropped_seen_and_unfolded(visit, step):
     page = visit.page
     page.click("nav [data-view=flat]")
-    assert page.inner_text("#form-title") == "Unfold a part" and page.locator("#f-work").count() == 0
+    page.locator("#form-title", has_text="Unfold a part").wait_for()
+    assert page.locator("#f-work").count() == 0
     page.wait_for_selector("#run:disabled")
     page.set_input_files("#part-file", step("tube"))
     page.wait_for_selector("#part-said.bad")
@@ -415,12 +417,13 @@ def test_part_is_dropped_seen_and_unfolded(visit, step):
     assert page.locator("nav [aria-current]").inner_text() == "Zuschnitt"
     page.click("nav [data-view=bend]")
     page.wait_for_selector("#f-angle")
-    assert page.locator("#drawing").is_visible()
+    page.wait_for_selector("#drawing")
 
 
 def test_bend_table_is_computed_and_corrected_by_a_measured_bend(visit):
     page = visit.page
     page.click("nav [data-view=table]")
+    page.wait_for_selector("#f-angles")
     coarse(page)
     page.fill("#f-thicknesses", "1")
     page.fill("#f-openings", "8")

@@ -20,6 +20,12 @@ const LISTS = ["punch", "die", "part", "issue_again"];
 /** Milliseconds after which a request without an answer is repeated. */
 const AGAIN = 2000;
 
+/** The refused number, which may be one of several in the field. @param {any} row @param {boolean} many */
+function valueOf({ value = "" }, many) {
+  const plain = value !== "" && Number.isFinite(Number(value));
+  return plain ? ` (${number(Number(value))})` : many && value ? ` (${value})` : "";
+}
+
 export class Form {
   /** @param {any} library @param {(found: any, values: any) => void} looked */
   constructor(library, looked) {
@@ -289,7 +295,7 @@ export class Form {
         const typed = bend ? this.values.bends[Number(bend) - 1]?.[part] : this.values[row.where];
         const asked = bend ? part : fields.find((one) => one.name === row.where)?.kind === "number";
         const many = fields.find((one) => one.name === row.where)?.kind === "numbers";
-        const text = many && typeof typed === "string" && typed.trim() ? unclearList(typed) : asked && typeof typed === "string" ? unclear(typed) : problemText(row);
+        const text = many && typeof typed === "string" && typed.trim() ? unclearList(typed) : asked && typeof typed === "string" ? unclear(typed) : problemText(row) + valueOf(row, many);
         add(bend ? "bends" : row.where, row.level ?? kind, bend ? `${t("bend.number", { number: Number(bend) })}: ${text}` : text);
       }
     }

@@ -21,6 +21,7 @@ function fillTable(table) {
 
 // A later state of the same run, in place: what was chosen stays.
 async function renew(packed, table) {
+  await begun; // a state that comes while the page begins is not lost
   const { shape, curves } = window.umform;
   const scene = shape && (await unpacked(packed));
   curves.renew(table); // the frames of the scene are rows of it
@@ -47,4 +48,4 @@ async function start() {
   document.documentElement.dataset.ready = "yes";
 }
 
-start();
+const begun = start();

@@ -10,7 +10,7 @@ import pytest
 from umform.errors import InvalidValue
 from umform.materials import Perfect
 from umform.processes.air_bending import find_stroke
-from umform.studies.bend_table import bend, bend_key, bend_table
+from umform.studies.bend_table import bend, bend_key, bend_table, stored_bends
 from umform.studies.bend_table.stored import RESULTS
 
 
@@ -29,6 +29,14 @@ def test_a_bend_is_asked_twice_and_computed_once(table, store, monkeypatch):
     assert table.computed == 6 and again.computed == 0
     for part, other in zip(table.parts, again.parts, strict=True):
         assert [one.measures for one in part.bends] == [one.measures for one in other.bends]
+
+
+def test_stored_bends_are_there_without_a_run(table, store, monkeypatch):
+    monkeypatch.setattr("umform.studies.bend_table.stored.Brake", None)
+    part = table.parts[0]
+    found = stored_bends(part.setup.case, [150.0, 121.5, 120.0], store=store)
+    assert [one.wanted for one in found] == [150.0, 120.0] and not any(one.computed for one in found)
+    assert found[1].measures == part.bends[0].measures
 
 
 def test_numbers_of_the_store_are_those_of_this_version(case, store):
