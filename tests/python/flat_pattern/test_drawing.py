@@ -75,9 +75,10 @@ def test_arcs_are_arcs_in_the_drawing(pattern, dxf):
 def test_the_picture_has_all_bends_and_contours(pattern):
     made = pattern("hole across the bend")
     text = svg(made)
-    assert text.count("<line ") == sum(len(bend.lines) for bend in made.bends)
+    assert text.count("stroke-dasharray") == sum(len(bend.lines) for bend in made.bends)
     assert text.count("M ") == 1 + len(made.holes)
     assert "1: up 90°" in text
+    assert [f">{size:.2f}</text>" in text for size in made.size] == [True, True]
 
 
 @pytest.mark.skipif(shutil.which("freecadcmd") is None, reason="FreeCAD is not installed")
