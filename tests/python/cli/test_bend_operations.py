@@ -103,6 +103,8 @@ def test_derivatives_of_a_part(one_bend):
     [
         (["--scatter", "height=2%"], "there is no number of this path"),
         (["--find", "strength"], "the bends of a file have angles and strokes of their own"),
+        (["--want", "angle=90"], "a wanted result needs a parameter that follows"),
+        (["--angles", "90,120"], "the bends of a file have angles and strokes of their own"),
     ],
 )
 def test_studies_that_a_part_refuses_before_the_run(one_bend, more, said):
