@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import subprocess
+from functools import partial
 
 import meshio
 import numpy as np
@@ -12,9 +13,13 @@ import pytest
 import umform as uf
 from umform import _core
 from umform.errors import FileProblem, InvalidValue
+from umform.processes.draw.u_bend import UBend
 from umform.report.state_files import PROGRAMS, export_state, read_state
 from umform.results.fields import thickness
 from umform.results.formed import formed_shells, shell_rule
+from umform.results.forming import section
+from umform.results.forming.u_bend import u_bend_angles
+from umform.sheet_metals import get
 
 ALL = [(to, mesh) for to, program in PROGRAMS.items() for mesh in program.meshes]
 STEEL = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(160.0, 500.0))
@@ -343,3 +348,51 @@ def test_calculix_finds_the_same_springback(half, tmp_path):
     theirs = angle(mesh, released[number]) - angle(mesh, loaded)
     assert ours < -0.5
     assert theirs == pytest.approx(ours, rel=0.01)
+
+
+def _rows(path):
+    words = [line.split() for line in path.read_text().splitlines()]
+    return np.array([[float(word) for word in row] for row in words if len(row) == 4 and row[0].isdigit()])
+
+
+@pytest.mark.long
+@pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX is not installed")
+def test_calculix_finds_the_springback_of_a_drawn_section(tmp_path):
+    """Its nodal forces hold the part at first, and fall to zero in increments: at once Newton's method diverges."""
+    sizes = {"thickness": 0.78, "punch_edge": 5.0, "die_edge": 5.0, "length": 300.0, "width": 35.0, "punch_width": 50.0}
+    case = UBend(**sizes, holder_force=2450.0, element="BEND8", contact_points=3, turn=10.0, material=get("DC04").law)
+    model, press = case.build()
+    uf.solve(model, press.closing, options=case.newton, progress=False)
+    mesh, loaded = model.mesh, model.u.reshape(-1, 3).copy()
+    state = export_state(model, tmp_path / "part.inp", "calculix")
+    middle = np.flatnonzero(np.abs(state.points[:, 0]) < 1e-9) + 1
+    lowest = middle[state.points[middle - 1, 2] < state.points[middle - 1, 2].min() + 1e-6]
+    head = ["*INCLUDE, INPUT=part.inp", "*MATERIAL, NAME=STEEL", "*ELASTIC", "210000., 0.3"]
+    head += ["*SOLID SECTION, ELSET=PART1, MATERIAL=STEEL", "*BOUNDARY"]
+
+    def run(job, lines):
+        (tmp_path / f"{job}.inp").write_text("\n".join([*head, *lines, "*END STEP"]) + "\n")
+        subprocess.run(["ccx", job], cwd=tmp_path, check=True, capture_output=True, timeout=120)
+        return _rows(tmp_path / f"{job}.dat")[-len(state.points) :]
+
+    step = ["*STEP, NLGEOM, INC=1000", "*STATIC"]
+    forces = run("held", ["SHEET, 1, 3", *step, "1., 1.", "*NODE PRINT, NSET=SHEET", "RF"])
+    lines = ["SHEET, 2, 2", *(f"{node}, 1, 1" for node in middle), *(f"{node}, 3, 3" for node in lowest)]
+    for start, factor in (("1., 1.", 1.0), ("0.05, 1.", 0.0)):
+        lines += ["*END STEP"] * (factor == 0.0) + [*step, start, "*CLOAD"]
+        lines += [f"{row[0]:.0f}, {k}, {factor * row[k]:.12g}" for row in forces for k in (1, 3)]
+    there = run("free", [*lines, "*NODE PRINT, NSET=SHEET, FREQUENCY=1000", "U"])
+    released = state.points.copy()
+    released[there[:, 0].astype(int) - 1] += there[:, 1:]
+    number = [int(np.argmin(np.linalg.norm(state.points - x, axis=1))) for x in mesh.points + loaded]
+    uf.solve(model, press.opening, options=case.newton, progress=False)
+    shapes = loaded, model.u.reshape(-1, 3), released[number] - mesh.points
+    first, ours, theirs = ((one.theta1, one.theta2) for one in map(partial(_angles, mesh), shapes))
+    changes = np.subtract(ours, first)
+    assert changes[0] > 8.0 and changes[1] < -8.0
+    assert np.subtract(theirs, first) == pytest.approx(changes, rel=0.03)
+
+
+def _angles(mesh, u):
+    line = section(mesh, u).middle[:, [0, 2]]
+    return u_bend_angles(line - line[0], flange=max(len(line) // 12, 2))
