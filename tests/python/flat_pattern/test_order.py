@@ -6,7 +6,7 @@ import pytest
 from brackets import BRACKETS, strip, write
 
 from umform.flat_pattern import AllowanceTable, KFactor, Orders, Tooling, flat
-from umform.flat_pattern.operator_sheet import steps_of
+from umform.flat_pattern.operator_sheet import steps_of, write_sheet
 from umform.processes.bend_sequence import Bodies
 from umform.processes.bend_sequence.foreseen import foreseen_collisions
 
@@ -116,3 +116,12 @@ def test_a_table_of_bend_table_gives_deductions(tmp_path, step):
     path.write_text(head + rows + "DC04,2,12,1.5,90,3.7\n")
     with pytest.raises(ValueError, match="2 metals and tools have this thickness"):
         AllowanceTable.read(path)(90.0, 2.0, 2.0)
+
+
+@pytest.mark.parametrize("name", ["l", "z"])
+def test_the_sheet_has_a_column_only_for_what_a_step_has(pattern, tmp_path, name):
+    orders = orders_of(pattern(name))
+    page = write_sheet(tmp_path / "sheet.html", orders).read_text()
+    turned = any(step.turned for step in steps_of(orders))
+    assert turned == (name == "z") == ("<th>turn over</th>" in page)
+    assert "<th>stop, mm</th>" in page and "<th>angle under load</th>" not in page  # of a simulated part

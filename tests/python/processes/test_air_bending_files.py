@@ -131,6 +131,12 @@ def test_tables_have_a_column_for_each_refinement(bend, errors):
     assert float(total[1]) == pytest.approx(bend.measures.largest_force * 0.05, abs=0.006)
 
 
+def test_the_total_force_is_the_largest_one_on_the_length_of_the_bend(bend):
+    long = replace(bend, bend_length=500.0, measures=replace(bend.measures, force=7.0, largest_force=90.0))
+    assert long.total_force == 45e3 and long["total_force"].value == 45.0
+    assert bend.total_force is None  # plane strain
+
+
 def test_all_files_are_written(tmp_path, bend, errors):
     files = write_files(tmp_path / "out", replace(bend, table=(bend.measures,), budget=errors))
     assert sorted(file.name for file in files) == sorted(

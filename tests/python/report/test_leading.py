@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from umform.results.forming.tool_distance import pose_in
 from umform.results.leading import leading_controls
 
 
@@ -37,6 +38,12 @@ def test_a_control_that_was_added_after_the_run_is_none():
     rows = Rows(tool=[0, 1], tool_force=[0, 3])
     rows.model.controls.append(Named("tool_left"))
     assert [control.name for control in leading_controls(rows)] == ["tool"]
+
+
+def test_a_way_that_was_added_after_the_run_is_zero_in_it():
+    down, left = Named("down"), Named("left")
+    tool = SimpleNamespace(ways=[down, left], pose=lambda values, time: (values, time))
+    assert pose_in(tool, {"down": -3.0, "time": 0.5}) == ({down: -3.0, left: 0.0}, 0.5)
 
 
 def test_a_tool_that_moves_without_force_counts():

@@ -4,6 +4,7 @@ import csv
 import io
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
@@ -79,6 +80,14 @@ def test_the_page_shows_it(pulled, tmp_path):
     force = pulled["force"].text
     assert f'<td>largest force</td><td class="bad">{force}</td>' in page
     assert "<td>length</td><td>10.100</td><td>± 0.002</td><td>mm</td>" in page and "it is short" in page
+
+
+@pytest.mark.parametrize("kept", [True, False])
+def test_contacts_are_folded_unless_one_goes_too_deep(pulled, monkeypatch, kept):
+    reached = SimpleNamespace(kept=kept, text="up to 0.1")
+    monkeypatch.setattr("umform.report.page.stage_penetrations", lambda stages: {"run": {"table": reached}})
+    (part,) = (one for one in outcome_parts(pulled, "", (), {}, "") if "<h2>Contacts</h2>" in one)
+    assert part.startswith('<details class="part">' if kept else '<details class="part" open>')
 
 
 def test_json_and_csv_have_it(pulled, tmp_path):
