@@ -74,7 +74,7 @@ def _distance(x: Floats, line: Floats) -> float:
 
 
 def shortest_flange(pattern: FlatPattern, bend: FlatBend) -> float:
-    """Smallest flat length from a bend line to the outer contour or to the next bend, square to the line."""
+    """Shortest flange of a bend: flat length, square to its line, to the contour or to the next bend."""
     return min(length for line in bend.lines for length in _flanges(pattern, bend, line))
 
 

@@ -19,7 +19,7 @@ OPENINGS = (4.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0, 32.0, 40.0, 50.0, 63.0,
 NARROWEST, WIDEST = 8.0, 12.0
 #: Angles of punch and die in degrees for parts that those of the sheet do not bend far enough.
 ACUTE = (60.0, 45.0, 30.0)
-#: Smallest radius of a punch over the thickness that is chosen for a drawing with a smaller one.
+#: Radius of the punch over the thickness, at least, whatever radius is drawn.
 _SHARPEST = 0.5
 #: Degrees below the angle of the part that the tools leave for springback.
 _SPRINGBACK = 3.0

@@ -52,7 +52,7 @@ def changed_thickness(deck: Problem) -> Iterator[Finding]:
 
 
 def _gaps(deck: Problem) -> tuple[float, dict[str, float]]:
-    """Thickness of the sheet, and the smallest gap of each contact at the start; negative: an overlap."""
+    """Thickness of the sheet, and for each contact its smallest gap at the start (negative: overlap)."""
     model = deck.build().model
     gaps = {pair.name: float(pair.locate(model.u, pair.pose).gap.min()) for pair in model.contacts}
     return sheet_thickness(model.mesh), {name: round(gap, 9) + 0.0 for name, gap in gaps.items()}

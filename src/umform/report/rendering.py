@@ -48,7 +48,7 @@ _VISIBLE = 3
 #: Bytes of a file from which on it has 256 colours only.
 _LARGEST = 190_000
 #: Height over width of a picture, at most.
-_TALLEST = 0.8
+_LARGEST_ASPECT = 0.8
 #: Length of a line of rolling over the size of a face, and how flat the direction must lie in it.
 _ROLLING_LENGTH, _LYING = 0.3, 0.9
 #: Scale in a window.
@@ -251,7 +251,7 @@ class Rendering:
         flat = points @ np.stack([self._across, self._up], axis=1)
         low, high = flat.min(axis=0), flat.max(axis=0)
         size = (high - low) * (1.0 + 2.0 * _MARGIN)
-        size[0] = max(size[0], size[1] / _TALLEST)
+        size[0] = max(size[0], size[1] / _LARGEST_ASPECT)
         height = round(width * float(size[1] / size[0]))
         middle, reach = 0.5 * (low + high), float(np.ptp(points, axis=0).max())
         camera = self.plotter.camera

@@ -153,8 +153,8 @@ AA6xxx-T4 of NUMISHEET 2020, 1.5 mm, along the rolling direction: tension to a s
 -0.0044, tension to the largest force. Laws are fitted to all points with equal weights, with Poisson's ratio
 {POISSON:g}, von Mises and E of the first loading between {FIRST[0]:g} and {FIRST[1]:g} MPa: Voce's isotropic hardening,
 Voce with one and with two back stresses of Chaboche, the two surfaces of Yoshida and Uemori, and the last two with a
-modulus that falls to the smallest of the slopes measured between {AFTER[0]:g} and {AFTER[1]:g} MPa behind the turning
-points (MPa, logarithmic strain).
+modulus that falls to the smallest measured slope: those between {AFTER[0]:g} and {AFTER[1]:g} MPa after each reversal
+(MPa, logarithmic strain).
 """,
     reference="""
 Rust, Luecke and Iadicola, data for NUMISHEET 2020, uniaxial tensile and tension/compression tests, NIST Public Data

@@ -131,7 +131,7 @@ class Tabled:
 
     @property
     def by_radius(self) -> tuple[StoredBend, ...]:
-        """Bends in the order of growing radii, as far as a radius belongs to one angle: from the smallest one on."""
+        """Bends from the one with the smallest radius on: beyond it radii grow again, and one radius has two angles."""
         smallest = min(range(len(self.bends)), key=lambda number: self.bends[number].radius)
         return self.bends[smallest:]
 
