@@ -125,7 +125,8 @@ def issue(
     files = write_table(table, place, formats)
     print_table(_rows(table))
     count = sum(len(part.bends) + len(part.checks) for part in table.parts)
-    typer.echo(f"{count} bends, {table.computed} computed now, {count - table.computed} from the store")
+    bends = "1 bend" if count == 1 else f"{count} bends"
+    typer.echo(f"{bends}, {table.computed} computed now, {count - table.computed} from the store")
     for text in dict.fromkeys(remark for part in table.parts for remark in part.remarks):
         say(f"warning: {text}")
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
