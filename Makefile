@@ -32,8 +32,8 @@ export OMP_WAIT_POLICY ?= passive
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
-.PHONY: k-factor help env book dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification mutants lint lint-python lint-once lint-imports lint-types lint-page lint-stubs lint-format lint-cpp stubs \
-        format docs wheel bench dome robust robust-draws balances ubend cup draws s-rail compare peers gallery clean
+.PHONY: k-factor help env book dev demo test test-cpp test-python test-long test-clang windows sanitize test-pardiso pardiso test-mpi mpi instructions verification mutants lint lint-python lint-workflows lint-once lint-imports lint-types lint-page lint-stubs lint-format lint-cpp stubs \
+        format docs wheel bench bench-picture dome robust robust-draws balances bands ubend cup draws touch s-rail compare peers gallery clean
 
 help:  ## show this help
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -100,6 +100,9 @@ dome: env  ## a sphere pressed into sheets of up to 160 000 elements: time, memo
 balances: env  ## 63 jobs of all kinds whose balances are watched (a minute of CPU); writes docs/balances.md
 	@$(BIN)/python benchmarks/balances.py --json build/balances.json --page docs/balances.md $(ARGS)
 
+bands: env  ## studies of errors, for the bands of numbers (some 20 minutes of CPU, less what benchmarks/bands.jsonl has); writes docs/bands.md
+	@$(BIN)/python benchmarks/bands.py --page docs/bands.md $(ARGS)
+
 robust: env  ## 300 random jobs and how many finish (some 10 minutes of CPU), then the balances; writes docs/robust-rate.md
 	@$(BIN)/python benchmarks/robust.py --json build/robust.json --page docs/robust-rate.md $(ARGS)
 	@$(BIN)/python tools/performance_numbers.py
@@ -122,12 +125,20 @@ draws: book  ## what drawn cups and U-bends cost, and what their evaluations are
 	@$(BIN)/python benchmarks/draws.py --json build/draws.json --page docs/performance-draws.md $(ARGS)
 	@$(BIN)/python benchmarks/beside.py --json build/beside.json --page docs/performance-draws.md
 
+touch: env  ## what contact of sheets costs: search, couplings, factors (some three minutes of CPU)
+	@$(BIN)/python benchmarks/sheets_that_touch.py --json build/touch.json --page docs/performance-contact.md $(ARGS)
+	@$(BIN)/python benchmarks/sheets_that_touch.py --search --page docs/performance-contact.md
+	@$(BIN)/python benchmarks/couplings_of_sheets.py --page docs/performance-contact.md
+
 s-rail: book  ## the S-rail of the verification book with up to 6 000 elements, three penalties (an hour)
 	$(SAY) 'Drawing the S-rail'
 	@$(BIN)/python benchmarks/s_rail.py --json build/s_rail.json $(ARGS)
 
 k-factor: env  ## K over radius / thickness from runs, for docs/k-factor.md (75 s of CPU the first time)
 	@$(BIN)/python tools/k_factor_picture.py $(ARGS)
+
+bench-picture: dev  ## the page of the bench with a finished bend, for docs/bench.md; needs Chromium
+	@$(BIN)/python tools/bench_picture.py $(ARGS)
 
 compare: env  ## compare the speed of two commits: make compare ARGS="main HEAD"
 	@$(BIN)/python benchmarks/compare.py $(ARGS)
@@ -162,6 +173,10 @@ test-long: dev  ## the long verification runs
 test-clang: dev  ## build the kernels with clang, warnings as errors, and test them (skipped without clang)
 	$(SAY) 'Testing a build by clang'
 	@bash tools/clang.sh $(BIN)/python release
+
+windows: $(VENV)/.tools  ## cross-compile the kernels for Windows with mingw and test them with wine (skipped without mingw)
+	$(SAY) 'Testing a build for Windows'
+	@bash tools/windows.sh $(BIN)
 
 mutants: dev  ## put small errors into a copy, each of which a test must notice: make mutants ARGS="Free springs"
 	$(SAY) 'Trying the mutants of tests/mutants.toml'
@@ -227,12 +242,15 @@ $(VENV)/.docs: $(VENV)/.tools
 	@mv $@.new $@
 
 docs: env $(VENV)/.docs  ## the documentation as a site in build/docs; every warning is an error
-	$(SAY) 'Making the site in $(DOCS)/$(VERSION) (some 40 s of CPU)'
+	$(SAY) 'Making the site in $(DOCS)/$(VERSION) (some 80 s of CPU the first time)'
 	@rm -rf docs/site/api/generated
+	@mkdir -p build; ls docs/site/api > build/docs-pages.new  # Sphinx misses new pages of the API in an old cache
+	@cmp -s build/docs-pages.new build/docs-pages || { rm -rf build/docs-cache; mv build/docs-pages.new build/docs-pages; }
 	@$(BIN)/sphinx-build -q -W --keep-going -c docs/site -d build/docs-cache docs $(DOCS)/$(VERSION) $(ARGS)
 	@! grep -rlE --include='*.html' '$(NETWORK)' $(DOCS)/$(VERSION) || { echo 'these pages load something from a network'; exit 1; }
 	@! grep -rlE --include='*.css' 'url\(["'"'"']?(https?:)?//' $(DOCS)/$(VERSION) || { echo 'these styles load something from a network'; exit 1; }
-	@echo 'Look at it with: python3 -m http.server -d $(DOCS)'
+	@$(BIN)/python tools/check_site.py $(DOCS)/$(VERSION)
+	@echo 'Open $(DOCS)/index.html, or serve it: python3 -m http.server -d $(DOCS)'
 
 # ---- wheel ----
 
@@ -255,12 +273,22 @@ wheel: env $(VENV)/.wheel  ## wheels of umform and of the book in dist, tested i
 
 # ---- style ----
 
-lint: lint-python lint-once lint-imports lint-types lint-page lint-stubs lint-format lint-cpp  ## style, types and names, in Python and in C++
+lint: lint-python lint-workflows lint-once lint-imports lint-types lint-page lint-stubs lint-format lint-cpp  ## style, types and names, in Python and in C++
 
 lint-python: $(VENV)/.dev
 	$(SAY) 'ruff'
 	@$(BIN)/ruff check -q .
 	@$(BIN)/ruff format -q --check . || { echo "run 'make format' on the files that 'ruff format --check .' names"; exit 1; }
+
+# The package of PyPI fetches a binary of a forge; Go compiles the sources.
+ACTIONLINT := $(abspath build/actionlint)
+
+lint-workflows:
+	$(SAY) 'workflows of the forge'
+	@if [ -x $(ACTIONLINT)/actionlint ] || { command -v go > /dev/null && mkdir -p $(ACTIONLINT) && \
+	    GOBIN=$(ACTIONLINT) go install github.com/rhysd/actionlint/cmd/actionlint@v1.7.12 > build/actionlint.log 2>&1; }; \
+	then $(ACTIONLINT)/actionlint; \
+	else echo 'no Go, or actionlint cannot be fetched: the workflows of the forge are not checked'; fi
 
 lint-once: $(VENV)/.dev
 	$(SAY) 'defaults and bounds that are stated twice'

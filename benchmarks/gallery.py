@@ -14,7 +14,7 @@ import subprocess
 import sys
 import textwrap
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -82,8 +82,7 @@ def panel(folder: Path, shot: Shot, title: str = "", width: int = WIDTH, *, scal
     if shot.width:
         part = part.stretched(1, shot.width)
     name, label, factor = shot.field
-    skin = skin_of(part, name)
-    skin = replace(skin, values=factor * np.asarray(skin.values))
+    skin = skin_of(part, name, factor=factor)
     drawn = Rendering("the gallery", shot.view)
     scales = scaled(skin, label, shot.limits)
     drawn.add_sheet(skin, scales, lines=shot.lines)

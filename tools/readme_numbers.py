@@ -16,7 +16,8 @@ BEGIN, END = "<!-- verification -->\n", "<!-- /verification -->"
 
 #: Page, and the check on it that the README quotes.
 QUOTED = (
-    ("scordelis-lo", "ANS3DEAS, E_33 tied, 32 intervals"),
+    ("drawing-aa6016-cup", "20 degrees: mean height, mm"),
+    ("drawing-square-cup", "1.8 mm: draw-in of the sides, mm"),
     ("nonlinear-roof-6-35", "Limit load, N, ANS3DEAS, E_33 tied, 16 intervals"),
     ("plastic-tube", "limit pressure, MI9K3DEAS, E_33 tied, 16 layers"),
     ("contact-hertz-line", "ANS3DEAS, 8 elements over the half-width: peak pressure"),

@@ -21,6 +21,7 @@ from umform.processes.hemming import Hemming, hemming
 from umform.processes.hemming.spec import acute
 
 _COARSE: dict[str, Any] = {"elements_per_thickness": 1.0, "layers": 1}
+_AS_BENDS: dict[str, Any] = {"element": AirBending.element}
 
 
 def air_bend(*, metal: str = "DC04", travel: float | None = None, **keys: Any) -> Answer:
@@ -42,8 +43,8 @@ def sequence() -> Answer:
 
 def hem(**keys: Any) -> Answer:
     """A hem over an insert."""
-    sheet = acute(**_COARSE)
-    hem = hemming(Hemming(base=13.0, sheet=sheet, **keys), tolerance=5.0, frames=1, progress=False)
+    sheet = acute(**_COARSE | _AS_BENDS)
+    hem = hemming(Hemming(form="insert", base=13.0, sheet=sheet, **keys), tolerance=5.0, frames=1, progress=False)
     return Answer([hem.result], tools=[carried(hem.result, [tool.name for tool in hem.result.model.tools])])
 
 

@@ -56,3 +56,4 @@ void bind_multifrontal(nb::module_& m);
 void bind_blocks(nb::module_& m);
 void bind_contact(nb::module_& m);
 void bind_loads(nb::module_& m);
+void bind_sheets(nb::module_& m);

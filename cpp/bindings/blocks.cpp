@@ -183,6 +183,9 @@ void bind_blocks(nb::module_& m) {
         .def_prop_ro(
             "keeps_blocks", &ShellBlock::keeps_blocks,
             "Whether enhanced parameters can be recovered from the converged state without an evaluation there.")
+        .def_prop_ro(
+            "enhanced_change", &ShellBlock::enhanced_change,
+            "Largest change of an enhanced parameter that a recovery without a displacement makes after the last evaluation.")
         .def_prop_ro("staged_returns", &ShellBlock::staged_returns,
                      "Points at which return maps have gone through stages of a shrinking yield surface so far.")
         .def("take_blocks", &ShellBlock::take_blocks, nb::arg("of"),

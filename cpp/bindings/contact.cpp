@@ -1,3 +1,5 @@
+#include <bit>
+
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/shared_ptr.h>
@@ -11,6 +13,7 @@
 #include "umform/contact/cells.hpp"
 #include "umform/contact/coulomb.hpp"
 #include "umform/contact/facet_block.hpp"
+#include "umform/contact/own_pressure.hpp"
 #include "umform/contact/penalty.hpp"
 
 using namespace umform;
@@ -161,6 +164,89 @@ void bind_friction(nb::module_& m) {
         nb::arg("function"), "The bound from a function of pressure, slip and place.");
 }
 
+/// A Python function gap (n,) -> (pressure (n,), derivative (n,)).
+std::shared_ptr<NormalLaw> normal_from_function(nb::callable function, std::string name, double reach) {
+    auto call = [function = std::move(function)](int n, const double* gap, double* pressure, double* slope) {
+        const nb::gil_scoped_acquire gil;
+        const std::size_t count = n;
+        const auto answer = nb::cast<nb::tuple>(function(to_numpy(std::vector<double>(gap, gap + n), {count})));
+        copy_result(answer[0], pressure, count);
+        copy_result(answer[1], slope, count);
+    };
+    return std::make_shared<NormalLaw>(std::move(name), reach, std::move(call));
+}
+
+nb::object pressures(const NormalLaw& law, const Input& gap) {
+    const std::size_t n = gap.size();
+    std::vector<double> pressure(n), slope(n);
+    law.pressures(static_cast<int>(n), gap.data(), pressure.data(), slope.data());
+    return nb::make_tuple(to_numpy(std::move(pressure), {n}), to_numpy(std::move(slope), {n}));
+}
+
+void raise(const RefusedPressure& refused) {
+    const nb::object kind = nb::module_::import_("umform.errors").attr("NotFinite");
+    const std::string where = refused.law + ", gap " + std::to_string(refused.gap);
+    const nb::object error =
+        kind(refused.wrong.c_str(), nb::arg("where") = where, nb::arg("value") = refused.value,
+             nb::arg("cause") = "a root or a power of a gap outside of its domain, or the pressure with the wrong sign",
+             nb::arg("remedy") = "umform.check_contact_law(law, gaps) at the gaps from the deepest to the reach");
+    PyErr_SetObject(kind.ptr(), error.ptr());
+}
+
+void bind_own_pressure(nb::module_& m) {
+    nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
+        try {
+            std::rethrow_exception(thrown);
+        } catch (const RefusedPressure& refused) {
+            raise(refused);
+        }
+    });
+    nb::class_<NormalLaw>(m, "NormalLaw", "The pressure of a contact over its gap, by a function of a user.")
+        .def_prop_ro("reach", &NormalLaw::reach, "The largest gap at which there is a pressure.")
+        .def("pressures", &pressures, nb::arg("gap"),
+             nb::sig("def pressures(self, gap: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]"),
+             "Pressures and their derivatives with respect to the gap (n,).")
+        .def(
+            "energies",
+            [](const NormalLaw& law, const Input& gap, int parts) {
+                return copied(law.energies(static_cast<int>(gap.size()), gap.data(), parts));
+            },
+            nb::arg("gap"), nb::arg("parts") = 16,
+            nb::sig("def energies(self, gap: NDArray[float64], parts: int = 16) -> NDArray[float64]"),
+            "Energy per area (n,): the integral of the pressure from each gap up to the reach.");
+    m.def(
+        "normal_from_function", &normal_from_function, nb::arg("function"), nb::arg("name"), nb::arg("reach"),
+        nb::sig(
+            "def normal_from_function(function: Callable[[NDArray[float64]], tuple[NDArray[float64], NDArray[float64]]], name: str, reach: float) -> NormalLaw"),
+        "A law from a function gap (n,) -> (pressure (n,), its derivative (n,)).");
+    m.def(
+        "compiled_normal_law",
+        [](std::uintptr_t function, const std::string& name, std::vector<double> properties, double reach,
+           bool parallel) {
+            return compiled_normal_law(std::bit_cast<CompiledPressure*>(function), name, std::move(properties), reach,
+                                       parallel);
+        },
+        nb::arg("function"), nb::arg("name"), nb::arg("properties"), nb::arg("reach"), nb::arg("parallel"),
+        "A law from the address of a C function.");
+    m.def(
+        "own_law",
+        [](double penalty, std::shared_ptr<NormalLaw> normal) -> std::shared_ptr<ContactLaw> {
+            return std::make_shared<ContactLawOf<OwnPressure<Penalty>>>(
+                OwnPressure<Penalty>(Penalty{penalty}, std::move(normal)));
+        },
+        nb::arg("penalty"), nb::arg("normal"),
+        "Frictionless contact with a law of the pressure; penalty is a measure of its stiffness.");
+    m.def(
+        "own_coulomb_law",
+        [](double penalty, double ratio, double slip, std::shared_ptr<FrictionLaw> friction,
+           std::shared_ptr<NormalLaw> normal) -> std::shared_ptr<ContactLaw> {
+            return std::make_shared<ContactLawOf<OwnPressure<Coulomb>>>(
+                OwnPressure<Coulomb>(Coulomb{penalty, ratio, slip, std::move(friction)}, std::move(normal)));
+        },
+        nb::arg("penalty"), nb::arg("ratio"), nb::arg("slip"), nb::arg("friction"), nb::arg("normal"),
+        "The same with friction.");
+}
+
 void bind_law(nb::module_& m) {
     nb::class_<ContactLaw>(m, "ContactLaw", "Traction at a place of a face from its gap, and what it remembers.")
         .def_prop_rw("penalty", &ContactLaw::penalty, &ContactLaw::set_penalty, "Pressure per penetration.")
@@ -303,6 +389,7 @@ void bind_history(nb::class_<ContactBlock>& contact) {
 void bind_contact(nb::module_& m) {
     bind_found(m);
     bind_law(m);
+    bind_own_pressure(m);
     auto contact = nb::class_<ContactBlock>(m, "ContactBlock", "Contact of element faces with one rigid tool.");
     bind_common(contact);
     contact.def_rw("name", &ContactBlock::name, "For messages.")

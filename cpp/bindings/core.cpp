@@ -9,13 +9,28 @@
     #define UMFORM_BUILD "unknown"  // CMake says it; tools that parse this file alone do not
 #endif
 
+#if defined(_WIN32)
+extern "C" __declspec(dllimport) int __stdcall IsProcessorFeaturePresent(unsigned long feature);
+#endif
+
 namespace {
+
+#if defined(UMFORM_X86_64_V3) && defined(__x86_64__)
+/// Whether this processor has AVX2 and FMA; Windows is asked for AVX2 only.
+bool has_instructions() {
+    #if defined(_WIN32)                         // clang for Windows has no library for the question below
+    return IsProcessorFeaturePresent(40) != 0;  // PF_AVX2_INSTRUCTIONS_AVAILABLE
+    #else
+    __builtin_cpu_init();
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    #endif
+}
+#endif
 
 /// Kernels are compiled for an instruction set; this file alone is not, so that a processor without it gets a sentence.
 void require_instructions() {
 #if defined(UMFORM_X86_64_V3) && defined(__x86_64__)
-    __builtin_cpu_init();
-    if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
+    if (!has_instructions())
         throw std::runtime_error(
             "this umform is built for processors with AVX2 and FMA (x86-64-v3), which this one lacks; "
             "build it from source with: pip install --no-binary umform umform -C cmake.define.UMFORM_ARCH=");
@@ -41,6 +56,7 @@ NB_MODULE(_core, m) {
     bind_blocks(m);
     bind_contact(m);
     bind_loads(m);
+    bind_sheets(m);
     m.def("build", [] { return UMFORM_BUILD; }, "Compiler, kind of build and instruction set of the kernels.");
     if (std::getenv("OMP_NUM_THREADS") == nullptr)
         umform::thread_count() = std::min(umform::thread_count().load(), free_processors());

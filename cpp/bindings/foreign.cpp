@@ -31,18 +31,24 @@ ForeignTraits traits(std::string name, std::vector<double> properties, const Nam
 void raise(const RefusedAnswer& answer) {
     std::string where = answer.law;
     if (answer.cell >= 0) where += ", cell " + std::to_string(answer.cell);
-    where += ", point " + std::to_string(answer.point);
+    if (answer.point >= 0) where += ", point " + std::to_string(answer.point);
     const char* cause =
         "properties in another order or number, state variables that were not set, or a strain "
         "outside of what the law is made for";
     const char* remedy =
         "call the law at that strain alone; a law that wants a smaller increment says so by PNEWDT "
         "below 1, or by an answer other than 0";
-    if (answer.finite) {
+    if (answer.kind == RefusedAnswer::BeyondItsArrays) {
+        cause = "a state of fewer numbers than the law has, or a loop over one point too many";
+        remedy =
+            "as many state variables as the law writes: state=, NSTATV of a UMAT; what it overwrites is lost otherwise";
+    }
+    if (answer.kind == RefusedAnswer::Asymmetric) {
         cause = "flow that is not associated, back stresses with recall, or a mistake in the tangent";
         remedy = "symmetric=False where it is meant, else correct it";
     }
-    const nb::object kind = nb::module_::import_("umform.errors").attr(answer.finite ? "InvalidValue" : "NotFinite");
+    const nb::object kind = nb::module_::import_("umform.errors")
+                                .attr(answer.kind == RefusedAnswer::NotFinite ? "NotFinite" : "InvalidValue");
     const nb::object error =
         kind(answer.wrong.c_str(), nb::arg("where") = where, nb::arg("cause") = cause, nb::arg("remedy") = remedy);
     PyErr_SetObject(kind.ptr(), error.ptr());

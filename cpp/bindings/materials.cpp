@@ -49,13 +49,13 @@ nb::object respond(const Material& material, const Input& E, const Input& state,
 
 /// Strains (n, 6), stresses (n, 6) and histories of the rows of a path, up to the first that cannot be reached.
 nb::object lead(const Material& material, const Input& turn, const Input& strain, const Input& stress,
-                const Input& steps) {
+                const Input& steps, bool finite) {
     const std::size_t n = steps.size(), numbers = material.state_size();
     if (turn.size() != 36 || strain.size() != 6 * n || stress.size() != 6 * n)
         throw std::invalid_argument("turn must have shape (6, 6), strain and stress (n, 6), steps (n,)");
     Voigt66 rotation;
     std::copy_n(turn.data(), 36, rotation.a.begin());
-    PointWalk walk(material, rotation);
+    PointWalk walk(material, rotation, finite);
     PointState at;
     at.history.resize(numbers);
     material.initial(at.history.data());
@@ -202,9 +202,10 @@ void bind_materials(nb::module_& m) {
             "S (n, 6), CC (n, 6, 6) and the new history at n points with the same axes (3, 3), size and step.")
         .def(
             "lead", &lead, nb::arg("turn"), nb::arg("strain"), nb::arg("stress"), nb::arg("steps"),
+            nb::arg("finite") = false,
             nb::sig(
-                "def lead(self, turn: NDArray[float64], strain: NDArray[float64], stress: NDArray[float64], steps: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]"),
-            "A law of small strains along a path (n, 6), NaN where the stress is prescribed: strains, stresses, histories behind the rows up to the first that cannot be reached.")
+                "def lead(self, turn: NDArray[float64], strain: NDArray[float64], stress: NDArray[float64], steps: NDArray[float64], finite: bool = False) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]"),
+            "A law of logarithmic strains, or of Green-Lagrange strains (finite), along a path of logarithmic strains (n, 6), NaN where the stress is prescribed: strains, stresses, histories behind the rows up to the first that cannot be reached.")
         .def(
             "energy", &energy, nb::arg("E"), nb::arg("state"),
             nb::sig(

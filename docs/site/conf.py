@@ -19,7 +19,7 @@ root_doc = "index"
 exclude_patterns = ["site/templates"]
 
 extensions = [
-    "myst_parser",
+    "myst_nb",  # MyST pages, and notebooks with their outputs
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
     "numpydoc",
@@ -36,6 +36,14 @@ extensions = [
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 4
 suppress_warnings = ["myst.header"]  # a page may begin a chapter below its title
+
+# Notebooks are executed once, until they or umform change.
+nb_execution_mode = "cache"
+nb_execution_cache_path = str(HERE.parents[1] / "build" / "docs-notebooks")
+nb_execution_timeout = 300
+nb_execution_raise_on_error = True
+nb_execution_show_tb = True
+nb_merge_streams = True
 
 # The public names, with their docstrings.
 autosummary_generate = True

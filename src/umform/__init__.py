@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from umform.analysis.run import Result as Result
     from umform.analysis.run import resume as resume
     from umform.analysis.run import solve as solve
+    from umform.analysis.run.open_run import OpenRun as OpenRun
     from umform.analysis.run.stages import Stage as Stage
     from umform.analysis.run.stages import solve_stages as solve_stages
     from umform.analysis.steps import Arc as Arc
@@ -36,6 +37,11 @@ if TYPE_CHECKING:
     from umform.elements import Tying as Tying
     from umform.errors import UmformError as UmformError
     from umform.flat_pattern import flat as flat
+    from umform.flat_pattern.one_step import Blank as Blank
+    from umform.flat_pattern.one_step import BlankEstimate as BlankEstimate
+    from umform.flat_pattern.one_step import blank as blank
+    from umform.flat_pattern.one_step import corrected_blank as corrected_blank
+    from umform.flat_pattern.one_step import mid_surface as mid_surface
     from umform.materials import *
     from umform.mesh import Mesh as Mesh
     from umform.model import Body as Body
@@ -43,6 +49,9 @@ if TYPE_CHECKING:
     from umform.model.contact.friction import Friction as Friction
     from umform.model.contact.friction import FrictionByRegion as FrictionByRegion
     from umform.model.contact.friction import Region as Region
+    from umform.model.contact.own_law import CompiledContactLaw as CompiledContactLaw
+    from umform.model.contact.own_law import ContactLaw as ContactLaw
+    from umform.model.contact.own_law import check_contact_law as check_contact_law
     from umform.model.element_check import check_element as check_element
     from umform.model.supports.axes import cylindrical as cylindrical
     from umform.model.supports.axes import turned as turned
@@ -86,7 +95,7 @@ if TYPE_CHECKING:
     from umform.surfaces import read_tool as read_tool
     from umform.surfaces import write_tool as write_tool
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 sys.meta_path.append(Moved())
 
@@ -98,9 +107,11 @@ _HOME = {
     "umform.model": ("Body", "Model"),
     "umform.model.supports.axes": ("cylindrical", "turned"),
     "umform.model.contact.friction": ("Friction", "FrictionByRegion", "Region"),
+    "umform.model.contact.own_law": ("CompiledContactLaw", "ContactLaw", "check_contact_law"),
     "umform.model.element_check": ("check_element",),
     "umform.model.transfer.trim": ("Trim",),
     "umform.analysis.run": ("Result", "resume", "solve"),
+    "umform.analysis.run.open_run": ("OpenRun",),
     "umform.analysis.run.stages": ("Stage", "solve_stages"),
     "umform.analysis.newton.options": ("NewtonOptions",),
     "umform.analysis.steps": ("Arc", "Close", "Free", "Move", "Pace", "Release"),
@@ -127,6 +138,7 @@ _HOME = {
     ),
     "umform.report.state_files": ("export_state",),
     "umform.flat_pattern": ("flat",),
+    "umform.flat_pattern.one_step": ("Blank", "BlankEstimate", "blank", "corrected_blank", "mid_surface"),
     "umform.studies.derivatives": ("Derivatives", "derivatives"),
     "umform.studies.goals": ("Compensated", "CompensatedShape", "Wanted", "compensate", "compensate_shape"),
     "umform.studies.scatter": ("Scatter", "Scattered", "scatter"),

@@ -76,9 +76,9 @@ class Material:
         S (n, 6), CC (n, 6, 6) and the new history at n points with the same axes (3, 3), size and step.
         """
 
-    def lead(self, turn: NDArray[float64], strain: NDArray[float64], stress: NDArray[float64], steps: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
+    def lead(self, turn: NDArray[float64], strain: NDArray[float64], stress: NDArray[float64], steps: NDArray[float64], finite: bool = False) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
         """
-        A law of small strains along a path (n, 6), NaN where the stress is prescribed: strains, stresses, histories behind the rows up to the first that cannot be reached.
+        A law of logarithmic strains, or of Green-Lagrange strains (finite), along a path of logarithmic strains (n, 6), NaN where the stress is prescribed: strains, stresses, histories behind the rows up to the first that cannot be reached.
         """
 
     def energy(self, E: NDArray[float64], state: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]:
@@ -469,6 +469,12 @@ class ShellBlock:
         """
 
     @property
+    def enhanced_change(self) -> float:
+        """
+        Largest change of an enhanced parameter that a recovery without a displacement makes after the last evaluation.
+        """
+
+    @property
     def staged_returns(self) -> int:
         """
         Points at which return maps have gone through stages of a shrinking yield surface so far.
@@ -677,6 +683,37 @@ def penalty_law(penalty: float) -> ContactLaw:
     Frictionless contact: a pressure of penalty times penetration, and multipliers.
     """
 
+class NormalLaw:
+    """The pressure of a contact over its gap, by a function of a user."""
+
+    @property
+    def reach(self) -> float:
+        """The largest gap at which there is a pressure."""
+
+    def pressures(self, gap: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]:
+        """Pressures and their derivatives with respect to the gap (n,)."""
+
+    def energies(self, gap: NDArray[float64], parts: int = 16) -> NDArray[float64]:
+        """
+        Energy per area (n,): the integral of the pressure from each gap up to the reach.
+        """
+
+def normal_from_function(function: Callable[[NDArray[float64]], tuple[NDArray[float64], NDArray[float64]]], name: str, reach: float) -> NormalLaw:
+    """
+    A law from a function gap (n,) -> (pressure (n,), its derivative (n,)).
+    """
+
+def compiled_normal_law(function: int, name: str, properties: Sequence[float], reach: float, parallel: bool) -> NormalLaw:
+    """A law from the address of a C function."""
+
+def own_law(penalty: float, normal: NormalLaw) -> ContactLaw:
+    """
+    Frictionless contact with a law of the pressure; penalty is a measure of its stiffness.
+    """
+
+def own_coulomb_law(penalty: float, ratio: float, slip: float, friction: FrictionLaw, normal: NormalLaw) -> ContactLaw:
+    """The same with friction."""
+
 class ContactBlock:
     """Contact of element faces with one rigid tool."""
 
@@ -884,6 +921,114 @@ class PressureBlock:
     """Whether its tangent is symmetric."""
 
 def pressure_block(facets: NDArray[int32], X: NDArray[float64]) -> PressureBlock: ...
+
+class SheetPass:
+    """Contact points of one face against the facets of another that deforms."""
+
+    @property
+    def name(self) -> str:
+        """For messages."""
+
+    @name.setter
+    def name(self, arg: str, /) -> None: ...
+
+    @property
+    def dofs(self) -> int:
+        """Degrees of freedom of the model."""
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether its tangent is symmetric."""
+
+    @property
+    def points(self) -> int: ...
+
+    @property
+    def per_facet(self) -> int:
+        """Contact points of each facet."""
+
+    @property
+    def areas(self) -> NDArray[float64]:
+        """Reference areas of the points."""
+
+    @property
+    def penalty(self) -> float:
+        """Pressure per penetration."""
+
+    @penalty.setter
+    def penalty(self, arg: float, /) -> None: ...
+
+    def search(self, u: NDArray[float64], way: float, turn: float) -> None:
+        """
+        Find the facets that each facet may meet while no node moves farther than a way and no facet turns farther.
+        """
+
+    def moved_since_search(self, u: NDArray[float64]) -> list[float]:
+        """
+        Largest way of a node of both faces and largest turn of a facet since the search, infinite before the first one.
+        """
+
+    def couplings(self) -> Connectivity:
+        """
+        Pairs of nodes that its tangent couples, as the last search found them.
+        """
+
+    def evaluate(self, u: NDArray[float64], pattern: Pattern, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> float:
+        """
+        Add forces to f (and the tangent to values, K du to Kdu, where given); returns the sum of the squares of the forces.
+        """
+
+    def found(self) -> dict[str, object]:
+        """Results of the last evaluation, as copies."""
+
+    @property
+    def history_variables(self) -> dict[str, int]:
+        """Parts of the history of a point, in their order."""
+
+    @property
+    def state(self) -> NDArray[float64]:
+        """Converged history (points, size)."""
+
+    @property
+    def augmented(self) -> bool:
+        """Whether multipliers carry pressure without penetration."""
+
+    @augmented.setter
+    def augmented(self, arg: bool, /) -> None: ...
+
+    @property
+    def multipliers(self) -> NDArray[float64]:
+        """
+        Pressures at zero penetration: of the converged state, or what was set since then.
+        """
+
+    @multipliers.setter
+    def multipliers(self, values: NDArray[float64], /) -> None: ...
+
+    @property
+    def shape_values(self) -> NDArray[float64]:
+        """
+        Shape functions (1 or facets, points, nodes) of this face at its points.
+        """
+
+    def commit(self) -> None:
+        """Make the trial history the converged one."""
+
+    def revert(self) -> None:
+        """Go back to the converged history."""
+
+    def restore(self, state: NDArray[float64]) -> None:
+        """Put a stored history back."""
+
+def sheet_crossings(facets: NDArray[int32], x: tuple[NDArray[float64], NDArray[float64]], others: NDArray[int32], y: tuple[NDArray[float64], NDArray[float64]], deepest: float) -> tuple[NDArray[float64], NDArray[float64]]:
+    """
+    Places and depths (one for each facet) where a face goes through another, farther than deepest, from the first to the second positions of both.
+    """
+
+def sheet_pass(facets: NDArray[int32], others: NDArray[int32], edges: NDArray[int32], at: Sequence[Sequence[int]], X: NDArray[float64], points: tuple[int, int], cells: int, penalty: float, deepest: float, highest: float, near: Sequence[Sequence[int]], friction: FrictionLaw | None, stiffness: float) -> SheetPass:
+    """
+    A half pass, over cells x cells cells of each facet, or at Gauss points where cells is 0. `edges` are the nodes of cut edges of the other face, then those across the thickness; `at` their facets and sides there.
+    """
 
 def build() -> str:
     """Compiler, kind of build and instruction set of the kernels."""

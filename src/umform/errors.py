@@ -6,7 +6,13 @@ The command line prints the message; Python users catch the class.
 
 from __future__ import annotations
 
+import sys
+import traceback
+from pathlib import Path
 from typing import Any
+
+#: Folder of the package, whose frames a notebook does not show.
+_PACKAGE = Path(__file__).parent
 
 
 class UmformError(Exception):
@@ -56,8 +62,36 @@ class UmformError(Exception):
         lines += [f"  {name + ':':<8}{text}" for name, text in rows if text]
         return "\n".join(lines)
 
+    def _render_traceback_(self) -> list[str]:
+        """What IPython and notebooks print in place of a traceback: lines outside umform, then the message."""
+        shell = _shell()
+        if getattr(getattr(shell, "InteractiveTB", None), "mode", "") == "Verbose":
+            return list(shell.InteractiveTB.structured_traceback(type(self), self, self.__traceback__))
+        return [*_own_lines(self), f"{type(self).__name__}: {self}", *getattr(self, "__notes__", ()), _ALL_FRAMES]
+
     def __reduce__(self) -> tuple[object, ...]:
         return (_rebuild, (type(self), self.what, self.where, self.value, self.cause, self.remedy))
+
+
+#: Last line in place of a traceback.
+_ALL_FRAMES = "(%xmode Verbose, then %tb, prints all frames)"
+
+
+def _shell() -> Any:
+    """The running IPython; None without one."""
+    ipython: Any = sys.modules.get("IPython")
+    return None if ipython is None else ipython.get_ipython()
+
+
+def _own_lines(error: BaseException) -> list[str]:
+    """Lines of the user on the way to an error: those of cells have no file."""
+    found = []
+    for one in traceback.extract_tb(error.__traceback__):
+        file = Path(one.filename)
+        if one.line and not file.is_relative_to(_PACKAGE) and "IPython" not in file.parts:
+            place = one.filename if file.is_file() else "a cell"
+            found.append(f"line {one.lineno} of {place}: {one.line}")
+    return found
 
 
 def _rebuild(kind: type[UmformError], what: str, where: str, value: object, cause: str, remedy: str) -> UmformError:

@@ -31,6 +31,10 @@ Floats = NDArray[np.float64]
 #: Colours that colour-blind readers can tell apart (Okabe & Ito).
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 INK = "#222222"
+#: The colour map of fields, in all pictures of sheets.
+COLOUR_MAP = mpl.colors.LinearSegmentedColormap.from_list(
+    "umform", ("#e3e8ed", "#f6dfb0", "#f5b466", "#ea7b3f", "#cf3a3a", "#8e1245")
+)
 _LINES = ("-", "--", ":", "-.")
 
 _STYLE: Any = {
@@ -80,7 +84,15 @@ def house_style() -> Iterator[None]:
         yield
 
 
-class Picture(Figure):
+class Plot(Figure):
+    """A figure that a notebook shows, also without pyplot."""
+
+    def _repr_png_(self) -> tuple[bytes, dict[str, int]]:
+        """The picture, and its width on the screen in pixels."""
+        return _drawn(self, "png", _DPI), {"width": round(100.0 * self.get_figwidth())}
+
+
+class Picture(Plot):
     """A figure for several files: laid out once, and drawn once in each format and resolution.
 
     matplotlib would repeat the layout for each file, which doubles the time.
@@ -160,7 +172,7 @@ def plot_history(result: History, x: str, ys: Sequence[str], path: str | Path | 
     path : str or Path, optional
         Where to save the picture: .png, .svg or .pdf.
     """
-    return _saved(_history(Figure, result, x, ys), path)
+    return _saved(_history(Plot, result, x, ys), path)
 
 
 def history_picture(result: History, x: str, ys: Sequence[str]) -> Figure:
@@ -207,7 +219,7 @@ def compare_histories(
         for name in (x, *ys):
             _check_column(name, columns, run)
     with house_style():
-        figure = Figure(figsize=(6.6, 4.2), layout="constrained")
+        figure = Plot(figsize=(6.6, 4.2), layout="constrained")
         axes = figure.add_subplot()
         for (run, columns), colour in zip(histories.items(), cycle(COLOURS)):
             for name, line in zip(ys, cycle(_LINES)):
@@ -253,7 +265,7 @@ def plot_shape(
     view : tuple of float
         Azimuth and elevation of the observer in degrees; (-90, 0) looks along y and shows x and z.
     """
-    return _saved(_shape(Figure, shape if isinstance(shape, Shape) else Shape.of(shape), values, view), path)
+    return _saved(_shape(Plot, shape if isinstance(shape, Shape) else Shape.of(shape), values, view), path)
 
 
 def shape_picture(shape: Shape) -> Figure:
@@ -297,7 +309,7 @@ def draw_shape(
         faces.set_facecolor("#b8c4d0")
     else:
         faces.set_array(shape.values[values][seen])
-        faces.set_cmap("viridis")
+        faces.set_cmap(COLOUR_MAP)
         if limits is not None:
             faces.set_clim(*limits)
     axes.add_collection(faces)

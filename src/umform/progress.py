@@ -1,12 +1,14 @@
-"""A progress bar on a terminal; no output elsewhere."""
+"""Progress bars on a terminal and in a notebook; no output elsewhere."""
 
 from __future__ import annotations
 
 import sys
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Protocol, TypeAlias
+from html import escape
+from typing import Any, Protocol, TypeAlias
 
 
 class Tick(Protocol):
@@ -16,20 +18,33 @@ class Tick(Protocol):
         """Move the bar of a name."""
 
 
-#: Whether there is a bar, by default on a terminal only; or what takes the place of the bars.
+#: Seconds before a bar appears in a notebook, and between its changes.
+_LATE, _OFTEN = 0.5, 0.2
+#: Whether there is a bar, by default on a terminal and in a notebook only; or what takes the place of the bars.
 Show: TypeAlias = bool | Tick | None
 
 
 @contextmanager
 def progress_bar(show: Show = None) -> Iterator[Tick]:
-    """Yield ``tick(name, fraction, detail)``; one bar per name, on a terminal only unless ``show`` overrides it."""
+    """Yield ``tick(name, fraction, detail)``; one bar per name.
+
+    There are bars on a terminal and in a notebook only, unless ``show`` overrides it.
+    """
     if callable(show):
         yield show
         return
+    notebook = _notebook()
     if show is None:
-        show = sys.stderr is not None and sys.stderr.isatty()
+        show = notebook is not None or (sys.stderr is not None and sys.stderr.isatty())
     if not show:
         yield silent
+        return
+    if notebook is not None:
+        bars = NotebookBars(notebook)
+        try:
+            yield bars
+        finally:
+            bars.remove()
         return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
@@ -51,6 +66,60 @@ def progress_bar(show: Show = None) -> Iterator[Tick]:
             progress.update(tasks[name], completed=fraction, detail=detail)  # type: ignore[arg-type]
 
         yield tick
+
+
+def _notebook() -> Any:
+    """The module IPython.display in a process that computes cells of a notebook; None elsewhere."""
+    ipython: Any = sys.modules.get("IPython")
+    shell = None if ipython is None else ipython.get_ipython()
+    if shell is None or not hasattr(shell, "kernel"):
+        return None
+    from IPython import display
+
+    return display
+
+
+class NotebookBars:
+    """The tick of a notebook: bars in one output of the cell, which needs no widgets, and goes at the end.
+
+    Parameters
+    ----------
+    display : module
+        ``IPython.display``.
+    """
+
+    def __init__(self, display: Any) -> None:
+        self._display = display
+        self._handle: Any = None
+        self._bars: dict[str, tuple[float, str]] = {}
+        self._started = time.monotonic()
+        self._next = self._started + _LATE
+
+    def __call__(self, name: str, fraction: float, detail: str = "", /) -> None:
+        """Move the bar of a name."""
+        self._bars[name] = fraction, detail
+        now = time.monotonic()
+        if now < self._next:
+            return
+        self._next = now + _OFTEN
+        shown = self._display.HTML(self._html(now - self._started))
+        if self._handle is None:
+            self._handle = self._display.display(shown, display_id=True)
+        else:
+            self._handle.update(shown)
+
+    def _html(self, seconds: float) -> str:
+        rows = (
+            f"<div>{escape(name)} <progress max='1' value='{min(max(fraction, 0.0), 1.0):.3f}'></progress> "
+            f"{100.0 * fraction:.0f} % {escape(detail)}</div>"
+            for name, (fraction, detail) in self._bars.items()
+        )
+        return f"{''.join(rows)}<div>{seconds:.0f} s</div>"
+
+    def remove(self) -> None:
+        """Remove the bars from the output."""
+        if self._handle is not None:
+            self._handle.update(self._display.HTML(""))
 
 
 def silent(name: str, fraction: float, detail: str = "", /) -> None:

@@ -1,4 +1,4 @@
-"""Public names of the release before that are gone, and what they are now called: each has an error for one release."""
+"""Public names of 0.1 that are gone, and what they are now called: each has an error in 0.2, and none in 0.3."""
 
 from __future__ import annotations
 

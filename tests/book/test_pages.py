@@ -72,6 +72,10 @@ def test_pages_and_what_is_drawn_from_them(small_book, tmp_path):
     assert "**2 cases: 0 🟢 green, 1 🟠 amber, 1 🔴 red.** 2 of 3 checks hold; 0 more fail" in summary
     assert "| [A bar under tension](bar-stretched.md) | 🟠 | 1000 % | an expectation that is too high |" in summary
     assert "| [A bar that fails](bar-failing.md) | 🔴 | - | this case cannot be run" in summary
+    assert "<summary>1 🟠, 1 🔴: all cases</summary>" in summary
+    missed = summary[summary.index("## What misses") :].splitlines()
+    assert [line.count("|") for line in missed[2:6]] == [6] * 4 and "(bar-failing.md) | 🔴" in missed[4]
+    assert missed[5].endswith("| 🟠 | 1000 % | an expectation that is too high | it was too high |")
     errata = (folder / "errata.md").read_text()
     assert "  * an expectation that is too high: -10.00 %, limit 1 %. It was too high." in errata
     assert "because the run failed: bar-failing." in errata

@@ -33,7 +33,9 @@ class Planar(YieldFunction):
 
 
 def test_a_yield_function_is_a_class(addition):
-    addition.put("materials/yield_functions.py", "@dataclass(frozen=True)\nclass Transformation:", PLANAR)
+    addition.put(
+        "materials/yield_functions.py", "@dataclass(frozen=True)\nclass Transformation(ParametersInNotebook):", PLANAR
+    )
     addition.run("""
 import json
 from pathlib import Path

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -11,7 +9,10 @@ import umform as uf
 from umform_book.derivatives.chains import CHAINS, compared_chain
 from umform_book.derivatives.differences import compared
 from umform_book.derivatives.laws import LAWS, example
+from umform_book.derivatives.sheets import SHEETS
 from umform_book.derivatives.steps import EXAMPLES
+
+MODELS = {**EXAMPLES, **SHEETS}
 
 
 @pytest.mark.parametrize("name", LAWS)
@@ -23,11 +24,11 @@ def test_all_constants_of_a_law(name):
         assert one.switched == 0, one
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
+@pytest.mark.parametrize("name", MODELS)
 def test_a_model(name):
-    for one in compared(EXAMPLES[name]):
-        assert one.derivative < EXAMPLES[name].limit, one
-        assert EXAMPLES[name].ends or one.shadow < 1e-4, one
+    for one in compared(MODELS[name]):
+        assert one.derivative < MODELS[name].limit, one
+        assert MODELS[name].ends or one.shadow < 1e-4, one
 
 
 def test_a_clamped_strip_slips_back_and_still_rubs_at_the_end_of_its_release():
@@ -45,9 +46,3 @@ def test_a_clamped_strip_slips_back_and_still_rubs_at_the_end_of_its_release():
 def test_operations_one_after_the_other(name):
     for one in compared_chain(CHAINS[name]):
         assert one.derivative < CHAINS[name].limit, one
-
-
-def test_the_second_bend_begins_with_what_the_first_has_left():
-    chain = replace(CHAINS["part of two bends"], by=("sheet.material.hardening.strength",))
-    (one,) = compared_chain(chain)
-    assert one.derivative < chain.limit

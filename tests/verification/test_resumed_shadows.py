@@ -9,7 +9,10 @@ import pytest
 
 from umform.analysis.run.checkpoint import Checkpoints
 from umform.analysis.shadows import resume_with_shadows, solve_with_shadows
+from umform_book.derivatives.sheets import SHEETS
 from umform_book.derivatives.steps import EXAMPLES
+
+MODELS = EXAMPLES | {name: one for name, one in SHEETS.items() if "friction" in name}
 
 
 def builds(example, change=1e-4):
@@ -52,11 +55,11 @@ def copies(monkeypatch, tmp_path):
     return paths
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
+@pytest.mark.parametrize("name", MODELS)
 def test_from_any_place_to_the_same_bits(name, copies, tmp_path):
-    expected = solve_with_shadows(*builds(EXAMPLES[name]), frames=2, checkpoint=tmp_path / "run.h5", every=0)
+    expected = solve_with_shadows(*builds(MODELS[name]), frames=2, checkpoint=tmp_path / "run.h5", every=0)
     assert not any(kept.lost for kept in expected.kept.values())
     places = list(copies)
     for place in (places[len(places) // 2], places[-2]):
-        again = resume_with_shadows(place, *builds(EXAMPLES[name]), frames=2, every=1e9)
+        again = resume_with_shadows(place, *builds(MODELS[name]), frames=2, every=1e9)
         assert_the_same(again, expected)

@@ -31,6 +31,7 @@ BALANCED = 1e-6
 
 #: Folders of the chapters, in the order of the book.
 _FOLDERS = (
+    "reality",
     "quality",
     "linear",
     "nonlinear",
@@ -38,6 +39,7 @@ _FOLDERS = (
     "material",
     "contact",
     "friction",
+    "sheets_that_touch",
     "drawing",
     "free_bending",
     "sharp_bends",
@@ -104,6 +106,7 @@ def run_case(order: Order, tick: Callable[[str, float], None] = lambda what, don
         checks=tuple(CheckRecord.of(check) for check in page.checks),
         balance=worst_balance(page.balances) if page.balances else None,
         studies=tuple(page.studies),
+        comparisons=tuple(page.comparisons),
         versions=_made_with(),
         seconds=clock.perf_counter() - start,
     )

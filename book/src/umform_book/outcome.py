@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from umform_book.checks import Check, Verdict
-from umform_book.page import StudyRecord
+from umform_book.page import Comparison, StudyRecord
 
 
 @dataclass(frozen=True)
@@ -64,6 +64,8 @@ class Outcome:
         The worst balance of its nonlinear runs, by column of the page of all balances.
     studies : tuple of StudyRecord
         Numbers of each element on each mesh.
+    comparisons : tuple of Comparison
+        Its numbers beside measurements.
     failure : str
         Why the run failed; empty if it did not.
     versions : str
@@ -77,6 +79,7 @@ class Outcome:
     checks: tuple[CheckRecord, ...] = ()
     balance: Mapping[str, str] | None = None
     studies: tuple[StudyRecord, ...] = ()
+    comparisons: tuple[Comparison, ...] = ()
     failure: str = ""
     versions: str = ""
     seconds: float = 0.0

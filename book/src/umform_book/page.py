@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from umform.errors import UmformError
 from umform.plotting import plot_shape, save
@@ -37,6 +37,33 @@ class StudyRecord:
     values: dict[str, dict[int, float]]
 
 
+@dataclass(frozen=True)
+class Comparison:
+    """A number beside its measurement, as the summary prints it.
+
+    Attributes
+    ----------
+    what : str
+        The number and its unit.
+    measured, computed, deviation, scatter : str
+        Its values; the signed deviation of the computed one; the scatter of measurements, or of other codes.
+    """
+
+    what: str
+    measured: str
+    computed: str
+    deviation: str
+    scatter: str
+
+    #: Heads of such a table.
+    COLUMNS: ClassVar = ("what", "measured", "computed", "deviation", "scatter")
+
+    @property
+    def row(self) -> tuple[str, str, str, str, str]:
+        """Its row in a table."""
+        return self.what, self.measured, self.computed, self.deviation, self.scatter
+
+
 @dataclass
 class Page:
     """Results of a case.
@@ -61,6 +88,7 @@ class Page:
     checks: list[Check] = field(default_factory=list)
     balances: list[BalanceRow] = field(default_factory=list)
     studies: list[StudyRecord] = field(default_factory=list)
+    comparisons: list[Comparison] = field(default_factory=list)
     pictures: list[Path] = field(default_factory=list)
     main: str = ""
 
@@ -134,6 +162,22 @@ class Page:
     ) -> Check:
         """Check that an error, which should be zero, is not above a limit."""
         return self.check(what, found, 0.0, limit, relative=False, known=known, cause=cause, theory=theory)
+
+    def compare(self, what: str, computed: float, measured: float | None, scatter: str = "-") -> None:
+        """Enter a number beside its measurement into the first table of the page and of the summary.
+
+        Parameters
+        ----------
+        what : str
+            The number and its unit.
+        computed, measured : float
+            Its values; None where no measurement is at hand.
+        scatter : str
+            Scatter of the measurements, or of other codes.
+        """
+        given = "not at hand" if measured is None else shown(float(measured))
+        deviation = "-" if measured is None else f"{computed - measured:+.3g}"
+        self.comparisons.append(Comparison(what, given, shown(float(computed)), deviation, scatter))
 
     def figure(self, name: str, figure: Figure, caption: str) -> None:
         """Add a plot."""

@@ -12,7 +12,7 @@ from typing import Any
 from umform.errors import FileProblem
 from umform_book.checks import Verdict
 from umform_book.outcome import CheckRecord, Outcome
-from umform_book.page import StudyRecord
+from umform_book.page import Comparison, StudyRecord
 from umform_book.writing import write_text
 
 #: Folder of the results beside the pages.
@@ -28,6 +28,8 @@ def store(folder: Path, outcome: Outcome) -> None:
     if outcome.balance:
         parts.append(f' "balance": {_line(dict(outcome.balance))}')
     parts.append(f' "checks": {_lines(_check_items(check) for check in outcome.checks)}')
+    if outcome.comparisons:
+        parts.append(f' "comparisons": {_lines(asdict(one) for one in outcome.comparisons)}')
     if outcome.studies:
         rows = (
             {"title": study.title, "element": label, "values": {n: _printed(value) for n, value in row.items()}}
@@ -63,6 +65,7 @@ def _read(path: Path) -> Outcome:
             tuple(_check(items) for items in data["checks"]),
             data.get("balance"),
             tuple(StudyRecord(path.stem, title, values) for title, values in tables.items()),
+            tuple(Comparison(**items) for items in data.get("comparisons", ())),
             data.get("failure", ""),
             data["versions"],
         )

@@ -12,7 +12,7 @@ from umform_book.case import Case
 from umform_book.checks import Check, Verdict
 from umform_book.markdown import folded, markdown_table
 from umform_book.outcome import CheckRecord
-from umform_book.page import Page
+from umform_book.page import Comparison, Page
 
 Judged = TypeVar("Judged", Check, CheckRecord)
 
@@ -36,6 +36,7 @@ def page_text(page: Page) -> str:
         "## Reference",
         case.reference.strip(),
         f"**Own reference:** {case.own}." if case.own else "",
+        *compared(page),
         *(["## Results", *page.blocks] if page.blocks else []),
         "## Checks",
         *_checks(page.checks),
@@ -47,6 +48,13 @@ def page_text(page: Page) -> str:
             folded("Balance of each run", balance_table(page.balances)),
         ]
     return "\n\n".join(part for part in parts if part) + "\n\n[All cases](README.md)\n"
+
+
+def compared(page: Page) -> list[str]:
+    """The numbers of a page beside their measurements."""
+    if not page.comparisons:
+        return []
+    return ["## Beside measurements", markdown_table(Comparison.COLUMNS, [one.row for one in page.comparisons])]
 
 
 def failed_text(case: Case, message: str) -> str:

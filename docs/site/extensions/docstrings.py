@@ -3,8 +3,14 @@
 from __future__ import annotations
 
 import re
+import sys
 
 from sphinx.application import Sphinx
+
+from umform.model.terms.term import Term
+
+#: Names that every term has; `state` is a method of terms, and one of models with another meaning.
+TERM = {name for name in vars(Term) if not name.startswith("_")} - {"name"}
 
 #: What shows a public name best.
 PICTURES = {
@@ -37,6 +43,14 @@ def process(app: Sphinx, what: str, name: str, thing: object, options: object, l
         lines += ["", f".. image:: /images/{file}", f"   :alt: {words}", ""]
 
 
+def skip_protocol(app: Sphinx, what: str, name: str, thing: object, skip: bool, options: object) -> bool | None:
+    """Leave what every term has to the page of `Term`: users of a contact or a tool do not call it."""
+    function = getattr(thing, "fget", None) or getattr(thing, "__func__", thing)
+    owner = getattr(function, "__qualname__", "").rpartition(".")[0]
+    kind = getattr(sys.modules.get(getattr(function, "__module__", "")), owner, None)
+    return True if name in TERM and isinstance(kind, type) and issubclass(kind, Term) and kind is not Term else None
+
+
 def short_aliases(
     app: Sphinx, what: str, name: str, thing: object, options: object, signature: str | None, result: str | None
 ) -> tuple[str | None, str | None]:
@@ -48,4 +62,5 @@ def setup(app: Sphinx) -> dict[str, bool]:
     """Register with Sphinx; after numpydoc, which reads the sections."""
     app.connect("autodoc-process-docstring", process, priority=900)
     app.connect("autodoc-process-signature", short_aliases)
+    app.connect("autodoc-skip-member", skip_protocol)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

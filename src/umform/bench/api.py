@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import io
 import json
 import re
 from collections.abc import Callable
@@ -17,7 +16,6 @@ from starlette.routing import Route
 
 from umform.bench.decks import checked_deck, known_templates, schema_text, template_text, title_of
 from umform.bench.folders import METAL, RESULTS, SCENE, SHAPE, TABLE
-from umform.bench.form import form_fields
 from umform.bench.index import Job
 from umform.bench.jobs import MOST_WAITING, Queue, result_file
 from umform.bench.library import library
@@ -25,14 +23,17 @@ from umform.bench.look import look
 from umform.bench.parts import PARTS, Parts
 from umform.bench.refusals import error_record, problems_of
 from umform.bench.strips import FILES as STRIP_FILES
+from umform.bench.tables import converted, style_of, table_of
+from umform.bench.verdicts import verdict
 from umform.bench.wanted import Wanted
 from umform.errors import InvalidValue, UmformError
 from umform.flat_pattern import FILES as FLAT_FILES
+from umform.io.tables import CSV_STYLES
 from umform.problem.results import FILES as DECK_FILES
 from umform.processes.air_bending.files import RESULTS as BEND_FILES
-from umform.results.quantity import Quantity, columns
+from umform.processes.draw.files import FILES as DRAW_FILES
 
-_FILES = frozenset({*BEND_FILES, *DECK_FILES, *STRIP_FILES, *FLAT_FILES, METAL, SHAPE})
+_FILES = frozenset({*BEND_FILES, *DECK_FILES, *STRIP_FILES, *FLAT_FILES, *DRAW_FILES, METAL, SHAPE})
 #: Names of the files of bend tables; most follow from the setups.
 _OF_TABLES = re.compile(r"bends\.(csv|json)|[A-Za-z0-9][A-Za-z0-9.-]{0,120}\.(FCStd|bnd|inventor\.txt|solidworks\.txt)")
 #: Reports contain programs. They are served without an origin, so that they cannot use this server.
@@ -144,8 +145,9 @@ class _Api:
         row = asdict(job)
         measures = job.summary.get("measures", {})
         live = self.queue.live(job.id) if job.state == "running" else {}
-        row["summary"] = {"measures": measures, "seconds": job.summary.get("seconds")}
-        row["summary"]["collides"] = bool(job.summary.get("collisions"))
+        press = job.summary.get("press")
+        row["summary"] = {"measures": measures, "seconds": job.summary.get("seconds"), "press": press}
+        row["summary"]["verdict"] = verdict(job.summary) if job.state == "done" else ""
         return row | {"fraction": live.get("fraction", 0.0), "phase": live.get("phase", "")}
 
     def _job_of(self, request: Request) -> Job:
@@ -180,6 +182,9 @@ class _Api:
         """A form that can be run, with the sizes of its drawn tools."""
         if wanted.choices.work == "flat":
             wanted.tooling(self.parts.row(wanted.values["part"])["thickness"])
+            return wanted
+        if wanted.is_drawn:
+            wanted.draw()
             return wanted
         return wanted.as_ordered(wanted.case(self.queue.shelf))
 
@@ -272,37 +277,26 @@ class _Api:
         if not path.is_file():
             raise InvalidValue("there is no such part", where="part", value=file[:80])
         kind = "inline" if path.suffix in _SHOWN else "attachment"
+        language = request.query_params.get("language", "")
+        if path.suffix == ".csv" and style_of(language) != CSV_STYLES["plain"]:
+            headers = {"content-disposition": f'attachment; filename="{path.name}"'}
+            return Response(converted(path, language), media_type="text/csv", headers=headers)
         headers = {"content-security-policy": _SANDBOX} if path.suffix in (".html", ".svg") else {}
         return FileResponse(path, filename=path.name, content_disposition_type=kind, headers=headers)
 
     def table(self, request: Request) -> Response:
-        """Some jobs as a table with all quantities."""
+        """Some jobs as a table with all quantities, for a spreadsheet in the language of the page."""
         names = request.query_params.get("ids", "")[:20000].split(",")[:500]
         jobs = [
             job
             for job in map(self.queue.index.job, names)
             if job is not None and job.summary.keys() & {"quantities", "measures"}
         ]
-        shown = [name for name in form_fields() if any(job.parameters.get(name) is not None for job in jobs)]
-        text = io.StringIO()
-        table = csv.writer(text)
-        rows = [
-            [Quantity.of(one) for kind in ("quantities", "checks") for one in job.summary.get(kind, ())] for job in jobs
-        ]
-        found = columns(rows, units=True)
-        table.writerow(["job", "title", *("wanted_angle" if name == "angle" else name for name in shown), *found])
-        for number, job in enumerate(jobs):
-            cells = [_cell(job.parameters.get(name)) for name in shown]
-            table.writerow([job.number, _cell(job.title), *cells, *(column[number] for column in found.values())])
+        language = request.query_params.get("language", "")
         headers = {"content-disposition": 'attachment; filename="bends.csv"'}
-        return Response(text.getvalue(), media_type="text/csv", headers=headers)
+        return Response(table_of(jobs, language), media_type="text/csv", headers=headers)
 
 
 def _is_known(name: str) -> bool:
     """Whether jobs write files of this name."""
     return name in _FILES or _OF_TABLES.fullmatch(name) is not None
-
-
-def _cell(value: Any) -> Any:
-    """A text that no spreadsheet takes for a formula."""
-    return f"'{value}" if isinstance(value, str) and value[:1] in "=+-@\t\r" else value

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+
+from umform.io.locks import try_lock
 
 #: Order, outcome, live data, 3D view and its present scene, lock, deck, folder of results.
 ORDER, OUTCOME, LIVE, SHAPE, SCENE, LOCK, DECK, RESULTS = (
@@ -32,9 +33,7 @@ NAME = re.compile(r"[0-9a-f]{12}")
 def locked(folder: Path) -> Iterator[bool]:
     """Lock a job while it runs; False if another process has locked it."""
     with (folder / LOCK).open("a") as lock:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
+        if not try_lock(lock):
             yield False
             return
         lock.truncate(0)
@@ -47,9 +46,8 @@ def is_locked(folder: Path) -> bool:
     """Whether a process holds the lock of a job."""
     try:
         with (folder / LOCK).open("r") as lock:
-            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
+            return not try_lock(lock, shared=True)
     except FileNotFoundError:
         return False
     except OSError:
         return True
-    return False

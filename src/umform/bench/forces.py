@@ -18,7 +18,7 @@ _BOTTOMING = (3.0, 5.0)
 
 @dataclass(frozen=True)
 class Force:
-    """The force of an operation in N/mm.
+    """The force of an operation in kN/m.
 
     Attributes
     ----------
@@ -54,7 +54,9 @@ def rule_forces(wanted: Wanted, case: AirBending) -> list[Force]:
     bend = Force("bend", low, high)
     if wanted.choices.work == "hem":
         hem = wanted.of(Hemming)
-        return [bend, Force("flatten", *flattening_forces(case, hem["gap"], insert=hem["insert"]))]
+        force = hem.get("force")
+        range_ = flattening_forces(case, hem["form"], hem.get("gap"), force)
+        return [bend, Force("flatten", *range_, "rule" if force is None else "given")]
     if wanted.choices.work != "bottom":
         return [bend]
     if wanted.goal.force_per_metre is not None:

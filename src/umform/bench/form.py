@@ -6,112 +6,67 @@ from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, field
 from functools import cache
 from types import MappingProxyType
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Any
 
-from annotated_types import Ge, Gt, Le
-
+from umform.bench.choices import Choices, FlatChoices, Measured, TableChoices
 from umform.processes.air_bending.goal import Goal
 from umform.processes.air_bending.spec import AirBending, SizeOf
 from umform.processes.bend_sequence import BendSequence
+from umform.processes.bend_sequence.outside import OutsidePart
+from umform.processes.draw.cup import ESAFORM, Cup
+from umform.processes.draw.u_bend import NUMISHEET, UBend
 from umform.processes.hemming import Hemming
-from umform.spec import About, Parameter, note_of, parameters
-from umform.spec.types import Degrees, Length, Positive, Stress
+from umform.processes.hemming.spec import FOLDED
+from umform.spec import Parameter, note_of, parameters
 
-#: Kinds of work: those in the tools, and those with a view of their own.
-WORKS = ("bend", "bottom", "sequence", "hem", "correct", "flat", "table")
-_IN_TOOLS = WORKS[:5]
+#: Kinds of work: those in the tools of a press brake, drawn parts, and those with a view of their own.
+_IN_TOOLS = ("bend", "bottom", "outside", "sequence", "hem", "correct")
+DRAWS: dict[str, type[Cup] | type[UBend]] = {"cup": Cup, "u": UBend}
+WORKS = (*_IN_TOOLS, *DRAWS, "flat", "table")
 #: Meshes by name: a quick look, the default of `umform bend`, and what docs/air-bending.md says is better.
 MESHES: dict[str, dict[str, Any]] = {
     "quick": {"layers": 1, "elements_per_thickness": 1.0, "increment": 0.02},
     "usual": {},
     "fine": {"layers": 4, "thickness_points": 5},
 }
+#: Meshes of hems by the same names: with longer elements a closed fold inverts.
+HEM_MESHES = {
+    name: FOLDED | mesh | ({"elements_per_thickness": 2.0} if "elements_per_thickness" in mesh else {})
+    for name, mesh in MESHES.items()
+}
 #: Longest bend, and longest strip of several bends or a hem, in mm: a longer one would take the memory of the server.
 LONGEST, LONGEST_STRIP = 20000.0, 4000.0
+#: K of the lengths that are shown before the bends are computed.
+ABOUT_K = 0.44
 #: Fields that stand first; those of these groups follow, the other groups are folded away.
-_FIRST = ("work", "part", "material", "metals", "thickness", "thicknesses", "opening", "openings", "angles", "length")
+_FIRST = (
+    *("work", "part", "material", "metals", "thickness", "thicknesses", "opening", "openings", "angles", "length"),
+    *("cup_thickness", "cup_blank", "cup_punch", "cup_opening", "cup_punch_edge", "cup_die_edge", "cup_holder_force"),
+    *("u_thickness", "u_length", "u_width", "u_punch_width", "u_opening", "u_punch_edge", "u_die_edge"),
+    *("u_holder_force", "u_friction", "cup_friction"),
+)
 _SHOWN = ("What to do", "Measured bend", "Part", "Hem", "Flat pattern", "Bend table")
 #: What the form contains at first, where the Spec has no default.
-_AT_FIRST = {"angle": 90.0, "strip_length": 80.0, "angles": [90.0, 105.0, 120.0, 135.0, 150.0]}
-_BENDS = ({"position": 20.0, "angle": 90.0}, {"position": 60.0, "angle": 90.0})
-#: Parameters that the chosen mesh determines where they are empty.
-BY_MESH = frozenset(name for mesh in MESHES.values() for name in mesh)
-
-
-@dataclass(frozen=True)
-class Choices:
-    """What the form asks besides the parameters of the processes."""
-
-    groups: ClassVar = {"work": "What to do", "die": "Tools", "yield_stress": "Sheet", "mesh": "Solution"}
-    """Group of the parameters from each of these on."""
-
-    work: Literal["bend", "bottom", "sequence", "hem", "correct", "flat", "table"] = "bend"
-    """Kind of work."""
-    material: str = "DC04"
-    """Material; a sheet metal of the library."""
-    length: Length = 1000.0
-    """Length of the bend, for the force in kN."""
-    die: str | None = None
-    """Die; by numbers, or from a drawing."""
-    punch: str | None = None
-    """Punch; by numbers, or from a drawing."""
-    yield_stress: Stress | None = None
-    """Yield stress Re or Rp0.2 of the coil; without it, that of the library."""
-    tensile_strength: Stress | None = None
-    """Tensile strength Rm of the coil; without it, that of the library."""
-    uniform_elongation: Annotated[float, Gt(0.0), Le(80.0), About("%", cause="another unit")] | None = None
-    """Uniform elongation Ag of the coil; without it, that of the library."""
-    mesh: Literal["quick", "usual", "fine"] = "usual"
-    """Mesh; it determines the parameters below that are empty."""
-    budget: bool = False
-    """Error budget; the bend is repeated with refinements."""
-    whole: bool = False
-    """Free ends; the whole length is modelled, in place of plane strain."""
-
-
-@dataclass(frozen=True)
-class Measured:
-    """What was measured of a bend, to correct its metal."""
-
-    groups: ClassVar = {"measured_angle": "Measured bend"}
-    """Group of the parameters from each of these on."""
-
-    measured_angle: Degrees | None = None
-    """Measured angle between the legs after springback."""
-    measured_force: Annotated[Positive, About("kN/m")] | None = None
-    """Measured force at the stroke; without it, only the flow stress is corrected."""
-    measured_radius: Length | None = None
-    """Measured inside radius."""
-    issue_again: str | None = None
-    """Bend table to issue again; a finished table of this metal."""
-
-
-@dataclass(frozen=True)
-class FlatChoices:
-    """What the form asks of a part that is unfolded."""
-
-    groups: ClassVar = {"part": "Flat pattern"}
-    """Group of the parameters from each of these on."""
-
-    part: str | None = None
-    """Part; a STEP file of one bent part."""
-    die_opening: Length | None = None
-    """Opening of the dies; without it, 8 to 12 thicknesses, by the radius of the drawing."""
-    k_factor: Annotated[float, Ge(0.0), Le(1.0), About(cause="the factor of DIN 6935, or percent")] | None = None
-    """K-factor of ANSI in place of computed bends; without it, bends are computed."""
-    simulated: bool = False
-    """Whether the whole part is bent by simulation."""
-
-
-@dataclass(frozen=True)
-class TableChoices:
-    """What the form asks of a bend table."""
-
-    groups: ClassVar = {"check": "Bend table"}
-    """Group of the parameters from each of these on."""
-
-    check: bool = False
-    """Whether the errors between the angles are measured by more runs."""
+_AT_FIRST: dict[str, Any] = {
+    "angle": 90.0,
+    "strip_length": 80.0,
+    "angles": [90.0, 105.0, 120.0, 135.0, 150.0],
+    "bends": [{"position": 20.0, "angle": 90.0}, {"position": 60.0, "angle": 90.0}],
+    "outside": {
+        "flanges": [22.0, 44.0, 22.0],
+        "bends": [{"line": line, "angle": 90.0, "direction": "up"} for line in (1, 2)],
+    },
+    **{f"u_{name}": value for name, value in NUMISHEET.items()},
+    **{f"cup_{Cup.diameters.get(name, name)}": (1 + (name in Cup.diameters)) * one for name, one in ESAFORM.items()},
+}
+#: Meshes of drawn parts by the same names.
+DRAW_MESHES: dict[str, dict[str, dict[str, Any]]] = {
+    work: {"quick": spec.meshes["coarse"], "usual": {}, "fine": spec.meshes["fine"]} for work, spec in DRAWS.items()
+}
+#: Fields that the chosen mesh determines where they are empty.
+BY_MESH = frozenset(name for mesh in MESHES.values() for name in mesh) | frozenset(
+    f"{work}_{name}" for work, meshes in DRAW_MESHES.items() for mesh in meshes.values() for name in mesh
+)
 
 
 @dataclass(frozen=True)
@@ -130,6 +85,8 @@ class FormField:
         Kinds of work that have it.
     many : bool
         Whether its value is a list of values of the parameter.
+    double : bool
+        Whether its value is twice the parameter: a diameter in place of a radius.
     """
 
     name: str
@@ -137,12 +94,13 @@ class FormField:
     group: str
     works: tuple[str, ...]
     many: bool = False
+    double: bool = False
 
     @property
     def kind(self) -> str:
-        """How the page asks for it: "bends", "select", "check" or "number"; of lists "words" or "numbers"."""
+        """How the page asks for it: "bends", "outside", "select", "check" or "number"; lists: "words" or "numbers"."""
         types = {kind.type for kind in self.parameter.kinds}
-        if self.name == "bends":
+        if self.name in _COMPOSED:
             return self.name
         if self.many:
             return "words" if types == {str} else "numbers"
@@ -162,8 +120,6 @@ class FormField:
     @property
     def default(self) -> Any:
         """What it contains at first, as JSON."""
-        if self.kind == "bends":
-            return [dict(bend) for bend in _BENDS]
         default = _AT_FIRST.get(self.name, self.parameter.default)
         if self.many and not isinstance(default, list):
             return [default]
@@ -178,11 +134,12 @@ class FormField:
         """What the page needs of it."""
         one, size = self.parameter, None if self.many else note_of(self.parameter.hint, SizeOf)
         numbers = [kind for kind in one.kinds if kind.type in (int, float)]
-        states, label = one.noun.startswith("whether "), one.noun.removeprefix("whether ")
+        states, label = one.noun.startswith("whether "), self._said(one.noun.removeprefix("whether "))
+        sentence = self._said(one.sentence)
         return {
             "name": self.name,
             "label": label if states else f"the {label}",
-            "help": one.sentence if one.sentence.rstrip(".").lower() != one.noun.lower() else "",
+            "help": sentence if one.sentence.rstrip(".").lower() != one.noun.lower() else "",
             "valid": one.must_be if numbers else "",
             "unit": {"degrees": "°"}.get(one.about.unit, one.about.unit),
             "group": self.group,
@@ -197,13 +154,18 @@ class FormField:
             "size": size.size if size else "",
         }
 
+    def _said(self, text: str) -> str:
+        """A text of the parameter, of a diameter if the field has one."""
+        return text.replace("radius", "diameter").replace("Radius", "Diameter") if self.double else text
+
 
 @dataclass(frozen=True)
 class _Source:
     """A Spec whose parameters the form has.
 
     ``works``: the kinds of work that have them; ``only``: those of single parameters; ``called``: other names in the
-    form; ``omit``: parameters that follow from the choices; ``many``: lists of the parameters of ``called``.
+    form; ``omit``: parameters that follow from the choices; ``many``: lists of the parameters of ``called``;
+    ``prefix``: before all names; ``double``: radii whose fields have diameters.
     """
 
     spec: type
@@ -212,8 +174,12 @@ class _Source:
     called: Mapping[str, str] = field(default_factory=dict)
     omit: tuple[str, ...] = ()
     many: bool = False
+    prefix: str = ""
+    double: tuple[str, ...] = ()
 
 
+#: Parameters of several numbers, for which the page has rows.
+_COMPOSED = ("bends", "outside")
 #: Parameters of which a bend table has lists.
 MANY = {
     "thickness": "thicknesses",
@@ -221,7 +187,8 @@ MANY = {
     "punch_radius": "punch_radii",
     "die_radius": "die_radii",
 }
-_ALONE, _NO_TABLE = ("bend", "bottom", "correct"), WORKS[:6]
+_ALONE, _BENT, _NO_TABLE = ("bend", "bottom", "correct"), (*_IN_TOOLS, "flat", "table"), (*_IN_TOOLS, "flat")
+_METAL = (*_NO_TABLE, *DRAWS)
 _SOURCES = (
     _Source(
         Choices,
@@ -229,13 +196,14 @@ _SOURCES = (
             "budget": ("bend", "bottom"),
             "whole": _ALONE,
             **dict.fromkeys(("length", "die", "punch"), _IN_TOOLS),
-            **dict.fromkeys(("material", "yield_stress", "tensile_strength", "uniform_elongation"), _NO_TABLE),
+            **dict.fromkeys(("material", "yield_stress", "tensile_strength", "uniform_elongation"), _METAL),
         },
     ),
     _Source(Choices, ("table",), called={"material": "metals"}, many=True),
     _Source(Goal, ("bend", "correct"), only={"force_per_metre": ("bottom",), "travel": ("bottom",)}),
     _Source(
         AirBending,
+        _BENT,
         only={
             "stroke": ("bend", "correct"),
             "width_elements": _ALONE,
@@ -250,7 +218,17 @@ _SOURCES = (
     _Source(FlatChoices, ("flat",)),
     _Source(TableChoices, ("table",)),
     _Source(BendSequence, ("sequence",), called={"length": "strip_length"}),
+    _Source(OutsidePart, ("outside",), called={"bends": "outside"}, omit=("flanges",)),
     _Source(Hemming, ("hem",), called={"angle": "first_angle"}),
+    _Source(
+        Cup,
+        ("cup",),
+        called=Cup.diameters,
+        omit=("element",),
+        prefix="cup_",
+        double=tuple(Cup.diameters),
+    ),
+    _Source(UBend, ("u",), omit=("element",), prefix="u_"),
 )
 
 
@@ -273,8 +251,8 @@ def _of(source: _Source) -> list[FormField]:
         plain = all(kind.choices or kind.type in (int, float, bool, str) for kind in one.kinds)
         if key in source.omit or not (plain or key == "bends") or (source.many and key not in source.called):
             continue
-        name = source.called.get(key, key)
+        name = source.prefix + source.called.get(key, key)
         shown = group in _SHOWN or name in _FIRST
         works = source.only.get(key, source.works)
-        found.append(FormField(name, one, "" if shown else group, works, source.many))
+        found.append(FormField(name, one, "" if shown else group, works, source.many, key in source.double))
     return found

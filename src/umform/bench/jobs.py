@@ -33,6 +33,8 @@ MOST_WAITING, LONGEST_DECK, MOST_STARTS = 200, 400_000, 3
 USUAL_DISK = 10e9
 #: Seconds between two checks of the processes, and until a process that was asked to stop is killed.
 _POLL, _GRACE = 0.05, 10.0
+#: The signal that ends a process at once; Windows knows no other one.
+_KILL = getattr(signal, "SIGKILL", signal.SIGTERM)
 
 
 class Queue:
@@ -92,7 +94,7 @@ class Queue:
             while any(self._is_alive(name) for name in self._running) and time.monotonic() < until:
                 time.sleep(_POLL)
             for name in self._running:
-                self._signal(name, signal.SIGKILL)
+                self._signal(name, _KILL)
                 process = self._running[name]
                 if process is not None:
                     with suppress(subprocess.TimeoutExpired):
@@ -228,7 +230,7 @@ class Queue:
         for name in list(self._running):
             if self._is_alive(name):
                 if time.monotonic() > self._deadlines.get(name, float("inf")):
-                    self._signal(name, signal.SIGKILL)
+                    self._signal(name, _KILL)
                 continue
             del self._running[name]
             asked = self._deadlines.pop(name, None) is not None
@@ -264,15 +266,18 @@ class Queue:
     def _signal(self, name: str, number: signal.Signals) -> None:
         """Send a signal to the process of a job if it runs; the lock has the number of a process of an earlier server.
 
-        SIGKILL goes to its whole group; on SIGTERM the job ends its children itself.
+        SIGKILL goes to its whole group; on SIGTERM the job ends its children itself. On Windows both end the job at
+        once, and its children end with it.
         """
         process = self._running[name]
         with suppress(OSError, ValueError):
             if not self._is_alive(name):
                 return
             pid = process.pid if process is not None else int((self.folder_of(name) / LOCK).read_text())
-            of_group = number == signal.SIGKILL and os.getpgid(pid) == pid
-            (os.killpg if of_group else os.kill)(pid, number)
+            if number == _KILL and hasattr(os, "killpg") and os.getpgid(pid) == pid:
+                os.killpg(pid, number)
+            else:
+                os.kill(pid, number)
 
     def _store_outcome(self, job: Job, *, keep_waiting: bool = False) -> bool:
         """Store the outcome of a job if there is one; ``keep_waiting``: a stopped job is resumed later."""

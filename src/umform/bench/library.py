@@ -2,30 +2,31 @@
 
 from __future__ import annotations
 
-import tomllib
 from functools import cache
-from importlib.resources import files
 from typing import Any
 
 from umform import sheet_metals
-from umform.bench.form import MESHES, form_fields
+from umform.bench.form import DRAW_MESHES, DRAWS, MESHES, form_fields
 from umform.bench.wanted import Wanted
 from umform.errors import UmformError
 from umform.processes.air_bending.spec import AirBending, sizes_of
+from umform.processes.air_bending.usual_tools import usual_tools
 from umform.processes.hemming.spec import ACUTE, scaled
 
 #: What the default mesh has where others differ.
 _USUAL_MESH = {name: getattr(AirBending, name) for mesh in MESHES.values() for name in mesh}
 #: Sizes of the tools of a bend.
 _USUAL_SIZES = {name: getattr(AirBending, name) for name in ACUTE}
+#: Usual opening over the thickness.
+RATIO = 8.0
 #: Degrees between the wanted angle and that of the tools which leave room for springback.
 ROOM = 4.0
 
 
 @cache
-def tools() -> dict[str, Any]:
-    """Dies, angles of dies, and punches."""
-    return tomllib.loads(files("umform.bench").joinpath("tools.toml").read_text(encoding="utf-8"))
+def tools() -> dict[str, list[dict[str, Any]]]:
+    """Usual dies and punches: their names, and their sizes by the names of the fields."""
+    return {kind: [{"name": one.name, "sizes": one.sizes} for one in usual_tools(kind)] for kind in ("die", "punch")}
 
 
 @cache
@@ -35,6 +36,7 @@ def library() -> dict[str, Any]:
         {
             "name": metal.name,
             "number": metal.number,
+            "aliases": list(metal.aliases),
             "yield_stress": metal.yield_stress,
             "tensile_strength": metal.tensile_strength,
             "uniform_elongation": round(100.0 * metal.uniform_elongation, 1),
@@ -50,21 +52,26 @@ def library() -> dict[str, Any]:
     return {
         "metals": metals,
         "tools": tools(),
-        "meshes": {name: _USUAL_MESH | mesh for name, mesh in MESHES.items()},
+        "meshes": {name: _USUAL_MESH | mesh | _of_draws(name) for name, mesh in MESHES.items()},
         "fields": [{**one.record(), "usual": _usual_sizes(one.name)} for one in form_fields().values()],
         "proportions": {"hem": ACUTE, "": scaled(_USUAL_SIZES, 1.0 / AirBending.thickness)},
     }
 
 
+def _of_draws(mesh: str) -> dict[str, Any]:
+    """What a mesh has for drawn parts, by the names of the fields."""
+    found: dict[str, Any] = {}
+    for work, meshes in DRAW_MESHES.items():
+        names = {name for one in meshes.values() for name in one}
+        usual = {name: getattr(DRAWS[work], name) for name in names}
+        found |= {f"{work}_{name}": value for name, value in (usual | meshes[mesh]).items()}
+    return found
+
+
 def _usual_sizes(name: str) -> list[float]:
     """Sizes of the tools of the library that a field may have."""
-    known = tools()
-    offered = {
-        sizes_of("die")["opening"]: [die["opening"] for die in known["dies"]],
-        sizes_of("die")["angle"]: known["die_angles"],
-        **{sizes_of("punch")[size]: [punch[size] for punch in known["punches"]] for size in ("angle", "radius")},
-    }
-    return list(dict.fromkeys(offered.get(name, [])))
+    known = {one["sizes"][name] for kind in tools().values() for one in kind if name in one["sizes"]}
+    return sorted(known)
 
 
 def _thicker(name: str, limit: float) -> dict[str, float]:
@@ -79,7 +86,7 @@ def _thicker(name: str, limit: float) -> dict[str, float]:
 
 
 def tools_for(wanted: Wanted) -> dict[str, float | None] | None:
-    """Die and punch of the library that reach the wanted angle.
+    """Die and punch of the library that reach the wanted angle; the opening stays, if it has such a die.
 
     Returns
     -------
@@ -89,16 +96,26 @@ def tools_for(wanted: Wanted) -> dict[str, float | None] | None:
     wished = wanted.goal.angle
     if wished is None:
         return None
-    most = wished - ROOM
-    angles = [angle for angle in tools()["die_angles"] if angle <= most] or tools()["die_angles"][-1:]
-    punches = [punch for punch in tools()["punches"] if punch["angle"] <= most] or tools()["punches"][-1:]
-    for angle in angles:
-        for punch in sorted(punches, key=lambda one: -float(one["angle"])):
-            sizes = {sizes_of("punch")[size]: float(value) for size, value in punch.items()}
-            change = {sizes_of("die")["angle"]: float(angle), **sizes, "punch": None, "die": None}
+    names, tip, radius = sizes_of("die"), sizes_of("punch")["angle"], sizes_of("punch")["radius"]
+    opening, thickness = float(wanted.values["opening"]), float(wanted.values["thickness"])
+    dies = [one["sizes"] for one in tools()["die"] if one["sizes"][names["angle"]] <= wished - ROOM]
+    if opening not in {die[names["opening"]] for die in dies}:  # any opening may be typed
+        dies += [{**die, names["opening"]: opening} for die in _nearest(dies, opening)]
+    punches = [one["sizes"] for one in tools()["punch"] if one["sizes"][tip] <= wished - ROOM]
+    dies = [die for of in (opening, RATIO * thickness) for die in _nearest(dies, of)]
+    for die in sorted(dies, key=lambda one: (abs(one[names["opening"]] - opening), -one[names["angle"]])):
+        for punch in sorted(punches, key=lambda one: (-one[tip], abs(one[radius] - thickness))):
+            change = {**die, **punch, "punch": None, "die": None}
             try:
                 wanted.changed(change).case()
             except UmformError:
                 continue
-            return change
+            return {name: value for name, value in change.items() if wanted.values.get(name) != value}
     return None
+
+
+def _nearest(dies: list[dict[str, float]], opening: float) -> list[dict[str, float]]:
+    """The dies whose opening is nearest to one."""
+    name = sizes_of("die")["opening"]
+    nearest = min((abs(die[name] - opening) for die in dies), default=0.0)
+    return [die for die in dies if abs(die[name] - opening) == nearest]

@@ -23,9 +23,11 @@ class DiskFull(UmformError):
 
 
 def limit_memory() -> None:
-    """Limit the memory of this process: a mesh that needs more raises an error."""
-    import resource
-
+    """Limit the memory of this process: a mesh that needs more raises an error. Windows has no such limit."""
+    try:
+        import resource
+    except ModuleNotFoundError:
+        return
     with suppress(ValueError, OSError):
         most = int(_MEMORY * os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
         resource.setrlimit(resource.RLIMIT_AS, (most, resource.getrlimit(resource.RLIMIT_AS)[1]))

@@ -9,11 +9,17 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from umform.analysis.steps import Release
 from umform.bench.folders import LIVE
 from umform.processes.air_bending.brake import force_per_width
 from umform.processes.air_bending.branches import Brake
 from umform.processes.air_bending.section import Section
+from umform.report.looks import UNKNOWN, Units
+from umform.report.words import column_text
+from umform.results.quantity import FORCE_PER_LENGTH
 
 if TYPE_CHECKING:
     from umform.analysis.steps.loop import Run
@@ -47,10 +53,22 @@ class Watch:
         For the page of the shape.
     progress : callable
         Returns the data of the process, with ``fraction`` and ``phase``.
+    units : Units
+        Names of the units, for the page of the shape.
+    force : callable, optional
+        Returns the force per length of a bend, which the page of the shape shows.
     """
 
-    def __init__(self, folder: Path, title: str, progress: Callable[[Run], dict[str, Any]]) -> None:
-        self.folder, self.title, self.progress = folder, title, progress
+    def __init__(
+        self,
+        folder: Path,
+        title: str,
+        progress: Callable[[Run], dict[str, Any]],
+        *,
+        units: Units = UNKNOWN,
+        force: Callable[[History], NDArray[np.float64]] | None = None,
+    ) -> None:
+        self.folder, self.title, self.progress, self.units, self.force = folder, title, progress, units, force
         self.content: dict[str, Any] = {"fraction": 0.0, "phase": "start", "increments": 0, "shape": 0}
         self._start = time.monotonic()
         self._next, self._next_shape = 0.0, self._start + _FIRST_SHAPE
@@ -85,7 +103,8 @@ class Watch:
         """Write the 3D view."""
         from umform.bench.shape import write_shape  # slow: it loads the report and its pictures
 
-        write_shape(self.folder, result, self.title)
+        more = {} if self.force is None else {f"force {FORCE_PER_LENGTH}": self.force(result)}
+        write_shape(self.folder, result, self.title, units=self.units, more=more)
         self.content["shape"] += 1
         self.write()
 
@@ -115,7 +134,7 @@ class BendProgress:
         self._trials += back and not self._back
         self._back = back
         stroke = result["stroke"]
-        force = force_per_width(brake.case, result["stroke_force"])
+        force = self.force(result)
         thin = max(1, -(-len(stroke) // _MOST))
         return {
             "phase": "unloading" if back else "loading",
@@ -127,6 +146,10 @@ class BendProgress:
             "curve": {"x": stroke[::thin].round(4).tolist(), "y": force[::thin].round(3).tolist()},
             "section": [section.fibre(height).round(4).tolist() for height in (0.0, 1.0)],
         }
+
+    def force(self, result: History) -> NDArray[np.float64]:
+        """Force per length of bend."""
+        return force_per_width(self.brake.case, result["stroke_force"])
 
     def _fraction(self, stroke: float, angle: float) -> float:
         if self._trials:
@@ -151,5 +174,9 @@ class DeckProgress:
             name = run.model.controls[0].name
             x, y = result[name], result[f"{name}_force"]
             thin = max(1, -(-len(x) // _MOST))
-            content["curve"] = {"x": x[::thin].tolist(), "y": y[::thin].tolist(), "names": [name, f"{name}_force"]}
+            content["curve"] = {
+                "x": x[::thin].tolist(),
+                "y": y[::thin].tolist(),
+                "names": [column_text(name), column_text(f"{name}_force")],
+            }
         return content

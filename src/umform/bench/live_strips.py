@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from umform.processes.bend_sequence import BendSequence
 from umform.processes.bend_sequence.sides import Strip
@@ -12,6 +13,7 @@ from umform.processes.bend_sequence.sides import Strip
 if TYPE_CHECKING:
     from umform.analysis.steps.loop import Run
     from umform.model import Model
+    from umform.results.history import History
 
 #: Largest number of points of a curve, and of one face of an outline.
 _MOST = 300
@@ -45,7 +47,7 @@ class StripProgress:
         if number < len(bends):
             strip = strip.at(bends[number].position, over=bends[number].over)
         stroke = run.result["stroke"]
-        force = run.result["stroke_force"] / self.sequence.sheet.thickness
+        force = self.force(run.result)
         thin = max(1, -(-len(stroke) // _MOST))
         back = len(stroke) > 1 and bool(stroke[-1] < stroke[-2])
         return {
@@ -59,6 +61,10 @@ class StripProgress:
             "curve": {"x": stroke[::thin].round(4).tolist(), "y": force[::thin].round(3).tolist()},
             "outline": _outline(strip),
         }
+
+    def force(self, result: History) -> NDArray[np.float64]:
+        """Force per length of bend: the strip is as wide as it is thick."""
+        return result["stroke_force"] / self.sequence.sheet.thickness
 
     def _part(self, number: int, stroke: float, back: bool) -> float:
         """Approximate progress of an operation."""

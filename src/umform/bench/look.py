@@ -7,12 +7,14 @@ from typing import Any
 
 import numpy as np
 
+from umform.bench.draws import facts, follow, sketch
 from umform.bench.forces import largest, rule_forces
 from umform.bench.library import ROOM, tools_for
 from umform.bench.parts import Parts
 from umform.bench.refusals import problems_of
 from umform.bench.shelf import Shelf
-from umform.bench.wanted import Mistakes, Wanted
+from umform.bench.values import Mistakes
+from umform.bench.wanted import Wanted
 from umform.errors import UmformError
 from umform.processes.air_bending.formulas import INNER_RADIUS, shop_forces, strength
 from umform.processes.air_bending.spec import AirBending
@@ -49,6 +51,8 @@ def look(values: object, shelf: Shelf | None = None, parts: Parts | None = None)
     try:
         if wanted.choices.work == "flat":
             return _look_at_part(wanted, parts)
+        if wanted.is_drawn:
+            return _look_at_draw(wanted)
         case = wanted.case() if wanted.choices.work == "table" else wanted.at_tools(shelf)
     except UmformError as error:
         return {"problems": problems_of(error), "warnings": [], "change": tools_for(wanted)}
@@ -56,6 +60,7 @@ def look(values: object, shelf: Shelf | None = None, parts: Parts | None = None)
         "problems": [],
         "warnings": _warnings(wanted, case),
         "drawing": drawing(case, bodies=wanted.of_strip),
+        "follow": {},
     }
     if wanted.choices.work == "table":
         middle = wanted.values["angles"][len(wanted.values["angles"]) // 2]
@@ -72,6 +77,12 @@ def look(values: object, shelf: Shelf | None = None, parts: Parts | None = None)
     except UmformError as error:
         found |= {"problems": problems_of(error), "change": tools_for(wanted)}
     else:
+        if wanted.choices.work == "outside":
+            developed = _developed(wanted, case)
+            found |= {"expected": found["expected"] | {"flat": developed["flat"]}, "shown": developed["shown"]}
+        if wanted.choices.work == "hem":
+            hem = wanted.hem(case)
+            found["follow"] = {"gap": hem.gap, "elements_per_thickness": case.elements_per_thickness}
         found["change"] = tools_for(wanted) if any(row["kind"] == "close" for row in found["warnings"]) else None
     return found
 
@@ -81,6 +92,26 @@ def _look_at_part(wanted: Wanted, parts: Parts | None) -> dict[str, Any]:
     row = (parts or Parts(Path())).row(wanted.values["part"])
     wanted.tooling(row["thickness"])
     return {"problems": [], "warnings": [], "part": row}
+
+
+def _look_at_draw(wanted: Wanted) -> dict[str, Any]:
+    """Tools and blank of a drawn part, its ratios, and what is unusual."""
+    case = wanted.draw()
+    warnings = [{"where": "work", "kind": "said", "what": text, "bounds": {}} for text in case.warnings]
+    found = {"problems": [], "warnings": warnings, "drawing": sketch(case), "follow": follow(case)}
+    return found | {"expected": {"draw": facts(case)}}
+
+
+def _developed(wanted: Wanted, case: AirBending) -> dict[str, Any]:
+    """Flat length and bend lines of outside dimensions, and what the drawing needs of them."""
+    found = wanted.developed_at_once(case)
+    sequence = found.sequence(case)
+    bends = [{"position": one.position, "angle": one.angle, "direction": one.direction} for one in sequence.bends]
+    computed = all(one.source.startswith("computed") for one in found.deductions)
+    return {
+        "flat": {"length": found.length, "lines": sorted(found.positions), "computed": computed},
+        "shown": {"strip_length": found.length, "bends": bends, "flanges": list(found.part.flanges)},
+    }
 
 
 def drawing(case: AirBending, *, bodies: bool = False) -> dict[str, Any]:
@@ -124,7 +155,7 @@ def _expected(wanted: Wanted, case: AirBending) -> dict[str, Any]:
 
 def _collisions(wanted: Wanted, case: AirBending) -> list[dict[str, Any]]:
     """Expected collisions of several bends; only the run decides."""
-    if wanted.choices.work != "sequence":
+    if wanted.choices.work not in ("outside", "sequence"):
         return []
     try:
         sequence = wanted.sequence(case)

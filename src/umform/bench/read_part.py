@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from umform.bench.form import ABOUT_K
 from umform.bench.limits import limit_memory
 from umform.bench.refusals import error_record
 from umform.errors import UmformError
@@ -19,15 +20,12 @@ from umform.flat_pattern.pattern import pattern_of
 from umform.report.solid_page import write_solid
 from umform.surfaces.cad.read_solid import read_solid
 
-#: K of the lengths that are shown before the bends are computed.
-_K = 0.44
-
 
 def read(path: Path, view: Path) -> dict[str, Any]:
     """Unit, thickness and bends of a part, its approximate flat size, or the error that says why it does not unfold."""
     try:
         write_solid(view, read_solid(path), path.name)
-        pattern = pattern_of(path, KFactor(_K))
+        pattern = pattern_of(path, KFactor(ABOUT_K))
     except UmformError as error:
         record = error_record(error)
         return {"problem": record | {"where": "part", "value": record["value"].replace(f"{path.parent}/", "")}}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
 import re
 import secrets
@@ -25,6 +24,7 @@ from umform.bench.guard import Guard
 from umform.bench.jobs import Queue
 from umform.bench.library import library
 from umform.errors import FileProblem, InvalidValue
+from umform.io.locks import try_lock
 
 HOST = "127.0.0.1"
 _KINDS = {
@@ -105,15 +105,13 @@ def locked(folder: Path) -> Iterator[None]:
             "the folder of the bench cannot be created", where=str(folder), cause=error.strerror or str(error)
         ) from error
     with lock:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError as error:
+        if not try_lock(lock):
             raise FileProblem(
                 "another bench uses this folder",
                 where=str(folder),
                 cause="it runs in another terminal",
                 remedy="open the link that it printed, or choose another folder with --folder",
-            ) from error
+            )
         yield
 
 
@@ -122,7 +120,7 @@ def token_of(folder: Path) -> str:
     path = folder / "token"
     with suppress(OSError, ValueError):
         known = path.read_text(encoding="ascii").strip()
-        if _TOKEN.fullmatch(known) and path.stat().st_mode & 0o077 == 0:
+        if _TOKEN.fullmatch(known) and (os.name != "posix" or path.stat().st_mode & 0o077 == 0):
             return known
     token = secrets.token_urlsafe(24)
     _write_private(path, token)
@@ -145,7 +143,8 @@ def listening(port: int) -> socket.socket:
         If the port is taken.
     """
     listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
-    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    if os.name == "posix":  # elsewhere it lets two servers have one port
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         listener.bind((HOST, port))
         listener.listen()  # at once, so that no other server takes the port
@@ -196,9 +195,11 @@ def serve(folder: Path, port: int, at_once: int, disk: float, opened: Callable[[
 
 
 def _raise_file_limit() -> None:
-    """Raise the limit of open files for many requests at once."""
-    import resource
-
+    """Raise the limit of open files for many requests at once; Windows has none."""
+    try:
+        import resource
+    except ModuleNotFoundError:
+        return
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     with suppress(ValueError, OSError):
         resource.setrlimit(resource.RLIMIT_NOFILE, (max(soft, min(hard, _MOST_FILES)), hard))

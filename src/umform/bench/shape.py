@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,9 +12,13 @@ from typing import TYPE_CHECKING
 from umform.bench.folders import SCENE, SHAPE
 from umform.report import parts
 from umform.report.live import Live, style
+from umform.report.looks import UNKNOWN, Units
 from umform.report.scene import scene_of
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from umform.results.history import History
 
 #: In a frame of another page: without title, margins and table.
@@ -25,7 +30,14 @@ header, footer, .history { display: none; }
 """
 
 
-def write_shape(folder: Path, result: History, title: str) -> None:
+def write_shape(
+    folder: Path,
+    result: History,
+    title: str,
+    *,
+    units: Units = UNKNOWN,
+    more: Mapping[str, NDArray[np.float64]] | None = None,
+) -> None:
     """Write the page if there is none, and the scene that updates it.
 
     Parameters
@@ -36,23 +48,31 @@ def write_shape(folder: Path, result: History, title: str) -> None:
         The result so far.
     title : str
         Of the page.
+    units : Units
+        Names of the units.
+    more : mapping of str to ndarray, optional
+        Further columns of the history, the first of which is shown over the stroke at first.
     """
     path = folder / SHAPE
     if not path.exists():
-        live = Live.of(result, stills=False)
+        first = ("stroke", next(iter(more))) if more else None
+        live = Live.of(result, stills=False, units=units, more=more, first=first)
         table = f'<div class="history">{live.table}</div>'
         content = [live.shape, *map(parts.note, live.notes), live.curves, table]
         listen = files("umform.bench").joinpath("page", "scene_updates.js").read_text(encoding="utf-8")
         scripts = f'{live.scripts}\n<script type="module">{listen}</script>'
         parts.write_html(path, title, "", content, style=style() + _STYLE, scripts=scripts)
     waiting = folder / f".{SCENE}"
-    waiting.write_text(json.dumps({"scene": scene_of(result).data, "table": _table(result)}), encoding="utf-8")
+    waiting.write_text(
+        json.dumps({"scene": scene_of(result, units).data, "table": _table(result, more or {})}), encoding="utf-8"
+    )
     waiting.replace(folder / SCENE)
 
 
-def _table(result: History) -> dict[str, object]:
+def _table(result: History, more: Mapping[str, NDArray[np.float64]]) -> dict[str, object]:
     """The history by columns; None for what is no number."""
     columns = {
-        name: [float(x) if math.isfinite(x) else None for x in column] for name, column in result.table().items()
+        name: [float(x) if math.isfinite(x) else None for x in column]
+        for name, column in {**result.table(), **more}.items()
     }
     return {"names": list(columns), "columns": columns, "length": len(result)}

@@ -8,15 +8,17 @@ from typing import Any
 from umform.analysis.run.watching import watching
 from umform.bench.folders import RESULTS
 from umform.bench.forces import computed_forces, largest
-from umform.bench.live import Watch
+from umform.bench.live import Watch, write_live
 from umform.bench.live_strips import StripProgress
 from umform.bench.wanted import Wanted
 from umform.io.staging import staging
+from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.spec import AirBending
-from umform.processes.bend_sequence import Part, bend_sequence
+from umform.processes.bend_sequence import BendSequence, Part, bend_sequence
 from umform.processes.bend_sequence import files as part_files
 from umform.processes.hemming import Hem, Hemming, hemming
 from umform.processes.hemming import files as hem_files
+from umform.report.looks import MILLIMETRES
 
 #: Files of such jobs.
 FILES = (*part_files.FILES, *hem_files.FILES)
@@ -59,9 +61,14 @@ def run_strip(folder: Path, title: str, wanted: Wanted, sheet: AirBending, note:
     dict
         The summary of the page.
     """
-    case = wanted.strip(sheet)
+    if wanted.choices.work == "outside":
+        write_live(folder, {"phase": "bends", "fraction": 0.02, "increments": 0, "shape": 0})
+        case: BendSequence | Hemming = wanted.developed(sheet).sequence(sheet)
+    else:
+        case = wanted.strip(sheet)
     hems = isinstance(case, Hemming)
-    watch = Watch(folder, title, StripProgress(case.first if isinstance(case, Hemming) else case, hem=hems))
+    progress = StripProgress(case.first if isinstance(case, Hemming) else case, hem=hems)
+    watch = Watch(folder, title, progress, units=MILLIMETRES, force=progress.force)
     results = folder / RESULTS
     with staging(results, hem_files.FILES if hems else part_files.FILES), watching(watch):
         done = hemming(case, progress=False) if isinstance(case, Hemming) else bend_sequence(case, progress=False)
@@ -77,7 +84,9 @@ def run_strip(folder: Path, title: str, wanted: Wanted, sheet: AirBending, note:
     if isinstance(done, Hem):
         forces["flatten"] = done.measures.largest_force
     needed = largest(computed_forces(wanted, sheet, forces)).over(wanted.choices.length)
-    return (_of_hem(done) if isinstance(done, Hem) else _of_part(done)) | {"press": needed}
+    if isinstance(done, Hem):
+        return _of_hem(done) | {"press": needed}
+    return _of_part(done) | {"press": needed, "shop_forces": list(shop_forces(sheet))}
 
 
 def _of_part(part: Part) -> dict[str, Any]:

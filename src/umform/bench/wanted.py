@@ -3,49 +3,36 @@
 from __future__ import annotations
 
 import math
-import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from umform.bench.form import MANY, MESHES, WORKS, Choices, FormField, Measured, form_fields
+from umform.bench.choices import Choices, Measured
+from umform.bench.form import ABOUT_K, BY_MESH, DRAW_MESHES, DRAWS, HEM_MESHES, MANY, MESHES, WORKS, form_fields
 from umform.bench.shelf import KINDS, Shelf
+from umform.bench.titles import title_of
+from umform.bench.values import Mistakes, unfit, unknown, value_of
 from umform.errors import InvalidValue
+from umform.io.store import Store
 from umform.materials import J2, Metal
 from umform.processes.air_bending.bottoming import with_travel
 from umform.processes.air_bending.goal import Goal, check_angle
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence import Bend, BendSequence
+from umform.processes.bend_sequence.outside import OutsideBend, OutsidePart
+from umform.processes.draw.cup import Cup
+from umform.processes.draw.u_bend import UBend
 from umform.processes.hemming import Hemming
-from umform.spec import check_value, parameters
 
 if TYPE_CHECKING:
     from umform.flat_pattern import Tooling
+    from umform.flat_pattern.developed import Developed
     from umform.studies.bend_table import Setup
 
-#: Largest number of bends of a part on the page, of entries of a list, and of bends of a table.
-_MOST_BENDS, _MOST_LISTED, _MOST_OF_TABLE = 20, 40, 1000
-
-
-#: Most letters of the title of a bend table.
-_LONGEST_TITLE = 120
-
-
-class Mistakes(InvalidValue):
-    """A form with invalid fields.
-
-    Attributes
-    ----------
-    errors : list of InvalidValue
-        One for each; ``where`` is the name of the field, or such as "bend 2, position".
-    """
-
-    def __init__(self, errors: list[InvalidValue]) -> None:
-        first = errors[0]
-        super().__init__(first.what, where=first.where, value=first.value, cause=first.cause, remedy=first.remedy)
-        self.errors = errors
+#: Most bends of a table.
+_MOST_OF_TABLE = 1000
 
 
 @dataclass(frozen=True)
@@ -72,19 +59,19 @@ class Wanted:
         if not isinstance(form, Mapping):
             raise Mistakes([InvalidValue("a form is an object with fields", where="form", value=form)])
         known = form_fields()
-        errors = [_unknown(name) for name in form if name not in known]
+        errors = [unknown(name) for name in form if name not in known]
         work = form.get("work", known["work"].default)
         values: dict[str, Any] = {}
         for name, one in known.items():
             if work in one.works or work not in WORKS:
                 try:
-                    values[name] = _value(one, form.get(name, one.default))
+                    values[name] = value_of(one, form.get(name, one.default))
                 except Mistakes as mistakes:
                     errors += mistakes.errors
                 except InvalidValue as error:
                     error.where = name
                     errors.append(error)
-        errors = errors or list(_unfit(values))
+        errors = errors or list(unfit(values))
         if errors:
             raise Mistakes(errors)
         follow = {name: known[name].times for name, value in values.items() if value is None}
@@ -123,11 +110,16 @@ class Wanted:
         from umform.sheet_metals import get, of_certificate
 
         own = self.choices
+        thickness = self.values.get(f"{own.work}_thickness", thickness)
         if own.yield_stress is None or own.tensile_strength is None:
             metal = get(own.material, self.values.get("thickness", thickness))
         else:
             elongation = None if own.uniform_elongation is None else 0.01 * own.uniform_elongation
-            metal = of_certificate(own.material, own.yield_stress, own.tensile_strength, elongation)
+            try:
+                metal = of_certificate(own.material, own.yield_stress, own.tensile_strength, elongation)
+            except InvalidValue as error:
+                error.where = error.where or "tensile_strength"
+                raise
         return metal.law, metal.note
 
     def case(self, shelf: Shelf | None = None) -> AirBending:
@@ -159,7 +151,8 @@ class Wanted:
             for kind, name in self.drawn.items()
             if name is not None
         }
-        given = MESHES[self.choices.mesh] | self.of(AirBending) | drawn
+        meshes = HEM_MESHES if self.choices.work == "hem" else MESHES
+        given = meshes[self.choices.mesh] | self.of(AirBending) | drawn
         case = AirBending(
             **given,
             width=self.choices.length if self.choices.whole else None,
@@ -224,16 +217,68 @@ class Wanted:
     @property
     def of_strip(self) -> bool:
         """Whether a whole strip is modelled, in place of half of a bend."""
-        return self.choices.work in ("sequence", "hem")
+        return self.choices.work in ("outside", "sequence", "hem")
 
     def strip(self, sheet: AirBending) -> BendSequence | Hemming:
         """The bends of a part, or the hem."""
         return self.hem(sheet) if self.choices.work == "hem" else self.sequence(sheet)
 
     def sequence(self, sheet: AirBending) -> BendSequence:
-        """The bends in one part."""
+        """The bends in one part; of outside dimensions, at the bend lines that are known without a run."""
+        if self.choices.work == "outside":
+            return self.developed_at_once(sheet).sequence(sheet)
         given = self.of(BendSequence)
         return BendSequence(**given | {"bends": tuple(Bend(**row) for row in given["bends"])}, sheet=sheet)
+
+    @property
+    def outside(self) -> OutsidePart:
+        """The part by its outside dimensions."""
+        given = self.values["outside"]
+        bends = tuple(OutsideBend(**row) for row in given["bends"])
+        return OutsidePart(tuple(given["flanges"]), bends, self.values["acute"])
+
+    def developed_at_once(self, sheet: AirBending) -> Developed:
+        """Flat length and bend lines of outside dimensions without a run: from stored bends, or by a K-factor."""
+        from umform.flat_pattern import KFactor
+        from umform.flat_pattern.developed import developed_at_once
+
+        return developed_at_once(self.outside, sheet, KFactor(ABOUT_K), Store())
+
+    def developed(self, sheet: AirBending) -> Developed:
+        """The same from computed bends; those that are not stored are run."""
+        from umform.flat_pattern.developed import developed
+
+        return developed(self.outside, sheet)
+
+    @property
+    def is_drawn(self) -> bool:
+        """Whether a part is drawn."""
+        return self.choices.work in DRAWS
+
+    def draw(self) -> Cup | UBend:
+        """The part that is drawn.
+
+        Raises
+        ------
+        InvalidValue
+            ``where`` is the name of the field.
+        """
+        work = self.choices.work
+        fields = {name: one for name, one in form_fields().items() if one.parameter.spec is DRAWS[work]}
+        given = dict(DRAW_MESHES[work][self.choices.mesh])
+        for name, one in fields.items():
+            value = self.values[name]
+            if value is not None or name not in BY_MESH:
+                given[one.parameter.name] = 0.5 * value if one.double and value is not None else value
+        names = {one.parameter.name: name for name, one in fields.items()}
+        try:
+            return DRAWS[work](**given, material=self.law(given["thickness"])[0])
+        except InvalidValue as error:
+            name = names.get(error.where, error.where)
+            if name in fields and fields[name].double and isinstance(error.value, int | float):
+                error.value = 2.0 * error.value
+            error.where = name
+            raise
 
     def hem(self, sheet: AirBending) -> Hemming:
         """The hem."""
@@ -260,138 +305,4 @@ class Wanted:
     @property
     def title(self) -> str:
         """A few words for lists."""
-        values, goal, work = self.values, self.goal, self.choices.work
-        if work == "flat":
-            return f"{values['part']}, {self.choices.material}"
-        if work == "table":
-            sheets = f"{', '.join(values['metals'])}, {_listed(values['thicknesses'])} mm"
-            return f"{sheets}, V{_listed(values['openings'])}, {_listed(values['angles'])}°"[:_LONGEST_TITLE]
-        sheet = f"{self.choices.material} {values['thickness']:g} mm"
-        if work == "sequence":
-            angles = [f"{row['angle']:g}°" for row in values["bends"] if "angle" in row]
-            return f"{sheet}, {' '.join(angles)}"
-        if work == "hem":
-            return f"{sheet}, hem {values['gap']:g} mm"
-        if work == "correct":
-            return f"{sheet}, V{values['opening']:.4g}, measured {values['measured_angle']:g}°"
-        if work == "bottom":
-            aim = f"{goal.force_per_metre:g} kN/m" if goal.force_per_metre is not None else f"{goal.travel:+g} mm"
-        else:
-            aim = f"{goal.angle:g}°" if goal.angle is not None else f"{values['stroke']:g} mm"
-        return f"{sheet}, V{values['opening']:.4g}, {aim}"
-
-
-def _value(one: FormField, value: Any) -> Any:
-    """A value of a field as its Spec takes it.
-
-    Raises
-    ------
-    InvalidValue
-        If the Spec refuses it, or a length is larger than the server takes.
-    """
-    if value is None and one.may_be_empty:
-        return None
-    if one.kind == "bends":
-        return _bends(value)
-    if one.many:
-        return _list(one, value)
-    return _single(one, value)
-
-
-def _list(one: FormField, values: Any) -> list[Any]:
-    """The entries of a list, each once; numbers in their order."""
-    if not isinstance(values, list) or not 1 <= len(values) <= _MOST_LISTED:
-        raise InvalidValue(
-            f"this is no list of 1 to {_MOST_LISTED} entries",
-            value=values,
-            cause="an empty field, or text between the numbers",
-            remedy="numbers with blanks between them, or first:last:step",
-        )
-    found = list(dict.fromkeys(_single(one, value) for value in values))
-    return sorted(found) if one.kind == "numbers" else found
-
-
-def _single(one: FormField, value: Any) -> Any:
-    """A single value of a field."""
-    value = _checked(one.parameter.spec, one.parameter.name, value)
-    if one.parameter.about.unit == "mm" and value > one.most:
-        raise InvalidValue(
-            f"{one.parameter.subject} is more than the bench takes",
-            value=value,
-            cause="another unit",
-            remedy=f"at most {one.most:g} mm",
-        )
-    return value
-
-
-def _checked(spec: type, name: str, value: Any) -> Any:
-    """A value of JSON, which writes 2.0 as 2, after the check of the Spec."""
-    kinds = {kind.type for kind in parameters(spec)[name].kinds}
-    if type(value) is int and float in kinds:
-        value = float(value) if abs(value) <= sys.float_info.max else math.inf
-    check_value(spec, name, value)
-    return value
-
-
-def _bends(rows: Any) -> list[dict[str, Any]]:
-    """The bends of a part, each checked by its Spec."""
-    if not isinstance(rows, list) or not 1 <= len(rows) <= _MOST_BENDS:
-        raise InvalidValue(f"a part has 1 to {_MOST_BENDS} bends here", cause="no bend, or too many of them")
-    found, errors, known = [], [], parameters(Bend)
-    for number, row in enumerate(rows, start=1):
-        where = f"bend {number}"
-        given: dict[str, Any] = {}
-        if not isinstance(row, Mapping):
-            errors.append(InvalidValue("a bend is an object with fields", where=where, value=row))
-            continue
-        errors += [_unknown(f"{where}, {name}") for name in row if name not in known or name == "tools"]
-        for name in (name for name in row if name in known and name != "tools"):
-            try:
-                if row[name] is not None or not known[name].absent:
-                    given[name] = _checked(Bend, name, row[name])
-            except InvalidValue as error:
-                error.where = f"{where}, {name}"
-                errors.append(error)
-        if "position" not in row:
-            errors.append(InvalidValue("the position of a bend is missing", where=where))
-        found.append(given)
-    if not errors:
-        for number, given in enumerate(found, start=1):
-            try:
-                Bend(**given)
-            except InvalidValue as error:
-                error.where = f"bend {number}"
-                errors.append(error)
-    if errors:
-        raise Mistakes(errors)
-    return found
-
-
-def _listed(values: list[float]) -> str:
-    return " ".join(f"{value:.4g}" for value in values)
-
-
-def _unknown(name: object) -> InvalidValue:
-    return InvalidValue("the form has no such field", where=str(name)[:60], cause="a form of another version")
-
-
-def _unfit(values: Mapping[str, Any]) -> Iterator[InvalidValue]:
-    """Goals and values of a coil that are missing, or given twice."""
-
-    def given(*names: str) -> int:
-        return sum(values.get(name) is not None for name in names)
-
-    if values["work"] == "bottom" and given("force_per_metre", "travel") != 1:
-        yield InvalidValue("give the force or the way beyond the bottom, one of them", where="travel")
-    if values["work"] == "bend" and given("angle", "stroke") != 1:
-        yield InvalidValue("give the angle or the stroke, one of them", where="angle")
-    if values["work"] == "correct" and given("stroke", "measured_angle") != 2:
-        yield InvalidValue(
-            "a measured bend has a stroke and an angle",
-            where="measured_angle" if given("stroke") else "stroke",
-            cause="one of them is missing",
-        )
-    if values["work"] == "flat" and not given("part"):
-        yield InvalidValue("choose the part", where="part", remedy="a STEP file of one bent part")
-    if given("yield_stress", "tensile_strength") == 1 or (given("uniform_elongation") and not given("yield_stress")):
-        yield InvalidValue("a coil has both, Re and Rm", where="yield_stress")
+        return title_of(self.values, self.goal)

@@ -17,6 +17,7 @@ from typing import Any
 from umform.analysis.run.watching import watching
 from umform.bench.folders import DECK, ORDER, OUTCOME, RESULTS, locked
 from umform.bench.forces import computed_forces, largest
+from umform.bench.form import DRAWS
 from umform.bench.limits import limit_memory
 from umform.bench.live import BendProgress, DeckProgress, Watch, write_live
 from umform.bench.refusals import error_record
@@ -35,6 +36,9 @@ from umform.processes.air_bending.budget import error_budget
 from umform.processes.air_bending.case import air_bending
 from umform.processes.air_bending.files import FILES, record, write_files
 from umform.processes.air_bending.search import find_stroke
+from umform.report.key_numbers import key_numbers
+from umform.report.looks import MILLIMETRES, Units
+from umform.report.words import column_text
 
 #: Modules that a run needs after its first increments: pictures, 3D view and report.
 _PRELOAD = (
@@ -49,7 +53,7 @@ _PRELOAD = (
 
 
 #: Work with a run of its own.
-_OTHERS = ("flat", "table", "correct")
+_OTHERS = ("flat", "table", "correct", *DRAWS)
 
 
 def main(arguments: list[str]) -> int:
@@ -71,7 +75,7 @@ def main(arguments: list[str]) -> int:
 def _read_folder() -> str:
     """The folder from standard input; meanwhile modules are loaded, one at a time."""
     for name in _PRELOAD:
-        if select.select([sys.stdin], [], [], 0.0)[0]:
+        if sys.platform != "win32" and select.select([sys.stdin], [], [], 0.0)[0]:  # Windows asks sockets only
             break
         importlib.import_module(name)
     return sys.stdin.readline().strip()
@@ -106,9 +110,8 @@ def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     brake = Brake(case, frames=FRAMES)
     accept(of_model(brake.model, millimetres=True))
     angle, force = wanted.goal.angle, wanted.goal.force_per_metre
-    watch = Watch(
-        folder, order["title"], BendProgress(brake, angle, case.bottom_stroke if case.bottoming else case.stroke)
-    )
+    progress = BendProgress(brake, angle, case.bottom_stroke if case.bottoming else case.stroke)
+    watch = Watch(folder, order["title"], progress, units=MILLIMETRES, force=progress.force)
 
     with staging(folder / RESULTS, FILES), watching(watch):
         try:
@@ -144,6 +147,10 @@ def _other(folder: Path, order: dict[str, Any], wanted: Wanted) -> dict[str, Any
         from umform.bench.bend_tables import run_table
 
         return run_table(folder, wanted)
+    if wanted.is_drawn:
+        from umform.bench.draws import run_draw
+
+        return run_draw(folder, order["title"], wanted)
     from umform.bench.corrections import run_correction
 
     return run_correction(folder, wanted)
@@ -164,7 +171,9 @@ def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     deck = kept.deck if kept else Problem.read((folder / DECK).read_text(encoding="utf-8"), DECK, files)
     steps = deck.contents.steps
     progress = DeckProgress(sum(step.expected for step in steps), len(steps))
-    watch = Watch(folder, order["title"], progress)
+    names = deck.contents.units
+    units = Units(names.length, names.force)
+    watch = Watch(folder, order["title"], progress, units=units)
     with watching(watch):
         every = float(order.get("every", 10.0))
         if kept is not None:
@@ -178,10 +187,13 @@ def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
         raise outcome.ended_by
     watch.phase("end", 1.0)
     result = outcome.result
-    last = {name: float(value) for name, value in result.rows[-1].items() if abs(float(value)) < float("inf")}
+    last = {
+        column_text(name): float(value) for name, value in result.rows[-1].items() if abs(float(value)) < float("inf")
+    }
     record = outcome.record()
     numbers = {kind: record[kind] for kind in ("quantities", "checks")}
-    return {**result.summary(), **numbers, "last": last, "resumed": taken_up}
+    key = [one.record() for one in key_numbers(result, units)]
+    return {**result.summary(), **numbers, "key": key, "last": last, "resumed": taken_up}
 
 
 if __name__ == "__main__":

@@ -44,7 +44,12 @@ def bead(
     given: Given,
     out: Annotated[
         str | None,
-        typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/bead."),
+        typer.Option(
+            "--out",
+            "-o",
+            metavar="FOLDER",
+            help="Folder for tables, pictures, fields and report; default: results/bead.",
+        ),
     ] = None,
     material: Material = None,
     young: Young = None,

@@ -14,10 +14,19 @@ from umform.cli import bend_correct, bend_table  # noqa: F401  (they add their c
 from umform.cli.bends import alone, bends
 from umform.cli.check import Force
 from umform.cli.compensate import By, Want, compensated
+from umform.cli.deflection import deflected, press_brake
 from umform.cli.derive import Derive, derived
-from umform.cli.drawn_tools import drawn_tools
+from umform.cli.drawn_tools import drawn_tools, named_tools
 from umform.cli.given import Given, given_by
-from umform.cli.goals import check_goal, check_length, check_measured, check_no_goal, check_press, strokes_of
+from umform.cli.goals import (
+    check_flat_only,
+    check_goal,
+    check_length,
+    check_measured,
+    check_no_goal,
+    check_press,
+    strokes_of,
+)
 from umform.cli.identify import MOST, Find, Quantities, identify_case
 from umform.cli.metal import law_of
 from umform.cli.options import (
@@ -39,12 +48,14 @@ from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, console, printing
 from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.sequence import run_sequence
+from umform.cli.stack import OnTop, check_single, stacked
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
 from umform.errors import UmformError
 from umform.processes.air_bending.goal import Goal, check_angle
 from umform.processes.air_bending.spec import AirBending
 from umform.spec import check_value, parameters
+from umform.studies.deflection.press_brake import PressBrake
 
 if TYPE_CHECKING:
     from umform.analysis.run import Result
@@ -59,14 +70,19 @@ _GOAL, _TOOLS = "What to do", "Tools"
 
 @bends.callback(invoke_without_command=True)
 @alone
-@given_by(Goal, AirBending, omit=("material", "punch_section", "die_section"))
+@given_by(Goal, PressBrake, AirBending, omit=("material", "punch_section", "die_section", "on_top"))
 @scattering
 def bend(
     context: typer.Context,
     given: Given,
     out: Annotated[
         str | None,
-        typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/bend."),
+        typer.Option(
+            "--out",
+            "-o",
+            metavar="FOLDER",
+            help="Folder for tables, pictures, fields and report; default: results/bend.",
+        ),
     ] = None,
     table: Annotated[str | None, option("Bending table at strokes first:last:step, such as 4:6:0.5.", _GOAL)] = None,
     angles: Annotated[
@@ -75,13 +91,19 @@ def bend(
     sequence: Annotated[
         Path | None, option("Several bends in one part: a TOML file, see docs/bending-operations.md.", _GOAL)
     ] = None,
+    flat_only: Annotated[
+        bool, option("With --sequence and outside dimensions: flat length and bend lines only, nothing is bent.", _GOAL)
+    ] = False,
     budget: Annotated[bool, option("Error budget: repeat with refinements and show the changes.", _GOAL)] = False,
+    punch: Annotated[str | None, option("Usual punch by name, such as 88/R0.8; see `umform tools`.", _TOOLS)] = None,
+    die: Annotated[str | None, option("Usual die by name, such as V16/88; see `umform tools`.", _TOOLS)] = None,
     punch_dxf: Annotated[Path | None, option("DXF drawing of the punch, in place of its numbers.", _TOOLS)] = None,
     punch_layer: Annotated[str | None, option("Layer with its section; default: the whole drawing.", _TOOLS)] = None,
     die_dxf: Annotated[Path | None, option("DXF drawing of the die, in place of its numbers.", _TOOLS)] = None,
     die_layer: Annotated[str | None, option("Layer with its section; default: the whole drawing.", _TOOLS)] = None,
     length: Annotated[
-        float | None, option("Bend length for the total force in kN and t; the model does not change.", SHEET)
+        float | None,
+        option("Bend length for the total force in kN and t; the model does not change.", SHEET, "--length", "-l"),
     ] = None,
     material: Material = None,
     young: Young = None,
@@ -90,6 +112,7 @@ def bend(
     hardening_modulus: Modulus = None,
     curve: Curve = None,
     flow_curve: FlowCurve = None,
+    on_top: OnTop = None,
     processes: Annotated[int | None, option("Runs of the budget at a time.", SOLUTION)] = None,
     want: Want = None,
     by: By = None,
@@ -123,6 +146,7 @@ def bend(
     print_warnings_once()
     angle, force_per_metre, travel, tolerance = (given.pop(name) for name in parameters(Goal))
     stroke, bottoming = given["stroke"], given["bottoming"]
+    brake_frame = press_brake(given, length, sequence=sequence is not None, bottoming=bottoming)
     if not bottoming and sequence is None:
         check_goal(angle, stroke, table, angles, force_per_metre, travel)
     strokes = [] if table is None else strokes_of(table)
@@ -138,8 +162,9 @@ def bend(
 
         check_processes(processes)
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
+    given = named_tools(context, given, punch, die)
     tools = drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer)
-    case = AirBending(**{**given, "stroke": stroke}, **tools, material=law)
+    case = AirBending(**{**given, "stroke": stroke}, **tools, material=law, on_top=tuple(stacked(on_top or ())))
     if sequence is not None:
         studies = bool(find or quantity)
         check_no_goal(
@@ -156,10 +181,14 @@ def bend(
             tolerance=tolerance,
             overwrite=overwrite,
             everything=everything,
+            flat_only=flat_only,
             derive=derive,
             scatter_options=scatter_options,
         )
         return
+    check_flat_only(flat_only)
+    if on_top:
+        check_single(budget, derive, find or quantity, want or by, scatter_options)
     if scatter_options:  # refuse what is wrong before the run
         scatter_options.check(replace(case, stroke=stroke or 0.5 * case.largest_stroke))
     if bottoming:
@@ -196,6 +225,7 @@ def bend(
         more: list[Path] = []
         scatter: list[Path] = []
         wanted: list[Path] = []
+        along: list[Path] = []
         try:
             if budget:
                 from umform.processes.air_bending.budget import error_budget
@@ -204,6 +234,7 @@ def bend(
             done, more = derived(done, done.case, derive, place, None if angle is None else {"angle": "stroke"})
             done, scatter = scatter_options.added_to(done, done.case, place)
             done, wanted = goals.added_to(done, place)
+            done, along = deflected(done, brake_frame, place)
             with printing(f"the files of the bend are in {place}"):
                 show_outcome(done, note=note, everything=everything)
         except KeyboardInterrupt as stop:
@@ -211,7 +242,7 @@ def bend(
             raise
         finally:  # even if the table cannot be printed
             with done.result.timing.files:
-                files = [*write_files(place, done, note), *more, *scatter, *wanted]
+                files = [*write_files(place, done, note), *more, *scatter, *wanted, *along]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")

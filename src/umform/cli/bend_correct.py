@@ -20,7 +20,7 @@ from umform.processes.air_bending.spec import AirBending
 
 _MEASURED, _FILES = "Measured bend", "Files"
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
-_OMITTED = ("material", "punch_section", "die_section", "bottoming")
+_OMITTED = ("material", "punch_section", "die_section", "on_top", "bottoming")
 
 
 @bends.command("correct")

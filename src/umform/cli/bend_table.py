@@ -25,7 +25,7 @@ _TABLE, _TOOLS = "Table", "Tools"
 _FORMATS = ("csv", "json", "freecad", "inventor", "creo", "solidworks")
 StoreFolder = Annotated[Path | None, option("Folder of the store of bends; see `umform store`.", _TABLE, "--store")]
 #: Parameters of a bend that are lists here, or that a table does not have.
-_OTHERS = ("thickness", "opening", "punch_radius", "die_radius", "material", "punch_section", "die_section")
+_OTHERS = ("thickness", "opening", "punch_radius", "die_radius", "material", "punch_section", "die_section", "on_top")
 _NONE = ("stroke", "bottoming")
 
 

@@ -16,6 +16,7 @@ FILES = {
     "bead": "bead",
     "bench": "bench",
     "bend": "bend",
+    "blank": "blank",
     "check": "check",
     "compensate": "compensate",
     "demo": "demo",
@@ -27,6 +28,7 @@ FILES = {
     "hem": "hem",
     "identify": "identify",
     "metal": "metals",
+    "net": "net",
     "new": "new",
     "paths": "paths",
     "plot": "plot",
@@ -35,6 +37,7 @@ FILES = {
     "sigma": "sigma",
     "store": "store",
     "sweep": "sweep",
+    "tools": "tools",
     "view": "view",
 }
 

@@ -78,7 +78,9 @@ def compensate(
     changes: Changes = None,
     out: Annotated[
         Path | None,
-        typer.Option(metavar="FOLDER", help="Folder for table and deck; default: results/DECK-compensated."),
+        typer.Option(
+            "--out", "-o", metavar="FOLDER", help="Folder for table and deck; default: results/DECK-compensated."
+        ),
     ] = None,
     trust: Trust = False,
     overwrite: Overwrite = False,

@@ -47,7 +47,10 @@ def free_bending(
     out: Annotated[
         str | None,
         typer.Option(
-            metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/free-bending."
+            "--out",
+            "-o",
+            metavar="FOLDER",
+            help="Folder for tables, pictures, fields and report; default: results/free-bending.",
         ),
     ] = None,
     mesh: Annotated[list[str] | None, option("Elements along and across, such as 24x1; repeatable.", _RUNS)] = None,

@@ -55,7 +55,10 @@ def derive(
     ] = None,
     changes: Changes = None,
     out: Annotated[
-        Path | None, typer.Option(metavar="FOLDER", help="Folder for tables and picture; default: results/DECK-derive.")
+        Path | None,
+        typer.Option(
+            "--out", "-o", metavar="FOLDER", help="Folder for tables and picture; default: results/DECK-derive."
+        ),
     ] = None,
     trust: Trust = False,
     overwrite: Overwrite = False,

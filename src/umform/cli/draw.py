@@ -59,7 +59,9 @@ def draw() -> None:
     """Draw a part, open the tools and measure it: `umform draw cup`."""
 
 
-Out = Annotated[str | None, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")]
+Out = Annotated[
+    str | None, typer.Option("--out", "-o", metavar="FOLDER", help="Folder for tables, pictures, fields and report.")
+]
 LimitCurve = Annotated[Path | None, option("Forming limit: a CSV file of minor and major logarithmic strain.", SHEET)]
 
 
@@ -172,7 +174,7 @@ def u(
     extrapolate: Annotated[
         bool | None,
         option(
-            "Also run two coarser meshes: springback and forces with their errors; default, but not with --coarse.",
+            "Also run a coarser mesh: springback and forces with their errors; default, but not with --coarse.",
             SOLUTION,
             "--extrapolate/--no-extrapolate",
         ),
@@ -195,7 +197,7 @@ def u(
     The defaults are the tools of the NUMISHEET benchmark 93. Each number is defined in docs/forming-results.md.
     """
     from umform.processes.draw.case import draw
-    from umform.processes.draw.three_meshes import extrapolated
+    from umform.processes.draw.two_meshes import extrapolated
 
     given = _on_mesh(UBend, given, coarse, fine)
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
@@ -204,8 +206,8 @@ def u(
         print_deck(goals.case)
         return
     one_mesh = coarse or goals.found is not None  # wanted results are those of the mesh of the case
-    three = not one_mesh if extrapolate is None else extrapolate
-    how = extrapolated if three else draw
+    two = not one_mesh if extrapolate is None else extrapolate
+    how = extrapolated if two else draw
     _run(
         goals,
         how,

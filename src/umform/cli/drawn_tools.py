@@ -1,7 +1,8 @@
-"""Tools of a press brake from drawings, as options of the command line."""
+"""Tools of a press brake from drawings or by name, as options of the command line."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -49,6 +50,39 @@ def drawn_tools(
     return found
 
 
+def named_tools(context: typer.Context, given: dict[str, Any], punch: str | None, die: str | None) -> dict[str, Any]:
+    """The given values with the sizes of usual tools.
+
+    Parameters
+    ----------
+    context : typer.Context
+        Tells which options were given by hand.
+    given : dict of str to object
+        Values of the options.
+    punch, die : str or None
+        Names of `umform tools`.
+
+    Raises
+    ------
+    InvalidValue
+        If no tool has the name, or a size is given beside it.
+    """
+    found = dict(given)
+    for kind, name in (("punch", punch), ("die", die)):
+        if name is None:
+            continue
+        from umform.processes.air_bending.usual_tools import usual_tool
+
+        try:
+            sizes = usual_tool(kind, name).sizes
+        except InvalidValue as error:
+            error.where = f"--{kind}"
+            raise
+        _refuse_beside(context, (*sizes, f"{kind}_dxf"), "this size follows from the name of the tool", f"--{kind}")
+        found |= sizes
+    return found
+
+
 def _refuse_both(context: typer.Context, name: str, path: Path | None, layer: str | None) -> None:
     flag = "--" + name.replace("_", "-")
     if path is None and layer is not None:
@@ -59,11 +93,18 @@ def _refuse_both(context: typer.Context, name: str, path: Path | None, layer: st
             cause=f"{flag} is missing",
             remedy=f"{flag} FILE",
         )
-    for other in sizes_of(name.partition("_")[0]).values() if path is not None else ():
+    if path is not None:
+        others = sizes_of(name.partition("_")[0]).values()
+        _refuse_beside(context, others, "this number follows from the drawing of the tool", flag)
+
+
+def _refuse_beside(context: typer.Context, others: Iterable[str], what: str, flag: str) -> None:
+    """Refuse options on the command line that follow from another one."""
+    for other in others:
         source = context.get_parameter_source(other)
         if source is not None and source.name == "COMMANDLINE":
             raise InvalidValue(
-                "this number follows from the drawing of the tool",
+                what,
                 where=f"--{other.replace('_', '-')}",
                 value=context.params[other],
                 cause=f"it is given beside {flag}",

@@ -10,21 +10,35 @@ import typer
 from umform.cli.check import Trust, deck_errors
 from umform.cli.root import Debug, Overwrite, app
 
+#: Formats of fields of all states, or of the last one.
+_FIELDS = ("vtu", "pvd", "xdmf")
+
 
 @app.command()
 def export(
     run: Annotated[
         Path,
         typer.Argument(
-            metavar="RUN", help="Folder of a run with state = true under [output], its state.h5, or a checkpoint."
+            metavar="RUN",
+            help="Folder of a run with state = true under [output], its state.h5, or a checkpoint; for vtu, pvd and "
+            "xdmf a folder with fields, or a .vtkhdf file.",
         ),
     ],
     to: Annotated[
-        str, typer.Option(metavar="PROGRAM", help="dynain (LS-DYNA), radioss (OpenRadioss), abaqus or calculix.")
+        str,
+        typer.Option(
+            metavar="PROGRAM",
+            help="dynain (LS-DYNA), radioss (OpenRadioss), abaqus or calculix; or vtu, pvd, xdmf for the fields.",
+        ),
     ] = "dynain",
     out: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="The file; default: the name of the deck, with .k, .sta or .inp."),
+        typer.Option(
+            "--out",
+            "-o",
+            metavar="FILE",
+            help="The file; default: the name of the deck, with .k, .sta or .inp; or of the fields.",
+        ),
     ] = None,
     stage: Annotated[
         str | None,
@@ -50,19 +64,23 @@ def export(
 ) -> None:
     """Write the state of a formed part for LS-DYNA, OpenRadioss, Abaqus or CalculiX: mesh, thickness, stresses.
 
-    The state is that at the end of a run. Keywords, order of points and limits: docs/other-programs.md.
+    The state is that at the end of a run. Keywords, order of points and limits: docs/other-programs.md. The formats
+    vtu, pvd and xdmf have the fields of a .vtkhdf file, for programs that do not read it.
     """
-    from umform.errors import FileProblem, InvalidValue
+    from umform.errors import InvalidValue
     from umform.problem.finished import finished
     from umform.report.state_files import PROGRAMS, export_state
 
+    if to in _FIELDS:
+        _export_fields(run, to, out, overwrite)
+        return
     if to not in PROGRAMS:
-        raise InvalidValue("unknown program", where="to", value=to, remedy="one of " + ", ".join(PROGRAMS))
+        known = ", ".join([*PROGRAMS, *_FIELDS])
+        raise InvalidValue("unknown program", where="to", value=to, remedy=f"one of {known}")
     with deck_errors():
         part = finished(run, stage, trust)
     path = out or Path(part.name).with_suffix(PROGRAMS[to].suffix)
-    if path.exists() and not overwrite:
-        raise FileProblem("the file exists", where=str(path), remedy="--out another file, or --overwrite")
+    _check_free(path, overwrite)
     state = export_state(
         part.model,
         path,
@@ -75,3 +93,28 @@ def export(
     )
     kind = "shells" if state.shells else "solids"
     typer.echo(f"Written to {path}: {len(state.points)} nodes, {len(state.cells)} {kind}")
+
+
+def _export_fields(run: Path, to: str, out: Path | None, overwrite: bool) -> None:
+    """Write the fields of a run in another format."""
+    from umform.cli.field_files import file_of_fields
+    from umform.errors import InvalidValue
+    from umform.io.series import convert
+
+    fields = file_of_fields(run)
+    path = out or Path(fields.name).with_suffix(f".{to}")
+    if path.suffix != f".{to}":
+        raise InvalidValue(
+            "the name does not fit the format", where="--out", value=str(path), remedy=f"end it in .{to}"
+        )
+    _check_free(path, overwrite)
+    count = convert(fields, path)
+    typer.echo(f"Written to {path}: {count} {'state' if count == 1 else 'states'}")
+
+
+def _check_free(path: Path, overwrite: bool) -> None:
+    """Refuse to overwrite a file unasked."""
+    from umform.errors import FileProblem
+
+    if path.exists() and not overwrite:
+        raise FileProblem("the file exists", where=str(path), remedy="--out another file, or --overwrite")

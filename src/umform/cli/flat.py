@@ -21,7 +21,17 @@ if TYPE_CHECKING:
 
 _LENGTHS = "Flat length of bends"
 #: Parameters of a bend that follow from the part, or that parts with several bends do not have.
-_NONE = ("thickness", "material", "punch_section", "die_section", "width", "width_elements", "stroke", "bottoming")
+_NONE = (
+    "thickness",
+    "material",
+    "punch_section",
+    "die_section",
+    "on_top",
+    "width",
+    "width_elements",
+    "stroke",
+    "bottoming",
+)
 
 
 @app.command()
@@ -51,7 +61,10 @@ def flat(
         bool, typer.Option("--bend", help="Bend the whole part by simulation: strokes, angles, forces, flanges.")
     ] = False,
     out: Annotated[
-        str | None, typer.Option(metavar="FOLDER", help="Folder for drawing, numbers, sheet; default: results/flat.")
+        str | None,
+        typer.Option(
+            "--out", "-o", metavar="FOLDER", help="Folder for drawing, numbers, sheet; default: results/flat."
+        ),
     ] = None,
     overwrite: Overwrite = False,
     verbose: Verbose = 0,

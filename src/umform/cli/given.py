@@ -13,6 +13,8 @@ from umform.spec import Parameter, parameters
 
 #: Values by the names of fields, as a command gets them.
 Given = dict[str, Any]
+#: Letters of what is typed daily; `options.py` and the commands have those of options that are no fields.
+_LETTERS = {"thickness": "-t", "opening": "-V", "angle": "-a", "stroke": "-s"}
 
 
 def given_by(
@@ -74,7 +76,8 @@ def _options(
         panel = groups.get(name, panel)
         if name not in omit:
             default = defaults.get(name, parameter.default)
-            info = _info(parameter, panel, [called[name]] if name in called else [])
+            long = called.get(name) or (f"--{name.replace('_', '-')}" if name in _LETTERS else "")
+            info = _info(parameter, panel, [*filter(None, (long, _LETTERS.get(name)))])
             info.help = f"{parameter.text.rstrip('.')}; default: {otherwise[name]}." if name in otherwise else info.help
             hint = Annotated[_hint(parameter, default), info]  # type: ignore[valid-type]
             no_default = inspect.Parameter.empty if default is MISSING else default

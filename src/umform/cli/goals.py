@@ -67,6 +67,17 @@ def check_no_goal(option: str, *goals: object) -> None:
         )
 
 
+def check_flat_only(flat_only: bool) -> None:
+    """Refuse the option of outside dimensions without their file."""
+    if flat_only:
+        raise InvalidValue(
+            "the outside dimensions of a part stand in a file",
+            where="--flat-only",
+            cause="--sequence is missing",
+            remedy="--sequence part.toml --flat-only; a single bend has its deduction among its results",
+        )
+
+
 def check_measured(*goals: object) -> None:
     """Refuse goals beside what was measured at a stroke."""
     if any(goal is not None and goal is not False for goal in goals):

@@ -1,4 +1,4 @@
-"""``umform hem``: an acute bend, flattened over an insert or open."""
+"""``umform hem``: an acute bend, closed flat, over an inner sheet or an insert, open, or with a loop."""
 
 from __future__ import annotations
 
@@ -10,19 +10,20 @@ from typing import Annotated
 import typer
 
 from umform.cli.derive import Derive, derived
+from umform.cli.drawn_tools import named_tools
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
-from umform.cli.options import All, Curve, FlowCurve, Material, Modulus, Poisson, Yield, Young
+from umform.cli.options import All, Curve, FlowCurve, Material, Modulus, Poisson, Yield, Young, option
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.warnings import print_warnings_once
 from umform.processes.air_bending.spec import AirBending
-from umform.processes.hemming.spec import ACUTE, Hemming, acute
+from umform.processes.hemming.spec import ACUTE, FOLDED, Hemming, acute
 from umform.spec import parameters
 
 #: Parameters of the sheet that a hem does not have: drawn tools, and what belongs to a single bend.
-_NONE_OF_A_HEM = ("punch_section", "die_section", "width", "width_elements", "stroke", "bottoming")
+_NONE_OF_A_HEM = ("punch_section", "die_section", "on_top", "width", "width_elements", "stroke", "bottoming")
 _OF_HEM = [name for name in parameters(Hemming) if name != "sheet"]
 #: Lengths that follow from the thickness, over the thickness.
 _LENGTHS = Hemming.proportions | {
@@ -35,17 +36,24 @@ _LENGTHS = Hemming.proportions | {
     Hemming,
     AirBending,
     omit=("sheet", "material", *_NONE_OF_A_HEM),
-    called={"insert": "--insert/--open"},
     otherwise={name: f"{times:g} thickness{'' if times == 1.0 else 'es'}" for name, times in _LENGTHS.items()},
-    **ACUTE | dict.fromkeys(_LENGTHS) | {"thickness": 1.0},
+    **ACUTE | FOLDED | dict.fromkeys(_LENGTHS) | {"thickness": 1.0, "gap": None},
 )
 @scattering
 def hem(
+    context: typer.Context,
     given: Given,
     out: Annotated[
         str | None,
-        typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/hem."),
+        typer.Option(
+            "--out",
+            "-o",
+            metavar="FOLDER",
+            help="Folder for tables, pictures, fields and report; default: results/hem.",
+        ),
     ] = None,
+    punch: Annotated[str | None, option("Usual punch by name, such as 30/R0.8; see `umform tools`.", "Tools")] = None,
+    die: Annotated[str | None, option("Usual die by name, such as V8/30; see `umform tools`.", "Tools")] = None,
     material: Material = None,
     young: Young = None,
     poisson: Poisson = None,
@@ -73,6 +81,7 @@ def hem(
 
     print_warnings_once()
     thickness = given["thickness"]
+    given = named_tools(context, given, punch, die)
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, thickness)
     of_hem = {name: given.pop(name) for name in _OF_HEM}
     sheet = acute(**{name: value for name, value in given.items() if value is not None}, material=law)

@@ -60,7 +60,8 @@ def identify(
     changes: Changes = None,
     most: Annotated[int, typer.Option(min=1, help="Largest number of trials.")] = MOST,
     out: Annotated[
-        str | None, typer.Option(metavar="FOLDER", help="Folder for the files; default: results/DECK-identified.")
+        str | None,
+        typer.Option("--out", "-o", metavar="FOLDER", help="Folder for the files; default: results/DECK-identified."),
     ] = None,
     overwrite: Overwrite = False,
     trust: Trust = False,

@@ -14,7 +14,7 @@ from umform.cli.root import Debug, app, console
 def new(
     template: Annotated[str | None, typer.Argument(help="Name of a template; without it, list them.")] = None,
     out: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Write the deck and the files that it reads.")
+        Path | None, typer.Option("--out", "-o", metavar="FILE", help="Write the deck and the files that it reads.")
     ] = None,
     schema: Annotated[bool, typer.Option("--schema", help="Print the JSON schema of decks, for editors.")] = False,
     debug: Debug = False,

@@ -18,7 +18,12 @@ def option(help_text: str, panel: str, *names: str) -> Any:
 
 Material = Annotated[
     str | None,
-    option("Name in the library of sheet metals (`umform metal list`), or a file such as fit/metal.toml.", SHEET),
+    option(
+        "Name in the library of sheet metals (`umform metal list`), or a file such as fit/metal.toml.",
+        SHEET,
+        "--material",
+        "-m",
+    ),
 ]
 Young = Annotated[float | None, option("Young's modulus in MPa.", SHEET)]
 Poisson = Annotated[float | None, option("Poisson's ratio.", SHEET)]

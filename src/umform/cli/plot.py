@@ -29,7 +29,9 @@ def plot(
         list[str] | None,
         typer.Option("--y", help="Column along the vertical axis, with or without its unit; repeatable."),
     ] = None,
-    out: Annotated[Path, typer.Option(metavar="FILE", help="Picture: .png, .svg or .pdf.")] = Path("comparison.png"),
+    out: Annotated[Path, typer.Option("--out", "-o", metavar="FILE", help="Picture: .png, .svg or .pdf.")] = Path(
+        "comparison.png"
+    ),
     debug: Debug = False,
 ) -> None:
     """Compare histories of several runs.

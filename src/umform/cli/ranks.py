@@ -54,7 +54,7 @@ def petsc_options(ctx: typer.Context) -> list[str]:
 def let_the_first_talk() -> None:
     """Print on the first of the ranks started by mpiexec only."""
     if launched()[0] > 0:
-        sys.stdout = sys.stderr = Path(os.devnull).open("w")  # noqa: SIM115  (to the end)
+        sys.stdout = sys.stderr = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115  (to the end)
 
 
 @contextmanager

@@ -22,7 +22,8 @@ def resume(
         Path, typer.Argument(metavar="CHECKPOINT", help="Checkpoint of `umform run`, or the folder of the run.")
     ],
     out: Annotated[
-        str | None, typer.Option(metavar="FOLDER", help="Folder for the results; default: that of the run.")
+        str | None,
+        typer.Option("--out", "-o", metavar="FOLDER", help="Folder for the results; default: that of the run."),
     ] = None,
     every: Every = 60.0,
     overwrite: Overwrite = False,

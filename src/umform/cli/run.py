@@ -18,7 +18,7 @@ from umform.cli.run_checks import show_checks
 from umform.cli.step_table import step_tables
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import echo_warnings, print_warnings_once
-from umform.errors import FileProblem, UmformError
+from umform.errors import FileProblem, InvalidValue, UmformError
 
 if TYPE_CHECKING:
     from umform.problem.running import ProblemOutcome
@@ -31,7 +31,8 @@ def run(
     ctx: typer.Context,
     deck: DeckFile,
     out: Annotated[
-        str | None, typer.Option(metavar="FOLDER", help="Folder for the results; default: that of the deck.")
+        str | None,
+        typer.Option("--out", "-o", metavar="FOLDER", help="Folder for the results; default: that of the deck."),
     ] = None,
     solver: Annotated[str | None, typer.Option(help="Sparse solver, instead of that in the deck.")] = None,
     changes: Changes = None,
@@ -41,6 +42,9 @@ def run(
     ] = None,
     every: Every = 60.0,
     overwrite: Overwrite = False,
+    budget: Annotated[
+        bool, typer.Option("--budget", help="Error budget: repeat with coarser settings and show the errors.")
+    ] = False,
     force: Force = False,
     trust: Trust = False,
     timing: Timed = False,
@@ -63,11 +67,26 @@ def run(
     with deck_errors():
         loaded = read(deck, changes or (), trust)
         chosen = solver or loaded.contents.solution.solver
+        if budget and chosen == "petsc":
+            raise InvalidValue(
+                "an error budget runs in one process",
+                where="--budget",
+                value="--solver petsc",
+                cause="its coarser runs are independent, and go in parallel without ranks",
+                remedy="another solver, such as --solver auto",
+            )
         with on_all_ranks(chosen, petsc_options(ctx)):
             running.refuse_folder(chosen, out, overwrite=overwrite)
             problem = running.prepared(loaded, chosen, partial(running.refuse_implausible, loaded, force=force))
             outcome = running.run(
-                loaded, problem, out, solver=solver, checkpoint=checkpoint, every=every, overwrite=overwrite
+                loaded,
+                problem,
+                out,
+                solver=solver,
+                checkpoint=checkpoint,
+                every=every,
+                overwrite=overwrite,
+                budget=budget,
             )
     finish(outcome, timing=timing)
 
@@ -103,6 +122,8 @@ def show(outcome: ProblemOutcome) -> None:
     show_checks(screen, outcome.stages)
     for rows in outcome.tables.values():
         print_table(rows)
+    for note in outcome.all_notes:
+        screen.print(note, soft_wrap=True, markup=False)
     for event in result.events:
         screen.print(event, soft_wrap=True, markup=False)
     if outcome.files:

@@ -65,10 +65,14 @@ class ScatterOptions:
             return self._plan(subject).run()
 
     def added_to(self, outcome: _Outcome, case: Any, place: Path) -> tuple[_Outcome, list[Path]]:
-        """The outcome of a process with the scatter of its results, and the files; without any, the outcome itself."""
+        """The outcome of a process with the scatter of its results, which widens their bands, and the files.
+
+        Without any scatter, the outcome itself.
+        """
         if not self:
             return outcome, []
         found = self.run(case)
+        outcome = outcome.with_deviations({one.name: one.deviation.value or 0.0 for one in found})
         for annex in found.annexes:
             outcome = outcome.with_annex(annex)
         return outcome, found.write(place)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from umform.cli.compensate import compensated
+from umform.cli.developed import sequence_of
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import console, printing
 
@@ -31,19 +32,25 @@ def run_sequence(
     tolerance: float,
     overwrite: bool,
     everything: bool,
+    flat_only: bool = False,
     derive: Sequence[str] | None = None,
     scatter_options: ScatterOptions | None = None,
 ) -> None:
-    """Bend the part of a file, print the results and write them; a part that collides ends with exit code 1."""
+    """Bend the part of a file, print the results and write them; a part that collides ends with exit code 1.
+
+    Of a file with outside dimensions, flat length and bend lines are printed first; ``flat_only``: nothing else.
+    """
     from umform.cli.derive import derived
     from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.processes.bend_sequence import bend_sequence
     from umform.processes.bend_sequence.files import FILES, RESULTS, write_files
     from umform.processes.bend_sequence.foreseen import foreseen_collisions, foreseen_text
-    from umform.processes.bend_sequence.form import read_sequence
 
-    goals = compensated(read_sequence(file).sequence(sheet), want, by)
+    made = sequence_of(file, sheet, flat_only=flat_only)
+    if flat_only:
+        return
+    goals = compensated(made, want, by)
     sequence = goals.case
     if scatter_options:  # refuse what is wrong before the run
         scatter_options.check(sequence.some_strokes)

@@ -21,7 +21,8 @@ def sigma(
     deck: DeckFile,
     changes: Changes = None,
     out: Annotated[
-        str | None, typer.Option(metavar="FOLDER", help="Folder for the files; default: results/DECK-sigma.")
+        str | None,
+        typer.Option("--out", "-o", metavar="FOLDER", help="Folder for the files; default: results/DECK-sigma."),
     ] = None,
     overwrite: Overwrite = False,
     trust: Trust = False,

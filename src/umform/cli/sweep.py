@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import sys
 from collections import Counter
 from pathlib import Path
@@ -14,11 +13,10 @@ from umform.cli.check import Changes, DeckFile, Force, Trust, deck_errors, read
 from umform.cli.outcome_screen import print_table
 from umform.cli.root import Debug, Verbose, app, console
 from umform.cli.warnings import print_warnings_once
-from umform.errors import FileProblem, InvalidValue
+from umform.errors import InvalidValue
 
 if TYPE_CHECKING:
     from umform.studies.sweep import Sweep
-    from umform.studies.sweep.values import Written
 
 
 @app.command()
@@ -43,7 +41,10 @@ def sweep(
     ] = None,
     changes: Changes = None,
     out: Annotated[
-        str | None, typer.Option(metavar="FOLDER", help="Folder for table, plot and jobs; default: results/DECK-sweep.")
+        str | None,
+        typer.Option(
+            "--out", "-o", metavar="FOLDER", help="Folder for table, plot and jobs; default: results/DECK-sweep."
+        ),
     ] = None,
     processes: Annotated[int | None, typer.Option(help="Jobs at a time; default: as many as processors.")] = None,
     files: Annotated[bool, typer.Option("--files", help="Write all files of the deck for each job.")] = False,
@@ -65,7 +66,7 @@ def sweep(
         found = run_sweep(
             read(deck, changes or (), trust),
             _axes(vary or []),
-            jobs=None if jobs is None else _jobs(jobs),
+            jobs=jobs,
             measures=measure or (),
             out=out,
             processes=processes,
@@ -94,23 +95,6 @@ def _axes(texts: list[str]) -> dict[str, str]:
             )
         axes[key.strip()] = values
     return axes
-
-
-def _jobs(path: Path) -> list[dict[str, Written]]:
-    """Jobs of a CSV file."""
-    from umform.studies.sweep.values import Written
-
-    remedy = "a CSV file with commas: keys in the first line, the values of a job in each other line"
-    try:
-        with path.open(newline="", encoding="utf-8-sig") as text:
-            header, *rows = [row for row in csv.reader(text) if row] or [[]]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        cause = getattr(error, "strerror", None) or "another kind of file, or text that is not UTF-8"
-        raise FileProblem("the jobs cannot be read", where=str(path), cause=cause, remedy=remedy) from error
-    if not rows or any(len(row) != len(header) for row in rows):
-        cause = "a row with more or fewer cells than the header, or no row"
-        raise FileProblem("this is no table of jobs", where=str(path), cause=cause, remedy=remedy)
-    return [{key.strip(): Written(cell.strip()) for key, cell in zip(header, row, strict=True)} for row in rows]
 
 
 def _say(row: dict[str, Any]) -> None:

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from umform.cli.field_files import file_of_fields
 from umform.cli.root import Debug, app
 
 if TYPE_CHECKING:
-    from umform.report.skin import Part
+    from umform.report.part import Part
 
 #: Default fields: the first available one is shown.
 _FAVOURITES = ("plastic_strain_max", "thickness_change", "displacement")
@@ -42,18 +43,21 @@ def view(
 
     Needs PyVista: `pip install "umform[view]"`.
     """
-    file = _file_of(file)
-    _check_names(file, png)
+    _check_picture(png)
+    file = file_of_fields(file)
+    from umform.io.vtkhdf_reader import frames_in
+    from umform.report.looks import UNKNOWN, look_of
     from umform.report.rendering import Panel, Rendering, scaled, write_picture
     from umform.report.skin import skin_of
-    from umform.report.stored_scene import frames_in, read_frame
+    from umform.report.stored_scene import read_frame
 
     scene = Rendering("umform view", off_screen=png is not None)
     _check_frame(frame, frames_in(file))
     part, surfaces = read_frame(file, frame, whole=whole)
     name = _chosen(part, field)
-    skin = skin_of(part, name)
-    scale = scaled(skin, name.replace("_", " ") + (unit and f", {unit}"))
+    look = look_of(name)
+    skin = skin_of(part, name, factor=look.factor)
+    scale = scaled(skin, f"{look.words}, {unit}" if unit else look.label(UNKNOWN))
     scene.add_sheet(skin, scale, lines=lines and len(part.cells) < _MANY)
     for surface in surfaces.values() if tools else ():
         scene.add_tool(surface)
@@ -66,46 +70,12 @@ def view(
     typer.echo(f"Written to {png}")
 
 
-def _file_of(path: Path) -> Path:
-    """The file, or the file of fields in a folder that was written last."""
-    from umform.errors import FileProblem
-
-    if not path.is_dir():
-        return path
-    files = sorted(path.glob("*.vtkhdf"), key=lambda file: (file.stat().st_mtime_ns, file.name))
-    if not files:
-        raise FileProblem(
-            "this is a folder without a file of fields",
-            where=str(path),
-            cause="no name in it ends in .vtkhdf",
-            remedy="`umform run` writes fields.vtkhdf, unless [output] says no; bends and draws write theirs",
-        )
-    *others, last = files
-    if others:
-        names = ", ".join(file.name for file in others)
-        typer.echo(f"umform: {last.name}, the last one in {path}; it also has {names}", err=True)
-    return last
-
-
-def _check_names(file: Path, png: Path | None) -> None:
-    """Refuse invalid files before slow imports."""
-    from umform.errors import FileProblem, InvalidValue
+def _check_picture(png: Path | None) -> None:
+    """Refuse an invalid picture before slow imports."""
+    from umform.errors import InvalidValue
 
     if png is not None and png.suffix != ".png":
         raise InvalidValue("a picture of the shape is a PNG", where="--png", value=str(png), remedy="end it in .png")
-    if not file.is_file():
-        raise FileProblem(
-            "there is no such file", where=str(file), remedy="result.write('run.vtkhdf') and `umform run` write one"
-        )
-    import h5py
-
-    if not h5py.is_hdf5(file):
-        raise FileProblem("this is no file of fields", where=str(file), remedy="give a file that ends in .vtkhdf")
-    with h5py.File(file) as content:
-        if "VTKHDF" not in content:
-            raise FileProblem(
-                "this HDF5 file holds no VTKHDF", where=str(file), remedy="give a file that ends in .vtkhdf"
-            )
 
 
 def _check_frame(frame: int, count: int) -> None:

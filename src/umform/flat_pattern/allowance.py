@@ -32,7 +32,7 @@ class Allowance:
     radius : float
         Inside radius in mm that the bend gets; that of the drawing unless the bend was computed.
     stroke, force : float, optional
-        Stroke of the punch in mm, and largest force in N per mm of bend, of a computed bend.
+        Stroke of the punch in mm, and largest force in kN/m, of a computed bend.
     notes : tuple of str
         Remarks on its run, such as a coarse mesh.
     """

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import math
 from pathlib import Path
 from typing import Any
@@ -11,9 +10,9 @@ from xml.sax.saxutils import escape
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.errors import FileProblem
 from umform.flat_pattern.contour import Contour
 from umform.flat_pattern.pattern import FlatBend, FlatPattern
+from umform.surfaces.dxf import dxf_library
 from umform.surfaces.segments import Arc, Line
 
 Floats = NDArray[np.float64]
@@ -30,12 +29,7 @@ def write_dxf(path: Path, pattern: FlatPattern) -> None:
     FileProblem
         If ezdxf is not installed.
     """
-    try:
-        ezdxf = importlib.import_module("ezdxf")
-    except ImportError as error:
-        raise FileProblem(
-            "writing DXF files needs ezdxf", where=str(path), cause=str(error), remedy='pip install "umform[cad]"'
-        ) from error
+    ezdxf = dxf_library("writing", str(path))
     drawing = ezdxf.new("R2010", setup=["linetypes"])
     drawing.units = 4  # mm
     for name, colour in LAYERS.items():

@@ -63,7 +63,7 @@ def _runs(pid: int) -> bool:
 def _has_ended(pid: int) -> bool:
     """Whether a process is a zombie, whose parent has not waited for it: often so in containers."""
     try:
-        state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+        state = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()
     except OSError:  # not Linux, or gone meanwhile
         return False
     return state[:1] in (["Z"], ["X"])

@@ -1,8 +1,9 @@
-"""The mesh of a VTKHDF file, as `umform.io.VtkHdfSeries` writes it."""
+"""Mesh and fields of a VTKHDF file, as `umform.io.VtkHdfSeries` writes it."""
 
 from __future__ import annotations
 
 import os
+from typing import Any
 
 import h5py
 import numpy as np
@@ -80,6 +81,35 @@ def read_vtkhdf(path: str | os.PathLike[str]) -> tuple[FloatArray, dict[str, Int
         ids = from_vtk(kind, X, ids)
         cells[kind.name] = np.vstack([cells[kind.name], ids]) if kind.name in cells else ids
     return X, cells
+
+
+def frames_in(path: str | os.PathLike[str]) -> int:
+    """Number of frames of a file of fields."""
+    with h5py.File(path, "r") as file:
+        return int(file["VTKHDF/Steps"].attrs["NSteps"])
+
+
+def read_fields(root: Any, frame: int) -> tuple[dict[str, FloatArray], dict[str, FloatArray]]:
+    """Read the fields of a frame.
+
+    Parameters
+    ----------
+    root : h5py.Group
+        The group ``VTKHDF`` of the open file.
+    frame : int
+        The frame, from 0.
+
+    Returns
+    -------
+    points, cells : dict of str to ndarray of float
+        Fields at all points of the file, with those of middle layers, and in the cells.
+    """
+    found = []
+    for kind, count in (("PointData", len(root["Points"])), ("CellData", len(root["Types"]))):
+        starts = {name: int(offsets[frame]) for name, offsets in root[f"Steps/{kind}Offsets"].items()}
+        chosen = {name: start for name, start in starts.items() if (kind, name) != ("CellData", DEGREES)}
+        found.append({name: root[f"{kind}/{name}"][start : start + count] for name, start in chosen.items()})
+    return found[0], found[1]
 
 
 def _check_degrees(expected: tuple[int, ...], degrees: FloatArray, where: str) -> None:

@@ -9,7 +9,7 @@ from annotated_types import Ge, Gt, Le, MaxLen, MinLen
 
 from umform.errors import InvalidValue
 from umform.materials.checks import check_finite
-from umform.spec import About, OneOf, check_fields
+from umform.spec import About, OneOf, ParametersInNotebook, check_fields
 from umform.spec.types import NotNegative, Positive
 
 _MOST = 4  # back stresses of the kernels
@@ -21,7 +21,7 @@ _Positive = Annotated[float, Gt(0.0), _STEEL]
 
 
 @dataclass(frozen=True)
-class Chaboche:
+class Chaboche(ParametersInNotebook):
     """Back stresses of Chaboche: the sum of those with d alpha = C f xi/phi dp - gamma alpha dp (docs/theory, 3.12).
 
     A part with gamma = 0 is linear (Prager); a part with gamma > 0 saturates at C / gamma. The factor f = 1 + (first -
@@ -67,7 +67,7 @@ class Chaboche:
 
 
 @dataclass(frozen=True)
-class YoshidaUemori:
+class YoshidaUemori(ParametersInNotebook):
     """Yoshida and Uemori (2002): a bounding surface and a stagnation surface (docs/theory, 3.13); hardening is Perfect.
 
     Examples

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import ctypes
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from os import PathLike
 from typing import Annotated, Any, Literal
@@ -18,17 +16,17 @@ from umform.materials.library import (
     State,
     Symbol,
     ThicknessPoints,
-    address,
     content,
+    function_address,
     named_state,
     numbers,
 )
 from umform.materials.user_law import Floats, named_parts
-from umform.spec import InDeck, check_fields
+from umform.spec import InDeck, ParametersInNotebook, check_fields
 
 
 @dataclass(frozen=True)
-class CompiledLaw:
+class CompiledLaw(ParametersInNotebook):
     """A law that is a C function, called for all points of one cell at a time without Python's global lock.
 
     ::
@@ -119,24 +117,7 @@ class CompiledLaw:
         )
 
     def _address(self, function: Any) -> int:
-        """Address of a function; 0 for none."""
-        if function is None:
-            return 0
-        if isinstance(function, str) and self.library is not None:
-            return address(self.library, [function], self.name)
-        found = getattr(function, "address", function)  # numba has it
-        if callable(found):
-            with suppress(ctypes.ArgumentError):  # A function of ctypes has an address, a Python function has none.
-                found = ctypes.cast(found, ctypes.c_void_p).value
-        if not isinstance(found, int) or isinstance(found, bool) or found <= 0:
-            raise InvalidValue(
-                "a compiled law needs a C function",
-                where=self.name,
-                value=function,
-                cause="a function of Python, or a name without the library that has it",
-                remedy='CompiledLaw("law", "law.so"), a numba.cfunc or a function of ctypes; UserLaw takes Python',
-            )
-        return found
+        return function_address(function, self.library, self.name, "CompiledLaw")
 
 
 def initial_state(where: str, state: int | Mapping[str, int], initial: Sequence[float]) -> tuple[float, ...]:

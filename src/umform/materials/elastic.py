@@ -13,7 +13,7 @@ from annotated_types import Gt, Lt
 
 from umform import _core
 from umform.errors import InvalidValue
-from umform.spec import About, check_fields
+from umform.spec import About, ParametersInNotebook, check_fields
 from umform.spec.types import FOLLOWS
 
 _EXCHANGED = About(
@@ -26,7 +26,7 @@ _Modulus = Annotated[float, Gt(0.0), _MODULI]
 
 
 @dataclass(frozen=True)
-class Elastic:
+class Elastic(ParametersInNotebook):
     """Isotropic elastic constants: E and nu, or kappa and mu.
 
     Raises

@@ -15,7 +15,7 @@ from umform import _core
 from umform.errors import HardeningNotMonotone, InvalidValue
 from umform.materials.checks import check_finite
 from umform.materials.known import known
-from umform.spec import About, OneOf, Rule, check_fields
+from umform.spec import About, OneOf, ParametersInNotebook, Rule, check_fields
 from umform.spec.types import NotNegative, Positive
 
 YieldStress = Annotated[
@@ -56,7 +56,7 @@ _FEW = 8
 
 
 @dataclass(frozen=True)
-class LinearVoce(Hardening):
+class LinearVoce(ParametersInNotebook, Hardening):
     """Linear and Voce hardening: y = yield_stress + modulus e + (saturation - yield_stress)(1 - exp(-rate e)).
 
     Examples
@@ -150,7 +150,7 @@ class Voce(LinearVoce):
 
 
 @dataclass(frozen=True)
-class Swift(Hardening):
+class Swift(ParametersInNotebook, Hardening):
     """Swift hardening: y = strength (offset + e)^exponent.
 
     Examples
@@ -175,7 +175,7 @@ class Swift(Hardening):
 
 
 @dataclass(frozen=True)
-class Table(Hardening):
+class Table(ParametersInNotebook, Hardening):
     """Piecewise linear curve through measured points, constant beyond the last one.
 
     Examples

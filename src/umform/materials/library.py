@@ -5,10 +5,11 @@ from __future__ import annotations
 import ctypes
 import hashlib
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from functools import cache
 from os import PathLike
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from annotated_types import Ge, Le, MinLen
 
@@ -23,6 +24,10 @@ Numbers = Annotated[Sequence[float], InDeck(list[float])]
 #: Name of a function.
 Symbol = Annotated[str, MinLen(1)]
 ThicknessPoints = Annotated[int, Ge(2), Le(20)]
+
+
+#: What takes a function of Python in place of a class of C functions.
+_OF_PYTHON = {"CompiledLaw": "UserLaw", "CompiledContactLaw": "ContactLaw"}
 
 
 def address(library: str | PathLike[str], symbols: Sequence[str], where: str) -> int:
@@ -57,6 +62,42 @@ def address(library: str | PathLike[str], symbols: Sequence[str], where: str) ->
         cause="another name, a name that a C++ compiler has decorated, or a function that is not exported",
         remedy=f'nm -D {library} lists the names; in C++ the function is extern "C"',
     )
+
+
+def function_address(function: Any, library: str | PathLike[str] | None, where: str, kind: str) -> int:
+    """Address of a C function: by its name in a library, an address, a cfunc of numba or a function of ctypes.
+
+    Parameters
+    ----------
+    function : object
+        The function; None has the address 0.
+    library : str or path-like, optional
+        The file.
+    where, kind : str
+        Name of the law and its class, for messages.
+
+    Raises
+    ------
+    InvalidValue
+        If it is no C function.
+    """
+    if function is None:
+        return 0
+    if isinstance(function, str) and library is not None:
+        return address(library, [function], where)
+    found = getattr(function, "address", function)  # numba has it
+    if callable(found):
+        with suppress(ctypes.ArgumentError):  # A function of ctypes has an address, a Python function has none.
+            found = ctypes.cast(found, ctypes.c_void_p).value
+    if not isinstance(found, int) or isinstance(found, bool) or found <= 0:
+        raise InvalidValue(
+            "a compiled law needs a C function",
+            where=where,
+            value=function,
+            cause="a function of Python, or a name without the library that has it",
+            remedy=f'{kind}("law", "law.so"), a numba.cfunc or a function of ctypes; {_OF_PYTHON[kind]} takes Python',
+        )
+    return found
 
 
 def content(library: str | PathLike[str], where: str) -> str:

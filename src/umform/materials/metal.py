@@ -19,7 +19,7 @@ from umform.materials.material import Material
 from umform.materials.rate_factor import Factor, RateFactor
 from umform.materials.user_law import Floats
 from umform.materials.yield_functions import Function, Mises
-from umform.spec import About, check_fields
+from umform.spec import About, ParametersInNotebook, check_fields
 
 #: Largest yield stress over E.
 _LARGEST_YIELD = 0.2
@@ -32,7 +32,7 @@ _FALLING = About(
 
 
 @dataclass(frozen=True)
-class FallingModulus:
+class FallingModulus(ParametersInNotebook):
     """Young's modulus that falls with the plastic strain: E = E0 - (E0 - saturated)(1 - exp(-rate p)).
 
     Examples

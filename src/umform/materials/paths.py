@@ -13,7 +13,12 @@ from numpy.typing import ArrayLike
 from umform import _core
 from umform.errors import InvalidValue, NoConvergence
 from umform.history_variables import named
+from umform.materials.material import Material
 from umform.materials.user_law import Floats
+
+#: Place of each entry of a tensor in Voigt order, and rows and columns of each place.
+_TENSOR = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])
+_PAIRS = (np.array([0, 1, 2, 0, 1, 0]), np.array([0, 1, 2, 1, 2, 2]))
 
 
 class SmallStrainLaw(Protocol):
@@ -21,6 +26,10 @@ class SmallStrainLaw(Protocol):
 
     def small_strain_law(self) -> _core.Material:
         """The law of logarithmic strains."""
+
+
+#: A law of logarithmic strains, or of the Green-Lagrange strain.
+AnyLaw = SmallStrainLaw | Material
 
 
 @dataclass(frozen=True)
@@ -41,7 +50,7 @@ class PointPath:
 
 
 def point_path(
-    material: SmallStrainLaw,
+    material: AnyLaw,
     strain: ArrayLike,
     stress: ArrayLike,
     angle: float = 0.0,
@@ -52,8 +61,9 @@ def point_path(
 
     Parameters
     ----------
-    material : Metal, CompiledLaw, Umat, LogarithmicSpace or UserLaw
-        A law of logarithmic strains; a UserLaw is taken as one of the strain that it gets.
+    material : Material
+        Any law. One of the Green-Lagrange strain, J2 for instance, is asked at that of the logarithmic strains, and its
+        stress is turned into the one that is conjugate to them; a UserLaw is taken as one of the strain that it gets.
     strain : array_like, shape (n, 6)
         Logarithmic strains 11, 22, 33, 12, 23, 13 with engineering shears; NaN where the stress is prescribed.
     stress : array_like, shape (n, 6)
@@ -83,9 +93,9 @@ def point_path(
             remedy="NaN in strain where the stress is prescribed",
         )
     steps = _durations(material, time, len(wanted))
-    law = _law(material)
+    law, finite = _law(material)
     turn = _turned(math.radians(angle))
-    strains, stresses, states = law.lead(turn, wanted, given, steps)
+    strains, stresses, states = law.lead(turn, wanted, given, steps, finite)
     if (number := len(strains)) < len(wanted):
         raise NoConvergence(
             "a state of the path cannot be reached",
@@ -98,7 +108,7 @@ def point_path(
 
 
 def tension(
-    material: SmallStrainLaw,
+    material: AnyLaw,
     strains: ArrayLike,
     angle: float = 0.0,
     *,
@@ -109,9 +119,9 @@ def tension(
 
     Parameters
     ----------
-    material : Metal, CompiledLaw, Umat, LogarithmicSpace or UserLaw
-        A law of logarithmic strains. A UserLaw is taken as one of the strain that it gets: of one in Green-Lagrange
-        strain these are Green-Lagrange strains and second Piola-Kirchhoff stresses.
+    material : Material
+        Any law: Metal, J2, an elastic one. A UserLaw is taken as one of the strain that it gets: of one in
+        Green-Lagrange strain these are Green-Lagrange strains and second Piola-Kirchhoff stresses.
     strains : array_like, shape (n,)
         Logarithmic strains, one after the other.
     angle : float
@@ -126,13 +136,13 @@ def tension(
     strain, stress : ndarray, shape (n,)
         Prescribed component of the logarithmic strain, and its conjugate stress.
     plastic : ndarray, shape (n, 6)
-        Plastic strain in the axes of the test, engineering shears: the part ``plastic_strain`` of the history, NaN
-        without it.
+        Plastic strain in the axes of the test, engineering shears: the part ``plastic_strain`` of the history, or of J2
+        that of its plastic metric; NaN without either.
 
     Raises
     ------
     InvalidValue
-        If the material has no law of logarithmic strains.
+        If the material is no law.
 
     Examples
     --------
@@ -150,29 +160,35 @@ def tension(
     return found.strain[:, component], found.stress[:, component], plastic
 
 
-def _law(material: SmallStrainLaw) -> _core.Material:
-    """The small-strain law of a material."""
-    made = getattr(material, "small_strain_law", None)
-    if made is None or isinstance(material, type):
+def _law(material: AnyLaw) -> tuple[_core.Material, bool]:
+    """The law of a material, and whether it is one of the Green-Lagrange strain."""
+    small, finite = getattr(material, "small_strain_law", None), isinstance(material, Material)
+    if isinstance(material, type) or not (callable(small) or finite):
         raise InvalidValue(
-            "a path needs a law of logarithmic strains",
+            "a path needs a law",
             where="point_path",
             value=material if isinstance(material, type) else type(material).__name__,
-            cause="the multiplicative split of J2, an elastic law of another strain, or no law",
-            remedy="Metal(E, nu, hardening=...) in place of J2; LogarithmicSpace(law) of an elastic law",
+            cause="a class in place of a law, or a metal of the library",
+            remedy="Metal(E, nu, hardening=...), or metal.law of a metal of the library",
         )
-    law: _core.Material = made()
-    return law
+    made: _core.Material = small() if callable(small) else material.law()  # type: ignore[union-attr]
+    return made, not callable(small)
 
 
 def _plastic_strain(found: PointPath) -> Floats:
-    """The part of the history called plastic_strain, shape (n, 6); NaN if a law has none."""
+    """The part of the history called plastic_strain, or -ln(Cp^-1) / 2, shape (n, 6); NaN if a law has neither."""
     none = np.full_like(found.strain, np.nan)
+    metric = found.history.get("Cp_inv")
+    if metric is not None and metric.shape == none.shape:
+        values, vectors = np.linalg.eigh(metric[:, _TENSOR])
+        logarithm = (vectors * (-0.5 * np.log(values))[:, None, :]) @ np.swapaxes(vectors, 1, 2)
+        strain: Floats = logarithm[:, _PAIRS[0], _PAIRS[1]] * np.where(np.arange(6) < 3, 1.0, 2.0)
+        return strain
     plastic = found.history.get("plastic_strain", none)
     return plastic if plastic.shape == none.shape else none
 
 
-def _durations(material: SmallStrainLaw, time: ArrayLike | None, rows: int) -> Floats:
+def _durations(material: AnyLaw, time: ArrayLike | None, rows: int) -> Floats:
     """Time from each row to the next, shape (rows,)."""
     if time is None:
         if getattr(material, "rate", None) is not None:

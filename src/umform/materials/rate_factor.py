@@ -13,7 +13,7 @@ from annotated_types import Ge, Gt, Le
 
 from umform import _core
 from umform.materials.known import known
-from umform.spec import About, OneOf, Rule, check_fields
+from umform.spec import About, OneOf, ParametersInNotebook, Rule, check_fields
 
 _MILD = About(
     cause="a sign, the two exchanged, or the exponent as a fraction",
@@ -52,7 +52,7 @@ Factor = Annotated[
 
 
 @dataclass(frozen=True)
-class CowperSymonds(RateFactor):
+class CowperSymonds(ParametersInNotebook, RateFactor):
     """Cowper and Symonds (1957): 1 + (rate / reference)^(1 / exponent).
 
     Examples
@@ -76,7 +76,7 @@ class CowperSymonds(RateFactor):
 
 
 @dataclass(frozen=True)
-class JohnsonCook(RateFactor):
+class JohnsonCook(ParametersInNotebook, RateFactor):
     """Johnson and Cook (1983): 1 + strength ln(rate / reference), 1 below the reference rate.
 
     Examples

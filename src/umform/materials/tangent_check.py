@@ -35,19 +35,32 @@ class TangentCheck(float):
     __str__ = __repr__
 
 
-def check_law(material: Material, E: ArrayLike, state: ArrayLike | None = None, step: float = 1e-6) -> TangentCheck:
+def check_law(
+    material: Material,
+    E: ArrayLike,
+    state: ArrayLike | None = None,
+    step: float = 1e-6,
+    *,
+    time_step: float = 1.0,
+    size: float = 1.0,
+    axes: ArrayLike | None = None,
+) -> TangentCheck:
     """Compare the tangent of a law with central differences, and with its transpose.
 
     Parameters
     ----------
     material : Material
-        Any law. The axes of its points are the global ones; size and time increment are 1.
+        Any law.
     E : array_like, shape (n, 6)
         Strains at which to compare, away from kinks such as first yield.
     state : array_like, shape (n, size), optional
         Converged history; default that of the virgin material.
     step : float
         Step of the differences.
+    time_step, size : float
+        Increment of time and length of the cell, for a law that depends on them: :class:`umform.materials.Points`.
+    axes : array_like, shape (3, 3), optional
+        Axes of the points; default: the global ones.
 
     Returns
     -------
@@ -65,6 +78,7 @@ def check_law(material: Material, E: ArrayLike, state: ArrayLike | None = None, 
         material = replace(material, symmetric=False)  # allow an asymmetric tangent, to measure its asymmetry
     law = material.law()
     E = np.ascontiguousarray(E, dtype=float)
+    frame = None if axes is None else np.ascontiguousarray(axes, dtype=float)
     history = np.tile(law.initial(), (len(E), 1)) if state is None else np.ascontiguousarray(state, dtype=float)
     sizes, shape = (len(E), law.state_size), np.shape(history)
     if shape != sizes:
@@ -77,7 +91,7 @@ def check_law(material: Material, E: ArrayLike, state: ArrayLike | None = None, 
         )
 
     def respond(strain: Floats) -> tuple[Floats, Floats, Floats]:
-        return law.respond(strain, history, None, 1.0, 1.0)
+        return law.respond(strain, history, frame, size, time_step)
 
     _, CC, _ = respond(E)
     differences = np.empty_like(CC)

@@ -23,14 +23,14 @@ from umform.materials.library import (
     numbers,
 )
 from umform.materials.user_law import Floats, named_parts
-from umform.spec import check_fields
+from umform.spec import ParametersInNotebook, check_fields
 
 #: Names that Fortran compilers, C and Windows give the subroutine.
 _SYMBOLS = ("umat_", "umat", "UMAT", "umat__")
 
 
 @dataclass(frozen=True)
-class Umat:
+class Umat(ParametersInNotebook):
     """A UMAT for three-dimensional small strains, in logarithmic space and the axes of the sheet (theory, 3.15).
 
     STRAN and DSTRAN are logarithmic strains, STRESS is work-conjugate to them. The subroutine does not get F or

@@ -175,13 +175,15 @@ class UserLaw:
     def _respond(
         self, E: Floats, state: Floats, cell: int, context: tuple[Floats, float, float] | None
     ) -> tuple[Floats, Floats, Floats]:
-        with self._naming(cell):
+        arguments = "strain, history" if context is None else "strain, history, points"
+        called = f"law({arguments}) -> stress (n, 6), tangent (n, 6, 6), new history (n, {len(self.initial)})"
+        with self._naming(cell, called):
             return self(E, state, None if context is None else Points(*context))
 
     def _energies(self, E: Floats, state: Floats, cell: int) -> tuple[Floats, Floats]:
         """Evaluate the energy function and check what it returns."""
         assert self.energy is not None
-        with self._naming(cell):
+        with self._naming(cell, "energy(strain, history) -> elastic energy (n,), plastic work (n,)"):
             answer = self.energy(E, state)
             if not isinstance(answer, tuple) or len(answer) != 2:
                 raise InvalidValue(
@@ -198,8 +200,8 @@ class UserLaw:
             )
 
     @contextmanager
-    def _naming(self, cell: int) -> Iterator[None]:
-        """Add the cell to an error and return the same object."""
+    def _naming(self, cell: int, called: str) -> Iterator[None]:
+        """Add the cell and how the function is called to an error, and return the same object."""
         try:
             yield
         except UmformError as error:
@@ -207,7 +209,8 @@ class UserLaw:
                 error.where = f"{error.where or self.name}, cell {cell}"
             raise
         except Exception as error:
-            error.add_note(f"in the law {self.name!r}" + (f", cell {cell}" if cell >= 0 else ""))
+            place = f"in the law {self.name!r}" + (f", cell {cell}" if cell >= 0 else "")
+            error.add_note(f"{place}, called as {called}")
             raise
 
     def _check_symmetry(self, CC: Floats) -> None:

@@ -16,7 +16,7 @@ from annotated_types import Ge, Gt, Le
 from umform import _core
 from umform.errors import InvalidValue
 from umform.materials.known import known
-from umform.spec import About, OneOf, Rule, check_fields
+from umform.spec import About, OneOf, ParametersInNotebook, Rule, check_fields
 from umform.spec.types import FOLLOWS, Positive
 
 Exponent = Annotated[
@@ -61,7 +61,7 @@ Function = Annotated[
 
 
 @dataclass(frozen=True)
-class Mises(YieldFunction):
+class Mises(ParametersInNotebook, YieldFunction):
     """Von Mises: isotropic.
 
     Examples
@@ -94,7 +94,7 @@ _SETS = (("r0", "r45", "r90"), ("s0", "s45", "s90", "biaxial"), ("F", "G", "H", 
 
 
 @dataclass(frozen=True)
-class Hill48(YieldFunction):
+class Hill48(ParametersInNotebook, YieldFunction):
     """Hill (1948) from three r-values, four yield stresses relative to the hardening curve, or Hill's constants.
 
     With r-values the hardening curve is that of the rolling direction. 0.5 (F, G, H) and 1.5 (L, M, N) give von Mises.
@@ -212,7 +212,7 @@ def _of_stresses(s0: float, s45: float, s90: float, biaxial: float) -> dict[str,
 
 
 @dataclass(frozen=True)
-class Transformation:
+class Transformation(ParametersInNotebook):
     """Linear map of the stress deviator: 1 is the rolling direction, 3 the normal of the sheet.
 
     S_11 = -c12 s_22 - c13 s_33, S_22 = -c21 s_11 - c23 s_33, S_33 = -c31 s_11 - c32 s_22, and a factor for each shear.
@@ -254,7 +254,7 @@ class Transformation:
 
 
 @dataclass(frozen=True)
-class Yld2004(YieldFunction):
+class Yld2004(ParametersInNotebook, YieldFunction):
     """Yld2004-18p of Barlat et al. (2005): ``sum_ij |S'_i - S''_j|^a = 4 phi^a``.
 
     S' and S'' are the principal values of two transformed stresses. Even exponents need no principal values and are

@@ -8,6 +8,7 @@ from umform.mesh.mesh import FACE_NODES, FACES, Floats, Ids, Mesh, Selector
 from umform.mesh.orient import orient
 from umform.mesh.outlined import blank
 from umform.mesh.thicken import thicken
+from umform.mesh.together import together
 
 __all__ = [
     "FACES",
@@ -30,4 +31,5 @@ __all__ = [
     "ring",
     "strip",
     "thicken",
+    "together",
 ]

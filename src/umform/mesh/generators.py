@@ -43,7 +43,7 @@ def graded(length: Positive, cells: Divisions, ratio: Positive = 1.0) -> Floats:
     return np.concatenate([[0.0], np.cumsum(steps) / steps.sum()]) * length
 
 
-def grid(x: Lines, y: Lines, z: Lines, cell: str = "hex8") -> Mesh:
+def grid(x: Lines, y: Lines, z: Lines, cell: str = "hex8", thickness: Positive | None = None) -> Mesh:
     """Structured mesh from grid lines.
 
     Parameters
@@ -54,16 +54,21 @@ def grid(x: Lines, y: Lines, z: Lines, cell: str = "hex8") -> Mesh:
         Borders of the layers, increasing.
     cell : {"hex8", "hex18"}
         Cell type.
+    thickness : float, optional
+        Thickness of all layers: z is scaled to it, its first border stays. Default: as z says.
 
     Returns
     -------
     Mesh
         With node and face sets x0, x1, y0, y1, lower, upper, and node sets x0_lower, x0_upper, ... for their edges.
     """
+    check_arguments(grid, thickness=thickness)
     lines = [np.asarray(values, dtype=float) for values in (x, y, z)]
     for name, values in zip("xyz", lines, strict=True):
         if values.ndim != 1 or len(values) < 2 or not (np.diff(values) > 0).all():
             raise InvalidValue("grid lines must increase", where=name, value=values)
+    if thickness is not None and thickness != np.ptp(lines[2]):
+        lines[2] = lines[2][0] + (lines[2] - lines[2][0]) * (thickness / np.ptp(lines[2]))
     if cell not in ("hex8", "hex18"):
         raise WrongCellType("unknown cell type", value=cell, remedy="hex8 or hex18")
     per_cell = 1 if cell == "hex8" else 2

@@ -59,9 +59,14 @@ def part_of_mesh(mesh: Mesh, kept: NDArray[np.bool_]) -> MeshPart:
     cut = _renumbered(_cut_faces(mesh, kept), cell)
     sets.pop("cut", None)
     made = Mesh(mesh.points[nodes], {mesh.cell: connectivity}, sets, {**faces, "cut": cut})
-    links = np.stack([np.repeat(connectivity[:, 0], connectivity.shape[1] - 1), connectivity[:, 1:].ravel()], axis=1)
-    pieces = int(connected(len(nodes), links).max()) + 1
-    return MeshPart(made, cells, nodes.astype(np.int64), pieces)
+    return MeshPart(made, cells, nodes.astype(np.int64), int(sheets_of(made).max()) + 1)
+
+
+def sheets_of(mesh: Mesh) -> Numbers:
+    """Number of the sheet that each cell belongs to, from 0: sheets share no node; shape (cells,)."""
+    cells = mesh.connectivity
+    links = np.stack([np.repeat(cells[:, 0], cells.shape[1] - 1), cells[:, 1:].ravel()], axis=1)
+    return connected(len(mesh.points), links)[cells[:, 0]]
 
 
 def joined_by_faces(mesh: Mesh, cells: Numbers) -> Numbers:

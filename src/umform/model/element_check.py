@@ -102,7 +102,7 @@ def _patch_errors(made: Element, law: Material) -> tuple[float, float]:
     curving = plate_stiffness * (4.0 - 2.0 * (1.0 - _NU) * (1.0 - 0.25))
     errors = []
     for u, twice_energy in ((membrane, stretching), (bending, curving)):
-        forces = model.evaluate(np.zeros(u.size), u.ravel()).predictor.reshape(-1, 3)
+        forces = model.system.evaluate(np.zeros(u.size), u.ravel()).predictor.reshape(-1, 3)
         unbalanced = np.abs(forces[inner]).max() / np.abs(forces).max()
         errors.append(max(float(unbalanced), abs(float((forces * u).sum()) / twice_energy - 1.0)))
     return errors[0], errors[1]

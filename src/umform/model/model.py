@@ -24,9 +24,13 @@ from umform.model.contact import Contact
 from umform.model.contact.contacts import Contacts
 from umform.model.contact.tools import Tools
 from umform.model.equations.assembled import Parts
+from umform.model.equations.evaluation import Evaluation
 from umform.model.equations.gauge import gauge_dofs
 from umform.model.equations.rest import Rest
+from umform.model.equations.sparse_tangent import warn_of_pending
 from umform.model.moved_names import MOVED, moved
+from umform.model.sheets import SheetContacts
+from umform.model.shown import ShownModel
 from umform.model.supports.support import Support
 from umform.model.supports.supports import Supports
 from umform.model.system import System
@@ -36,6 +40,7 @@ from umform.model.terms.state import Snapshot, State
 from umform.model.tools.press import Stiffness
 from umform.model.tools.tool import Tool
 from umform.model.tools.tool_controls import ToolForce
+from umform.ranks import ONE
 from umform.spec import check_arguments, takes
 
 Floats = NDArray[np.float64]
@@ -56,7 +61,25 @@ def _of(part: str, method: Callable[Concatenate[Any, _P], _R]) -> Callable[Conca
     return thin
 
 
-class Model:
+def _told_of_pending(
+    method: Callable[Concatenate[System, _P], Evaluation],
+) -> Callable[Concatenate[Model, _P], Evaluation]:
+    """An evaluation of the system as a method of the model; it warns once of enhanced parameters of another state."""
+
+    @wraps(method)
+    def evaluate(self: Model, /, *arguments: _P.args, **named: _P.kwargs) -> Evaluation:
+        recovered = self.system.recovered
+        # the system of a rank has a method of its own, which tells all ranks of a failure
+        found: Evaluation = getattr(self.system, method.__name__)(*arguments, **named)
+        if self.system.ranks is ONE and not recovered and not self._told:
+            self._told = warn_of_pending(self.system, found)
+        return found
+
+    evaluate.__qualname__ = "Model.evaluate"
+    return evaluate
+
+
+class Model(ShownModel):
     """Solid-shells with supports, loads and rigid tools.
 
     Parameters
@@ -120,6 +143,8 @@ class Model:
 
     carries_loose_sheet = True
     _origin: Any = None
+    #: Whether a residual beside the equilibrium of enhanced parameters was reported.
+    _told = False
 
     @takes(BodyOptions)
     def __init__(
@@ -144,6 +169,7 @@ class Model:
         self.system, self.mesh, self.bodies = system, system.mesh, system.bodies
         self.controls, self.supports, self.tools = system.controls, system.supports, system.tools
         self.contacts, self.loads, self._beads = system.contacts, Loads(system.mesh, system.controls), Beads(system)
+        self._sheets = SheetContacts(system)
 
     fix, symmetry = _of("supports", Supports.fix), _of("supports", Supports.symmetry)
     hinge, hold_director = _of("supports", Supports.hinge), _of("supports", Supports.hold_director)
@@ -154,12 +180,15 @@ class Model:
     line_load, pressure = _of("loads", Loads.line_load), _of("loads", Loads.pressure)
 
     contact, bead = _of("contacts", Contacts.contact), _of("_beads", Beads.bead)
+    sheet_contact = _of("_sheets", SheetContacts.sheet_contact)
+    self_contact = _of("_sheets", SheetContacts.self_contact)
     tool, drive, turn = _of("tools", Tools.tool), _of("tools", Tools.drive), _of("tools", Tools.turn)
     press, press_turn = _of("tools", Tools.press), _of("tools", Tools.press_turn)
     spring, stop = _of("tools", Tools.spring), _of("tools", Tools.stop)
     attach, set_motion = _of("tools", Tools.attach), _of("tools", Tools.set_motion)
 
-    add, evaluate = _of("system", System.add), _of("system", System.evaluate)
+    evaluate = _told_of_pending(System.evaluate)
+    add, tangent = _of("system", System.add), _of("system", System.tangent)
 
     @property
     def u(self) -> Floats:

@@ -1,4 +1,4 @@
-"""Names that a model had before its parts had their own; they go with the release after the next one."""
+"""Names that a model had before its parts had their own; version 0.3 removes them."""
 
 from __future__ import annotations
 
@@ -38,7 +38,8 @@ def moved(model: Any, name: str) -> tuple[Any, str]:
     """
     if name not in MOVED:
         raise AttributeError(f"{type(model).__name__!r} object has no attribute {name!r}")
-    warnings.warn(f"model.{name} is now called model.{MOVED[name]}", DeprecationWarning, stacklevel=3)
+    text = f"model.{name} is now called model.{MOVED[name]}; version 0.3 removes the old name"
+    warnings.warn(text, DeprecationWarning, stacklevel=3)
     *parts, last = MOVED[name].split(".")
     for part in parts:
         model = getattr(model, part)

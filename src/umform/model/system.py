@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from umform.model.changes import removal
 from umform.model.changes.kept_gap import check_kept_gaps
+from umform.model.contact.sheets.start import check_overlap
 from umform.model.equations.checks import check_model
 from umform.model.equations.evaluated import Evaluated
 from umform.model.equations.evaluation import Evaluation
+from umform.model.equations.sparse_tangent import settled, sparse_tangent
 from umform.model.supports.support import Support
-from umform.model.terms.state import Snapshot
+from umform.model.terms.state import Snapshot, State
+
+if TYPE_CHECKING:
+    from scipy import sparse
 
 Floats = NDArray[np.float64]
 
@@ -28,6 +34,46 @@ class System(Evaluated):
     parts : Parts
         Mesh, bodies, controls, supports, tools and contacts.
     """
+
+    def tangent(self, evaluation: Evaluation | None = None) -> sparse.csr_matrix:
+        """Tangent over the unknowns, both triangles: the derivative of ``restrict(residual)``. eqs. (5.18), (5.48)
+
+        Parameters
+        ----------
+        evaluation : Evaluation, optional
+            Where it was evaluated; default: at the present state.
+
+        Returns
+        -------
+        scipy.sparse.csr_matrix, shape (n + k, n + k)
+            Over the n unknowns at nodes, then the k scalar ones (the ways of pressed tools).
+
+        Raises
+        ------
+        InvalidValue
+            If the evaluation is of forces only.
+        ModelError
+            If ranks share the model.
+        """
+        return sparse_tangent(self, self.evaluate(self.state) if evaluation is None else evaluation)
+
+    def settle(self, state: State | Floats) -> Evaluation:
+        """Residual and tangent at a state, with the enhanced parameters in equilibrium at its displacement. eq. (2.19)
+
+        Then the residual depends on the displacement alone, and differences of it are those of its tangent. Elements
+        without enhanced strains need one evaluation. Changes no converged history; :meth:`revert` takes it back.
+
+        Parameters
+        ----------
+        state : State or ndarray, shape (3 n + k,)
+            As for :meth:`evaluate`.
+
+        Raises
+        ------
+        NoConvergence
+            If they do not come to rest at the displacement, or a cell fails.
+        """
+        return settled(self, state if isinstance(state, State) else self.state_at(state))
 
     def commit(self, evaluation: Evaluation) -> None:
         """Commit the state of an evaluation, which must be the last one."""
@@ -44,13 +90,13 @@ class System(Evaluated):
 
     def stand(self, evaluation: Evaluation) -> None:
         """Store the results of contacts at the converged state, if there was no commit."""
-        for contact in self.pairs_of_tools():
+        for contact in self.touching:
             contact.stand(evaluation.found[contact])
 
     def begin(self, evaluation: Evaluation) -> None:
         """Use the last evaluation as the present state: the reference for slip where there is no history yet."""
         self.stand(evaluation)
-        for contact in self.pairs_of_tools():
+        for contact in self.touching:
             contact.begin()
 
     def repeat(self, before: Mapping[str, Floats]) -> Evaluation:
@@ -131,6 +177,8 @@ class System(Evaluated):
     def check(self, gauge: Support | None = None) -> None:
         """Reject a model that cannot be solved, before the run starts, see `check_model`."""
         check_model(self, gauge)
+        for contact in self.sheet_contacts:
+            check_overlap(contact, self.u)
         check_kept_gaps(self)
 
     def mechanism(self, values: Floats, motion: Floats) -> Floats | None:

@@ -19,6 +19,7 @@ from umform.io.trees import read_tree, write_tree
 from umform.model import Model, Snapshot
 from umform.model.contact import Contact
 from umform.model.contact.kept import KeptContact
+from umform.model.contact.sheets import SheetContact
 from umform.model.transfer.rigid_motion import RigidMotion
 from umform.problem.errors import DeckError, DeckKey
 from umform.problem.notes import Field, Refusal
@@ -46,7 +47,7 @@ class Before(Part):
     removed metal. Steps move it to 0. Without it the part was released, and what is left over acts at once."""
     keep: list[Name] = field(default_factory=list)
     """Names of contacts with friction of that deck and of this one whose points keep their friction, and a penalty that
-    has grown: tools that stay where they stood."""
+    has grown: tools that stay where they stood, and sheets that touch."""
 
     def restore(self, model: Model, folder: File, tables: Mapping[str, Any]) -> None:
         """Restore a model, built from the data of a deck, to the state.
@@ -106,12 +107,18 @@ class Before(Part):
             )
         return {
             name: KeptContact(
-                np.asarray(one["faces"]), one["history"], json.loads(one["names"]), float(one.get("penalty", 0.0))
+                np.asarray(one["faces"]),
+                one["history"],
+                json.loads(one["names"]),
+                float(one.get("penalty", 0.0)),
+                one.get("feet"),
             )
             for name, one in ((name, found[name]) for name in self.keep)
         }
 
-    def keep_friction(self, model: Model, kept: Mapping[str, KeptContact], contacts: Mapping[str, Contact]) -> None:
+    def keep_friction(
+        self, model: Model, kept: Mapping[str, KeptContact], contacts: Mapping[str, Contact | SheetContact]
+    ) -> None:
         """Give contacts of the present deck the friction that they keep.
 
         Raises
@@ -127,7 +134,7 @@ class Before(Part):
                     value=name,
                     remedy="one of " + (", ".join(contacts) or "none: there is no contact"),
                 )
-            model.evaluate(model.system.x)
+            model.system.evaluate(model.system.x)
             contacts[name].begin()
             friction.put(contacts[name])
 
@@ -183,13 +190,14 @@ def write_state(model: Model, path: File, tables: Mapping[str, Any], note: Mappi
     """Write displacements, the history of all bodies, the data of this deck, and a note to build the model again."""
     state = model.system.snapshot()
     bodies = {body.key: state.terms[body.key] for body in model.bodies}
-    with_friction = {pair.name: KeptContact.of(pair) for pair in model.system.pairs_of_tools() if pair.has_friction}
+    with_friction = {pair.name: KeptContact.of(pair) for pair in model.system.touching if pair.has_friction}
     contacts = {
         name: {
             "faces": kept.faces,
             "history": kept.history,
             "names": json.dumps(kept.history_variables),
             "penalty": kept.penalty,
+            **({} if kept.feet is None else {"feet": kept.feet}),
         }
         for name, kept in with_friction.items()
     }

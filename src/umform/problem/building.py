@@ -114,7 +114,8 @@ class _Builder(SheetBuilder):
             for name, support in supports.items():
                 if support.waits and name not in named:
                     model.put_back(support)
-            part.keep_friction(model, self.kept, contacts)
+            sheets = {contact.name: contact for contact in model.system.sheet_contacts}
+            part.keep_friction(model, self.kept, {**contacts, **sheets})
             return {} if part.control is None else {part.control: model.unbalanced(part.control)}
         return {}
 
@@ -131,6 +132,9 @@ class _Builder(SheetBuilder):
                         part.tool, model.tool(part.tool, tools[part.tool])
                     )
                 contacts[name] = part.add_to(model, tool, name)
+        for name, touching in self.contents.sheet_contacts.items():
+            with self.at("sheet_contacts", name):
+                touching.add_to(model, name)
         for name, bead in self.contents.beads.items():
             if bead.contact in contacts:
                 with self.at("beads", name):

@@ -115,7 +115,8 @@ def drawings(problem: Prepared) -> Iterator[Finding]:
 
 def forming_limit(contents: Contents, problem: Prepared) -> Iterator[Finding]:
     """Refuse the curve of Keeler and Brazier without a flow curve that gives its n."""
-    if isinstance(contents.output.forming_limit, str) and not isinstance(problem.model.bodies.only.material, Plastic):
+    laws = [body.material for body in problem.model.bodies]
+    if isinstance(contents.output.forming_limit, str) and not (len(laws) == 1 and isinstance(laws[0], Plastic)):
         text = f"{contents.output.forming_limit} needs the hardening of one plastic material"
         yield error("output", text, "forming_limit = [[-0.2, 0.5], [0.0, 0.3], [0.2, 0.4]], strains of a test")
 
@@ -157,7 +158,7 @@ def effort(contents: Contents, problem: Prepared) -> Finding:
         seconds = np.inf
         for _ in range(2):  # the first one is slow: new memory, lazy libraries
             start = clock.perf_counter()
-            solver.factor(model.evaluate(model.system.x))
+            solver.factor(model.system.evaluate(model.system.x))
             seconds = min(seconds, clock.perf_counter() - start)
     except (SingularMatrix, NotFinite) as refusal:
         remedy = "let tools touch the sheet at the start, or hold it"

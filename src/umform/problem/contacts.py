@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import partial
 from itertools import pairwise
 from typing import Annotated, Literal
@@ -80,7 +81,7 @@ write_as(
 )
 
 
-class ContactPart(Part, of=ContactOptions):
+class ContactPart(Part, of=ContactOptions, leave=("law",)):
     """Contact of lower or upper faces with one tool."""
 
     tool: Name
@@ -105,7 +106,7 @@ class ContactPart(Part, of=ContactOptions):
         """Add the contact to the model, with a tool of its own or a shared one."""
         contact = model.contact(faces_of(model.mesh, self.faces), tool, name=name, **self.of_spec())
         if self.allowed is not None:
-            contact.allowed = None if isinstance(self.allowed, str) else self.allowed
+            contact.allowed = math.inf if isinstance(self.allowed, str) else self.allowed
         contact.tool.may_bottom |= self.may_bottom
         if self.motion is not None:
             model.set_motion(contact, self.motion.build(), self.motion.about)

@@ -16,6 +16,7 @@ from umform.problem.mesh import MeshPart
 from umform.problem.notes import Field, Later
 from umform.problem.parts import Name, Part
 from umform.problem.settings import Derivatives, Output, Solution, Units
+from umform.problem.sheet_contacts import SheetContactPart
 from umform.problem.steps import StepPart
 from umform.problem.supports import Support
 from umform.problem.tools import ToolPart
@@ -43,6 +44,9 @@ class Contents(Part):
     """Cuts of the part of the previous operation, in order."""
     placement: Placement | None = None
     """Rigid motion of the part before the first step."""
+    added: dict[Name, MeshPart] = field(default_factory=dict)
+    """Flat sheets that are laid beside the placed part, by name, with its element and metal: the sets are then lower of
+    part, upper of NAME, and so on."""
     mesh: MeshPart
     """Points and cells."""
     material: MaterialPart
@@ -53,6 +57,8 @@ class Contents(Part):
     """Rigid tools by name."""
     contacts: dict[Name, ContactPart] = field(default_factory=dict)
     """Contacts by name; the names are prefixes of history columns."""
+    sheet_contacts: dict[Name, SheetContactPart] = field(default_factory=dict)
+    """Contacts of sheets with each other and with themselves, by name; the names are prefixes of history columns."""
     beads: dict[Name, BeadPart] = field(default_factory=dict)
     """Equivalent draw beads by name; the names are prefixes of history columns."""
     supports: list[Support] = field(default_factory=list)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -15,13 +15,17 @@ from umform.problem.measures.base import FORMED, RELEASED, Formed, Measured, Row
 from umform.problem.prepared import Prepared
 from umform.problem.problem import Problem
 from umform.problem.unloading import loading_steps
-from umform.results.quantity import Quantity
+from umform.results.budget import Budget
+from umform.results.outcome import QUANTITIES
+from umform.results.quantity import Quantity, list_columns, table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 #: Table of all numbers.
 TABLE = "measures.csv"
+#: Numbers of a measure, and of all of them, on the first screen of a report.
+_FIRST, _LEADING = 3, 8
 #: Tables and pictures of single measures are named after them.
 _OF_ONE = "measure-{}"
 
@@ -36,10 +40,16 @@ class Taken:
         The measures.
     length : str
         Unit of lengths.
+    budget : Budget or None
+        Changes of all numbers by coarser runs, if they were asked for.
+    ends : sequence of Quantity
+        Controls and their forces at the end of each step, largest values of forming; with a budget only.
     """
 
     measures: dict[str, Measured] = field(default_factory=dict)
     length: str = ""
+    budget: Budget | None = None
+    ends: Sequence[Quantity] = ()
 
     @classmethod
     def of(cls, deck: Problem, problem: Prepared, result: Result, *, complete: bool) -> Taken:
@@ -71,13 +81,48 @@ class Taken:
                 result.warn(f"measure {name} is left out: {error}")
         return cls(measures, contents.units.length)
 
+    def with_budget(self, budget: Budget, ends: Sequence[Quantity], *, of_mesh: bool) -> Taken:
+        """With the bands of a budget, which are those of this mesh if no run had another one."""
+        bands = budget.bands
+
+        def banded(one: Quantity, name: str) -> Quantity:
+            return replace(one, band=bands[name], of_mesh=of_mesh)
+
+        measures = {
+            name: replace(
+                measured,
+                rows=[
+                    {state: banded(one, _named_as(name, one, state)) for state, one in row.items()}
+                    for row in measured.rows
+                ],
+            )
+            for name, measured in self.measures.items()
+        }
+        return replace(self, measures=measures, budget=budget, ends=[banded(one, one.name) for one in ends])
+
     @property
     def quantities(self) -> list[Quantity]:
         """All numbers; their names are those of the measure, of the number and of the state, with points between."""
-        return [
-            replace(one, name=f"{name}.{one.name}.{state}", label=f"{name}: {one.label}, {state}")
+        found = [
+            replace(one, name=_named_as(name, one, state), label=f"{name}: {one.label}, {state}")
             for name, row in self.rows
             for state, one in row.items()
+        ]
+        return [*found, *self.ends]
+
+    @property
+    def leading(self) -> list[Quantity]:
+        """The numbers for the first screen: the first ones of each measure, in its last state."""
+        firsts = [(name, row) for name, one in self.measures.items() for row in one.rows[:_FIRST]][:_LEADING]
+        found = [(name, list(row.values())[-1]) for name, row in firsts]
+        labels = [one.label for _, one in found]
+        return [
+            replace(
+                one,
+                label=one.label if labels.count(one.label) == 1 else f"{name}: {one.label}",
+                of_mesh=one.band is None or one.of_mesh,
+            )
+            for name, one in found
         ]
 
     @property
@@ -92,7 +137,12 @@ class Taken:
 
     @property
     def table(self) -> list[list[str]]:
-        """Rows of text, behind a header; without the column of the released part if there is none."""
+        """Rows of text, behind a header; without the column of the released part if there is none.
+
+        With a budget each number has a row, with its error and its changes.
+        """
+        if self.budget is not None:
+            return table(self.quantities)
         states = [FORMED, *[RELEASED] * self.is_released]
         rows = []
         for name, row in self.rows:
@@ -102,6 +152,8 @@ class Taken:
 
     def write(self, folder: Path) -> None:
         """Write the table of all numbers, and that of each measure."""
+        if self.budget is not None:
+            write_csv(folder / QUANTITIES, list_columns(self.quantities))
         if not self.measures:
             return
         names, rows = zip(*self.rows, strict=True)
@@ -126,7 +178,7 @@ class Taken:
 
     def parts(self) -> Iterator[str]:
         """The part of the report."""
-        if not self.measures:
+        if not self.measures and self.budget is None:
             return
         from umform.report import parts
 
@@ -135,6 +187,10 @@ class Taken:
         yield parts.table(header, rows)
         for name, measured in self.measures.items():
             yield parts.figure(self.pictures[name], f"{name}: {measured.caption}")
+
+
+def _named_as(measure: str, one: Quantity, state: str) -> str:
+    return f"{measure}.{one.name}.{state}"
 
 
 def data_files(*folders: Path) -> list[str]:

@@ -1,4 +1,4 @@
-"""The mesh of a deck: a strip, a grid, a disc, a ring, any outline, or a file of hexahedra or quadrilaterals."""
+"""The mesh of a deck: a strip, a grid, a disc, a ring, any outline, a file, or several of them together."""
 
 from __future__ import annotations
 
@@ -13,9 +13,10 @@ import numpy as np
 from umform import mesh
 from umform.errors import InvertedElement, MeshError, WrongNodeOrder
 from umform.mesh import Floats, Mesh
+from umform.problem.material import MaterialPart
 from umform.problem.notes import Discriminator, Field, Refusal, Tag
 from umform.problem.outline import Outlined
-from umform.problem.parts import Part, Positive, Vector, tagged_by, word_or_array
+from umform.problem.parts import Name, Part, Positive, Vector, tagged_by, word_or_array
 
 #: More cells than this are refused: a typing error should not fill the memory.
 _MOST_CELLS = 1_000_000
@@ -66,10 +67,11 @@ class Grid(Part, of=mesh.grid, leave=("cell",)):
 
     def __post_init__(self) -> None:
         """Refuse lines that do not increase, and too many cells."""
-        for name, lines in self.of_spec().items():
+        of_axes = {name: lines for name, lines in self.of_spec().items() if name != "thickness"}
+        for name, lines in of_axes.items():
             if any(b <= a for a, b in pairwise(lines)):
                 raise Refusal("lines", f"the lines of a grid must increase, those of {name} do not")
-        _refuse_too_many(prod(len(lines) - 1 for lines in self.of_spec().values()))
+        _refuse_too_many(prod(len(lines) - 1 for lines in of_axes.values()))
 
     def build(self, cell: str, folder: Path) -> Mesh:
         """Mesh of cells of a type."""
@@ -181,7 +183,7 @@ def _kind(value: Any) -> str | None:
     return _generator_or_file(value)
 
 
-MeshPart = Annotated[
+_ONE = (
     Annotated[Strip, Tag("strip")]
     | Annotated[Strip, Tag("plate")]
     | Annotated[Grid, Tag("grid")]
@@ -189,14 +191,54 @@ MeshPart = Annotated[
     | Annotated[Ring, Tag("ring")]
     | Annotated[Outlined, Tag("outline")]
     | Annotated[File, Tag("file")]
-    | Annotated[Shell, Tag("shell")],
-    Discriminator(
+    | Annotated[Shell, Tag("shell")]
+)
+
+
+def _generators(*words: str) -> Discriminator:
+    """Tells meshes apart by their generator or their file."""
+    return Discriminator(
         _kind,
         custom_error_type="mesh",
-        custom_error_message="a mesh has generator = strip, plate, grid, disc, ring or outline, or file = a path",
-        custom_error_context={
-            "key": "generator",
-            "expected_tags": "'strip', 'plate', 'grid', 'disc', 'ring', 'outline'",
-        },
-    ),
-]
+        custom_error_message=f"a mesh has generator = {', '.join(words[:-1])} or {words[-1]}, or file = a path",
+        custom_error_context={"key": "generator", "expected_tags": ", ".join(f"'{word}'" for word in words)},
+    )
+
+
+_WORDS = ("strip", "plate", "grid", "disc", "ring", "outline")
+OneMesh = Annotated[_ONE, _generators(*_WORDS)]
+
+
+class SheetPart(Part):
+    """One of the sheets of a deck."""
+
+    mesh: OneMesh
+    """Its mesh."""
+    shift: Vector = (0.0, 0.0, 0.0)
+    """Translation of the mesh."""
+    material: MaterialPart | None = None
+    """Its law, in place of that of the deck."""
+
+    def __post_init__(self) -> None:
+        """Refuse sizes that follow the tools."""
+        if isinstance(self.mesh, Outlined) and self.mesh.turn is not None:
+            raise Refusal("turn", "elements that follow the tools need a deck with one sheet")
+
+    def build(self, cell: str, folder: Path) -> Mesh:
+        """Its mesh of cells of a type."""
+        return self.mesh.build(cell, folder).transformed(lambda X: X + np.array(self.shift))
+
+
+class Together(Part):
+    """Sheets that share no node; the sets of the sheet NAME have their names with "of NAME" behind: "upper of NAME"."""
+
+    generator: Literal["together"]
+    sheets: Annotated[dict[Name, SheetPart], Field(min_length=1)]
+    """The sheets by name."""
+
+    def build(self, cell: str, folder: Path) -> Mesh:
+        """Mesh of cells of a type."""
+        return mesh.together(**{name: part.build(cell, folder) for name, part in self.sheets.items()})
+
+
+MeshPart = Annotated[_ONE | Annotated[Together, Tag("together")], _generators(*_WORDS, "together")]

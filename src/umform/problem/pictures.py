@@ -10,7 +10,7 @@ from umform.analysis.steps import Release
 from umform.model.terms.control import Control
 from umform.model.terms.dead_load import Load
 from umform.model.terms.pressure import Pressure
-from umform.plotting import history_picture, house_style, shape_picture
+from umform.plotting import Plot, history_picture, house_style, shape_picture
 from umform.problem.prepared import Prepared
 from umform.report.symmetry import mirrors, whole
 from umform.results.leading import leading_controls
@@ -43,7 +43,7 @@ def _load_curve(control: Control, result: Result) -> Figure:
     farthest = int(np.argmax(np.linalg.norm(displacements[-1], axis=1)))
     values = result[control.name][[frame.number for frame in result.frames]]
     with house_style():
-        figure = Figure(figsize=(5.6, 3.6), layout="constrained")
+        figure = Plot(figsize=(5.6, 3.6), layout="constrained")
         axes = figure.add_subplot()
         axes.plot(np.linalg.norm(displacements[:, farthest], axis=1), values, marker=".", markersize=3)
         axes.set(xlabel=f"displacement of node {farthest}", ylabel=control.name)

@@ -21,13 +21,15 @@ def r_values(model: Model) -> Iterator[Finding]:
     model : Model
         The model, which is unchanged.
     """
-    material: object = model.bodies.only.material
-    if not isinstance(material, Metal) or not material.yield_function.directional:
-        return
+    for body in model.bodies:
+        if isinstance(body.material, Metal) and body.material.yield_function.directional:
+            yield _of_metal(body.material)
+
+
+def _of_metal(material: Metal) -> Finding:
     values = {angle: float(uniaxial(material.yield_function, angle)[1]) for angle in _ANGLES}
     least = min(values, key=values.__getitem__)
     if values[least] >= 0.0:
-        yield ok("material", f"r-values from {values[least]:.3g} to {max(values.values()):.3g}")
-        return
+        return ok("material", f"r-values from {values[least]:.3g} to {max(values.values()):.3g}")
     text = f"the r-value at {least} degrees to the rolling direction is {values[least]:.3g}: a pulled bar grows wider"
-    yield error("material", text, "check signs and order of the constants of the yield function")
+    return error("material", text, "check signs and order of the constants of the yield function")

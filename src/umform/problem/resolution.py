@@ -18,6 +18,7 @@ from umform.elements.locking import HIGHEST, LOCKING, locking_moment
 from umform.elements.technology import Element
 from umform.materials import Plastic, Table
 from umform.model import Model
+from umform.model.bodies.body import Body
 from umform.model.contact import Contact
 from umform.model.contact.encounter import sheet_thickness
 from umform.problem.controls import Displacement, Drive, MidLine
@@ -63,8 +64,9 @@ def bends(deck: Problem, problem: Prepared) -> Iterator[Finding]:
         yield element_size(problem.contacts[name], problem.model, tool, radius)
         if radius > 0 and (sharpest is None or radius < sharpest[0]):
             sharpest = (radius, part.tool)
-    if sharpest is not None and isinstance(problem.model.bodies.only.material, Plastic):
-        yield from through_thickness(problem.model, problem.model.bodies.only.material, h, *sharpest)
+    for body in problem.model.bodies:
+        if sharpest is not None and isinstance(body.material, Plastic):
+            yield from through_thickness(problem.model, body, body.material, h, *sharpest)
 
 
 def coarse(deck: Problem, problem: Prepared) -> list[str]:
@@ -110,21 +112,23 @@ def element_size(contact: Contact, model: Model, tool: Tool, radius: float) -> F
     return warning(about, text, remedy)
 
 
-def through_thickness(model: Model, material: Plastic, h: float, radius: float, tool: str) -> Iterator[Finding]:
+def through_thickness(
+    model: Model, body: Body, material: Plastic, h: float, radius: float, tool: str
+) -> Iterator[Finding]:
     """Thickness points and thickness order against the strain that the smallest radius asks for."""
     strain, layers = h / (2.0 * radius + h), layers_of(model, h)
-    order, stiffness = max(model.bodies.only.element.thickness_order, 1), material.kappa / first_yield(material)
+    order, stiffness = max(body.element.thickness_order, 1), material.kappa / first_yield(material)
     follows = min(order, HIGHEST)
     text = f"the radius {radius:.4g} of {tool} strains a sheet of {h:.4g} by {100 * strain:.3g} %"
     if locking_moment(follows, strain, stiffness, layers) > LOCKING:
-        remedy = against_locking(model.bodies.only.element, strain, stiffness, layers)
+        remedy = against_locking(body.element, strain, stiffness, layers)
         yield warning("element", f"{text}: at thickness order {order} it locks", remedy)
     else:
         note = "; one layer makes the springback of so sharp a bend 2 to 6 % too large: four layers where it matters"
         sharp = layers == 1 and radius + 0.5 * h < _STRAIGHT * h
         yield ok("element", f"{text}: thickness order {order} can follow{note if sharp else ''}")
     least = _SHARP_POINTS if strain > _SHARP else _POINTS
-    points = layers * model.bodies.only.section_points
+    points = layers * body.section_points
     if points < least and strain > first_yield(material) / material.E:
         remedy = f"take {math.ceil(least / layers)}" + (" in each layer" if layers > 1 else "")
         yield warning("element", f"{points} thickness points for a strain of {100 * strain:.3g} %", remedy)

@@ -6,34 +6,25 @@ import shlex
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING
 
 from umform.analysis.run import Result
 from umform.errors import UmformError
 from umform.io.atomic import write_problem
 from umform.io.staging import Staging
-from umform.io.tables import write_csv
-from umform.model.contact.encounter import sheet_thickness
 from umform.problem.before import write_state
+from umform.problem.forming import Forming
 from umform.problem.kept import Kept
 from umform.problem.measured import TABLE, Taken, data_files, picture_files
 from umform.problem.prepared import Prepared
 from umform.problem.problem import Problem
 from umform.problem.written import toml
+from umform.results.outcome import QUANTITIES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from umform.materials import Plastic
-    from umform.results.forming import FormingLimit
-
-Floats = NDArray[np.float64]
 
 #: The deck of the run, beside its results.
 COPY = "as-run.toml"
@@ -41,7 +32,7 @@ COPY = "as-run.toml"
 CHECKPOINT = "checkpoint.h5"
 #: Final state, with which the deck of the next operation begins.
 STATE = "state.h5"
-_DATA = ("history.csv", "fields.vtkhdf", "fields.csv", STATE, TABLE)
+_DATA = ("history.csv", "fields.vtkhdf", "fields.csv", STATE, TABLE, QUANTITIES)
 _PAGE = ("report.html", "curve.png", "shape.png", "limits.png")
 FILES = (*_DATA, *_PAGE, COPY)
 #: Files that mark a folder as that of a run.
@@ -56,15 +47,21 @@ class Written:
     taken: Taken
 
 
-def write(deck: Problem, problem: Prepared, result: Result, stage: Staging, *, whole: bool) -> Written:
+def write(
+    deck: Problem, problem: Prepared, result: Result, stage: Staging, *, whole: bool, taken: Taken | None = None
+) -> Written:
     """Write the files that the deck asks for; data files are complete before pictures are drawn.
 
-    With ``whole`` False the run ended early: its state is not written, since no operation may begin with it.
+    With ``whole`` False the run ended early: its state is not written, since no operation may begin with it. ``taken``
+    are its measures, if they are known.
     """
     wanted, waiting, text = deck.contents.output, stage.waiting, as_run(deck)
-    taken = Taken.of(deck, problem, result, complete=whole)
+    if taken is None:
+        taken = Taken.of(deck, problem, result, complete=whole)
     (waiting / COPY).write_text(text, encoding="utf-8")
-    forming = _Forming.of(result, wanted.forming_limit) if wanted.forming or wanted.forming_limit is not None else None
+    forming = Forming.of(deck, result, taken.ends)
+    if forming is not None:
+        forming.warn(result)
     if forming is not None and wanted.csv:
         forming.write(waiting / "fields.csv", result)
     if wanted.csv:
@@ -88,59 +85,25 @@ def write(deck: Problem, problem: Prepared, result: Result, stage: Staging, *, w
             save(forming.diagram, waiting / "limits.png", dpi=120)
         taken.draw(waiting)
     if wanted.report:
+        from umform.report.looks import Units
         from umform.report.page import write_report
 
         metal = getattr(deck.contents.material, "note", "")
         more = chain(taken.parts(), () if forming is None else forming.parts())
         page = waiting / "report.html"
-        write_report(result, page, deck=text, title=deck.contents.title, note=metal, more=more, drawn=drawn)
+        names = deck.contents.units
+        write_report(
+            result,
+            page,
+            deck=text,
+            title=deck.contents.title,
+            note=metal,
+            more=more,
+            drawn=drawn,
+            numbers=taken.leading,
+            units=Units(names.length, names.force),
+        )
     return Written([*files, *stage.commit([*_PAGE, *picture_files(waiting, stage.folder)])], taken)
-
-
-@dataclass(frozen=True)
-class _Forming:
-    """Fields of forming at the end of a run, by element, and the limit that its deck gives."""
-
-    fields: dict[str, Floats]
-    limit: FormingLimit | None
-
-    @classmethod
-    def of(cls, result: Result, wanted: str | list[tuple[float, float]] | None) -> _Forming:
-        """Add the fields to the frames; warn of elements beyond the limit."""
-        from umform.results.forming import KeelerBrazier, LimitTable, add_forming_fields, forming_fields
-        from umform.results.forming.strains import beyond_limit
-
-        mesh = result.model.mesh
-        limit: FormingLimit | None = None
-        if isinstance(wanted, str):
-            limit = KeelerBrazier.of(sheet_thickness(mesh), cast("Plastic", result.model.bodies.only.material))
-        elif wanted is not None:
-            limit = LimitTable(*zip(*wanted, strict=True))
-        add_forming_fields(result, limit)
-        fields = forming_fields(mesh, result.model.u, limit)
-        text = None if limit is None else beyond_limit(mesh, fields)
-        if text is not None:
-            result.warn(f"the sheet tears: {text}")
-        return cls(fields, limit)
-
-    def write(self, path: Path, result: Result) -> None:
-        """Write the fields, with the middles of the elements in the blank."""
-        mesh = result.model.mesh
-        middle = mesh.points[mesh.connectivity].mean(axis=1)
-        write_csv(path, dict(zip("xyz", middle.T, strict=True)) | self.fields)
-
-    @cached_property
-    def diagram(self) -> Figure:
-        """Forming limit diagram."""
-        from umform.report.forming import limit_diagram
-
-        return limit_diagram(self.fields, self.limit)
-
-    def parts(self) -> Iterator[str]:
-        """What the report has of it."""
-        from umform.report.forming import forming_parts
-
-        return forming_parts(self.fields, self.diagram)
 
 
 def as_run(deck: Problem) -> str:

@@ -67,8 +67,8 @@ class ProblemOutcome(Outcome):
 
     @property
     def tables(self) -> dict[str, list[list[str]]]:
-        """The measures, a column for each state of the part."""
-        return {"Measures": self.taken.table} if self.taken.measures else {}
+        """The measures, a column for each state of the part; with an error budget a column for each change."""
+        return {"Measures": self.taken.table} if self.taken.quantities else {}
 
     @property
     def stages(self) -> dict[str, Result]:
@@ -178,6 +178,7 @@ def run(
     checkpoint: str | Path | None = None,
     every: float = 60.0,
     overwrite: bool = False,
+    budget: bool = False,
 ) -> ProblemOutcome:
     """Solve the problem of a deck and write its files, each of them atomically.
 
@@ -200,6 +201,9 @@ def run(
         Least seconds between two checkpoints; 0 writes one after each increment.
     overwrite : bool
         Whether results of another run, and its checkpoint, may be overwritten.
+    budget : bool
+        Whether coarser variants are run, too, for the errors of all numbers: see
+        :func:`umform.problem.error_budget.error_budget`. In one process only.
 
     Returns
     -------
@@ -223,7 +227,7 @@ def run(
         note = kept.note(path)
         return problem.solve(solver=solver, progress=progress, checkpoint=path, every=every, note=note)
 
-    return _finish(kept, problem, place, path, solve, solver or problem.solver)
+    return _finish(kept, problem, place, path, solve, solver or problem.solver, budget=budget)
 
 
 def resume(
@@ -273,11 +277,18 @@ def resume(
 
 
 def _finish(
-    kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: Callable[[], Result], solver: str
+    kept: Kept,
+    problem: Solving,
+    out: Path,
+    checkpoint: Path,
+    solve: Callable[[], Result],
+    solver: str,
+    *,
+    budget: bool = False,
 ) -> ProblemOutcome:
     """Solve and write the results; with several ranks the first one writes for all."""
     if solver != "petsc":
-        return _written(kept, problem, out, checkpoint, solve)
+        return _written(kept, problem, out, checkpoint, solve, budget=budget)
     from umform.parallel.mpi_ranks import world
     from umform.parallel.together import together
 
@@ -289,7 +300,9 @@ def _finish(
         return ProblemOutcome(result, [], ended_by)
 
 
-def _written(kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: Callable[[], Result]) -> ProblemOutcome:
+def _written(
+    kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: Callable[[], Result], *, budget: bool = False
+) -> ProblemOutcome:
     """Solve, write the results, and remove the checkpoint unless the user asked for it or it is needed."""
     assert isinstance(problem, Prepared)  # one process, or the first of several
     before = written_at(checkpoint)
@@ -298,17 +311,30 @@ def _written(kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: C
     with staging(out, FILES) as stage:
         remove_left_behind(checkpoint)
         result, ended_by = _solved(solve)
+        taken, stop = _taken(kept.deck, problem, result) if budget and ended_by is None else (None, None)
         with result.timing.files, says_what_is_kept(stage, checkpoint, before):
             if stage.make_again():
                 result.warn(f"the folder {out} was removed during the run; it was made again")
             for caution in cautions:
                 result.warn(caution)
-            written = write(kept.deck, problem, result, stage, whole=ended_by is None)
+            written = write(kept.deck, problem, result, stage, whole=ended_by is None, taken=taken)
         over = ended_by is None or isinstance(ended_by, UmformError)
         if over and checkpoint.resolve() == (kept.out / CHECKPOINT).resolve():
             checkpoint.unlink(missing_ok=True)
     left = None if over or not checkpoint.exists() else checkpoint
-    return ProblemOutcome(result, written.files, ended_by, left, written.taken)
+    return ProblemOutcome(result, written.files, ended_by or stop, left, written.taken)
+
+
+def _taken(deck: Problem, problem: Prepared, result: Result) -> tuple[Taken, KeyboardInterrupt | None]:
+    """The measures with the bands of an error budget; without them if Ctrl-C stops it."""
+    from umform.problem.error_budget import error_budget
+
+    taken = Taken.of(deck, problem, result, complete=True)
+    try:
+        return error_budget(deck, problem, result, taken), None
+    except KeyboardInterrupt as stop:
+        result.warn("the error budget was interrupted: the numbers have no errors")
+        return taken, stop
 
 
 def _solved(solve: Callable[[], Result]) -> tuple[Result, BaseException | None]:

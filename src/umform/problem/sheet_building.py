@@ -6,16 +6,23 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Protocol
 
+import numpy as np
+
 from umform.analysis.run import Result
 from umform.analysis.run.stages import continued
 from umform.elements import Rolling
 from umform.elements.technology import Element
 from umform.errors import UmformError
+from umform.materials import Material
 from umform.mesh import Mesh
 from umform.model import Model
+from umform.model.bodies.body import Body
 from umform.model.contact.kept import KeptContact
+from umform.model.transfer.beside import laid_beside
 from umform.problem.contents import Contents
 from umform.problem.errors import DeckError
+from umform.problem.material import LawPart
+from umform.problem.mesh import Together
 from umform.problem.outline import Outlined
 from umform.problem.places import Place
 from umform.problem.rolling import direction
@@ -65,7 +72,14 @@ class SheetBuilder:
         if model is not None and self.contents.placement is not None:
             with self.at("placement"):
                 self.contents.placement.apply(model)
-        return model
+        return model if model is None or not self.contents.added else self._with_added(model)
+
+    def _with_added(self, model: Model) -> Model | None:
+        """The part with the sheets that are laid beside it."""
+        with self.at("added"):
+            cell, folder = model.mesh.cell, self.source.folder
+            return laid_beside(model, **{name: one.build(cell, folder) for name, one in self.contents.added.items()})
+        return None
 
     def _formed(self) -> Model | None:
         """The model in the state after the previous operation."""
@@ -89,14 +103,36 @@ class SheetBuilder:
 
     def _model(self) -> Model | None:
         part = self.contents.element
-        element, mesh, material, rolling = self._element(), None, self.contents.material.law, self._rolling()
+        element, mesh = self._element(), None
+        material, rolling = self.contents.material.law, self._rolling(self.contents.material, "material", "rolling")
         with self.at("mesh"):
             mesh = self._mesh(element.cell if element else "hex8")
         if element is None or mesh is None or any("rolling" in e.where for e in self.errors):
             return None
+        bodies = self._bodies(mesh, material, rolling)
         with self.at("element"):
+            if bodies is not None:
+                return Model(mesh, bodies=bodies)
             return Model(mesh, part.name, material=material, rolling=rolling, **part.of_spec())
         return None
+
+    def _bodies(self, mesh: Mesh, material: Material, rolling: Rolling | None) -> list[Body] | None:
+        """A body for each of the sheets, if one has a law of its own."""
+        part, element = self.contents.mesh, self.contents.element
+        if not isinstance(part, Together) or all(sheet.material is None for sheet in part.sheets.values()):
+            return None
+        bodies = []
+        for name, sheet in part.sheets.items():
+            law, way = material, rolling
+            if sheet.material is not None:
+                law = sheet.material.law
+                way = self._rolling(sheet.material, "mesh", "sheets", name, "material", "rolling")
+            cells = np.isin(mesh.connectivity[:, 0], mesh.nodes(name))
+            with self.at("element"):
+                bodies.append(
+                    Body(element.name, material=law, cells=cells, name=name, rolling=way, **element.of_spec())
+                )
+        return bodies
 
     def _mesh(self, cell: str) -> Mesh | None:
         """The mesh; that of an outline may follow the radii of the tools. None if one of these has failed."""
@@ -112,13 +148,12 @@ class SheetBuilder:
         self.notes.append(f"mesh: {self.sizes.on(made)}")
         return made
 
-    def _rolling(self) -> Rolling | None:
+    def _rolling(self, material: LawPart, *path: str) -> Rolling | None:
         """The rolling direction of a metal that has one."""
-        rolling = self.contents.material.rolling
-        if rolling is None:
+        if material.rolling is None:
             return None
-        with self.at("material", "rolling"):
-            return direction(rolling, self.source.folder)
+        with self.at(*path):
+            return direction(material.rolling, self.source.folder)
         return None
 
     def _element(self) -> Element | None:

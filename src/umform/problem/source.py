@@ -16,7 +16,7 @@ from umform.problem.syntax import no_toml
 from umform.problem.written import deck_text, plain
 
 #: Tables of things by name.
-_NAMED = ("tools", "contacts", "beads", "controls", "measures")
+_NAMED = ("tools", "contacts", "sheet_contacts", "beads", "controls", "measures")
 #: Keys of a sheet metal of the library.
 _OF_A_METAL = ("material.library", "material.rolling", "material.law")
 

@@ -80,10 +80,15 @@ class _Controlled(Part):
     """Which control."""
 
 
-class Release(_Controlled, of=steps.Release, leave=("control",)):
+class Release(_Controlled, of=steps.Release, leave=("control",), called={"steps": "increments"}):
     """Move a control back until its force is zero or contact is lost."""
 
     kind: Literal["release"]
+
+    def __post_init__(self) -> None:
+        """Refuse a first increment together with a number of them."""
+        if self.of_spec()["increment"] is not None and self.of_spec()["steps"] is not None:
+            raise Refusal("value_error", "Value error, give the first increment or the number of increments, not both")
 
     def build(self, named: Named) -> steps.Step:
         """The step."""
@@ -92,7 +97,7 @@ class Release(_Controlled, of=steps.Release, leave=("control",)):
     @property
     def expected(self) -> int:
         """Approximate number of increments."""
-        return _OF_A_RELEASE
+        return int(self.of_spec()["steps"] or _OF_A_RELEASE)
 
 
 class Arc(Part, of=steps.Arc, leave=("control", "to", "until"), called={"kind": "length"}):

@@ -41,15 +41,18 @@ def units(model: Model, *, millimetres: bool = False) -> Iterator[Finding]:
         Units are known to be mm, N and MPa.
     """
     yield extent(model)
-    material: object = model.bodies.only.material
-    if not isinstance(material, Elastic):
+    materials: list[object] = [body.material for body in model.bodies]
+    laws = [law for law in materials if isinstance(law, Elastic)]
+    if not laws:
         return
-    yield elastic_constants(model, material, millimetres=millimetres)
-    if isinstance(material, Plastic):
-        yield from plastic_constants(material)
+    stiffest = max(laws, key=lambda law: law.E)  # a foil on a sheet may be as soft as rubber
+    yield elastic_constants(model, stiffest, millimetres=millimetres)
+    for material in materials:
+        if isinstance(material, Plastic):
+            yield from plastic_constants(material)
     thickness = sheet_thickness(model.mesh)
     for contact in model.contacts:
-        ratio = contact.penalty * thickness / material.E
+        ratio = contact.penalty * thickness / stiffest.E
         if ratio > _STIFF:
             remedy = "a softer penalty: expected pressure / penetration that you allow"
             yield warning(f"contact {contact.name}", f"the penalty is {ratio:.3g} times E / thickness", remedy)

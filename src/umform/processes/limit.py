@@ -13,12 +13,14 @@ from umform.results.quantity import Band
 FINER = math.sqrt(2.0)
 #: Two limits may agree by chance: the error is at least this part of the extrapolated difference.
 _LEAST = 0.2
+#: Order of convergence of elements with straight sides, and with mid-side nodes.
+_ORDER, _QUADRATIC = 2.0, 3.0
 _SOURCE = "extrapolation to zero element size; numbers without an error, and all pictures, are from the finest mesh"
 
 
 @dataclass(frozen=True)
 class Limit:
-    """A number extrapolated to zero element size; its error falls with the square of the element size.
+    """A number extrapolated to zero element size.
 
     Attributes
     ----------
@@ -27,8 +29,8 @@ class Limit:
     off : float
         Distance of the finer mesh from the limit, relative to the limit: estimated error of that mesh.
     error : float, optional
-        Estimated error of the limit: the distance from the limit of the two coarser meshes of three, or a fifth of the
-        extrapolated difference if that is larger.
+        Estimated error of the limit. Of two meshes: the shift from the finer one at order 2. Of three: its distance
+        from the limit of the coarser two, or a fifth of the extrapolated difference if that is larger.
     """
 
     value: float
@@ -36,31 +38,30 @@ class Limit:
     error: float | None = None
 
     @classmethod
-    def of(cls, coarse: float, fine: float, refined: float) -> Self:
-        """From the numbers on two meshes and the ratio of their element sizes, above 1."""
-        value = fine + (fine - coarse) / (refined**2 - 1.0)
+    def of(cls, coarse: float, fine: float, refined: float, order: float = _ORDER) -> Self:
+        """From the numbers on two meshes, the ratio of their element sizes, above 1, and the order of convergence."""
+        value = fine + (fine - coarse) / (refined**order - 1.0)
         return cls(value, fine / value - 1.0)
 
     @classmethod
-    def of_three(cls, numbers: Sequence[float], refined: float, *, least: float = _LEAST) -> Self:
-        """From the numbers on three meshes with one ratio of element sizes; the coarser two give the error.
+    def of_two(cls, coarse: float, fine: float, refined: float) -> Self:
+        """From the numbers on two meshes of elements with mid-side nodes, order 3; the error is the shift at order 2.
 
-        The error is at least a part ``least`` of the extrapolated difference: 1 if the order of convergence is not
-        known to be 2, so that it reaches the number on the finest mesh.
+        It contains the number on the finer mesh, and what any order from 1.7 on gives.
         """
+        last = cls.of(coarse, fine, refined, _QUADRATIC)
+        return cls(last.value, last.off, abs(cls.of(coarse, fine, refined).value - fine))
+
+    @classmethod
+    def of_three(cls, numbers: Sequence[float], refined: float) -> Self:
+        """From the numbers on three meshes with one ratio of element sizes; the coarser two give the error."""
         before, last = cls.of(numbers[0], numbers[1], refined), cls.of(numbers[1], numbers[2], refined)
-        return cls(last.value, last.off, max(abs(last.value - before.value), least * abs(numbers[2] - last.value)))
+        return cls(last.value, last.off, max(abs(last.value - before.value), _LEAST * abs(numbers[2] - last.value)))
 
     @property
     def band(self) -> Band:
         """The limit with its error, as the band of the number on the finer mesh."""
         return Band(math.nan if self.error is None else self.error, _SOURCE, middle=self.value)
-
-    @property
-    def inverse(self) -> Limit:
-        """The same for one over the number: the radius of a curvature."""
-        error = None if self.error is None else self.error / self.value**2
-        return Limit(1.0 / self.value, -self.off / (1.0 + self.off), error)
 
 
 def allowed_penetration(length: float, radius: float, thickness: float) -> float:

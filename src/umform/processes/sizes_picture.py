@@ -9,7 +9,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
 from umform.mesh import Mesh
-from umform.plotting import Picture, house_style, save
+from umform.plotting import COLOUR_MAP, Picture, house_style, save
 from umform.surfaces import ToolSizes
 
 
@@ -35,7 +35,7 @@ def sizes_figure(sizes: ToolSizes, mesh: Mesh | None = None) -> Figure:
     with house_style():
         figure = Picture(figsize=(5.6, 3.8), layout="compressed")
         axes = figure.add_subplot()
-        shown = axes.pcolormesh(sizes.x, sizes.y, sizes.size.T, cmap="viridis", shading="gouraud", rasterized=True)
+        shown = axes.pcolormesh(sizes.x, sizes.y, sizes.size.T, cmap=COLOUR_MAP, shading="gouraud", rasterized=True)
         if mesh is not None:
             quads = mesh.points[mesh.connectivity[:, :4], :2]
             axes.add_collection(PolyCollection(list(quads), facecolors="none", edgecolors="white", linewidths=0.4))

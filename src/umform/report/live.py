@@ -18,6 +18,7 @@ import numpy as np
 from umform.io.tables import write_csv
 from umform.plotting import COLOURS, history_picture, shape_picture
 from umform.report import parts
+from umform.report.looks import UNKNOWN, Units
 from umform.report.scene import Scene, scene_of
 from umform.report.symmetry import modelled_part, whole
 from umform.report.words import column_text
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 
     from umform.results.history import History
 
-_SCRIPTS = ("unpack.js", "space.js", "shape.js", "curves.js", "start.js")
+_SCRIPTS = ("unpack.js", "surfaces.js", "space.js", "shape.js", "curves.js", "start.js")
 
 
 @dataclass(frozen=True)
@@ -63,6 +64,7 @@ class Live:
         more: Mapping[str, NDArray[float64]] | None = None,
         first: tuple[str, str] | None = None,
         drawn: Mapping[str, Figure] | None = None,
+        units: Units = UNKNOWN,
     ) -> Live:
         """The parts for a result with a history; without kept frames, only its last state is drawn in 3D.
 
@@ -80,8 +82,10 @@ class Live:
         drawn : mapping of str to Figure, optional
             Pictures that have been drawn already: the whole ``shape``, and the ``curve`` of the control with the
             largest work.
+        units : Units
+            Names of the units, for the fields.
         """
-        scene, columns = scene_of(result), {**result.table(), **(more or {})}
+        scene, columns = scene_of(result, units), {**result.table(), **(more or {})}
         known = drawn or {}
         shape = _shape(result, scene, stills, known.get("shape"))
         curves = _curves(result, columns, stills, first, known.get("curve"))

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from umform.attempts import HARMLESS, Attempts
 from umform.report import parts
+from umform.report.key_numbers import key_numbers
 from umform.report.live import Live, style
+from umform.report.looks import UNKNOWN, Units
 from umform.report.materials import material_text
 from umform.report.repeats import counted
 from umform.report.versions import versions
+from umform.report.words import column_text, text_of
 from umform.results.balanced import LIMIT, Balanced, balanced
 from umform.results.outcome import MEASURES
 from umform.results.penetration import stage_penetrations
+from umform.results.quantity import Quantity
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -32,7 +36,7 @@ _ENERGIES = {
 _BALANCE = (
     "Imbalances are relative to the largest forces and moments, the drift of external work from the sum of the "
     f"energies is relative to the largest energy; its limit is {100.0 * LIMIT:g} %. Works and energies are those of "
-    "the modelled part."
+    "the computed part."
 )
 
 
@@ -45,6 +49,8 @@ def write_report(
     note: str = "",
     more: Iterable[str] = (),
     drawn: Mapping[str, Figure] | None = None,
+    numbers: Sequence[Quantity] = (),
+    units: Units = UNKNOWN,
 ) -> Path:
     """Write one self-contained page about a result.
 
@@ -64,6 +70,10 @@ def write_report(
         Parts of the page that follow the curves.
     drawn : mapping of str to Figure, optional
         Pictures that have been drawn already: see :meth:`umform.report.live.Live.of`.
+    numbers : sequence of Quantity, optional
+        What is shown beside the shape; default: those of :mod:`umform.report.key_numbers`.
+    units : Units, optional
+        Names of the units.
 
     Returns
     -------
@@ -77,20 +87,22 @@ def write_report(
     """
     parts.check_name(path)
     model = result.model
-    size = f"{model.bodies.only.element.name}: {len(model.mesh.connectivity)} elements, {len(result) - 1} increments"
-    effort = (
-        f"{result.summary()['iterations']} Newton iterations in {result.seconds:.1f} s, sparse solver {result.solver}"
-    )
-    title, lead = (title, f"{size}; {effort}") if title else (size, effort)
-    live = Live.of(result, drawn=drawn)
-    content = _parts(result, live, deck, note, more)
+    kinds = dict.fromkeys(body.element.name for body in model.bodies)
+    size = f"{', '.join(kinds)}: {len(model.mesh.connectivity)} elements"
+    lead = f"{size}; computed in {result.seconds:.1f} s"
+    title, lead = (title, lead) if title else (size, f"computed in {result.seconds:.1f} s")
+    live = Live.of(result, drawn=drawn, units=units)
+    content = _parts(result, live, deck, note, more, numbers or key_numbers(result, units))
     return parts.write_html(path, title, lead, content, style=style(), scripts=live.scripts)
 
 
-def _parts(result: History, live: Live, deck: str, note: str, more: Iterable[str]) -> Iterator[str]:
-    for message in counted(result.warnings):
-        yield parts.note(message, bad=True)
-    yield live.shape
+def _parts(
+    result: History, live: Live, deck: str, note: str, more: Iterable[str], numbers: Sequence[Quantity]
+) -> Iterator[str]:
+    warnings = counted(result.warnings)
+    yield parts.warned(warnings)
+    yield parts.first_screen(numbers, live.shape)
+    yield parts.warnings(warnings)
     yield from map(parts.note, live.notes)
     yield parts.heading("Curves")
     yield live.curves
@@ -130,9 +142,10 @@ def outcome_parts(
     model : str
         Heading of the model of the last run.
     """
-    for message in counted(outcome.warnings):
-        yield parts.note(message, bad=True)
+    warnings = counted(outcome.warnings)
+    yield parts.warned(warnings)
     yield parts.first_screen(outcome.leading, picture)
+    yield parts.warnings(warnings)
     if outcome.all_notes:
         yield parts.items(outcome.all_notes)
     yield from middle
@@ -167,7 +180,7 @@ def parameter_parts(values: Mapping[str, object], note: str) -> Iterator[str]:
 
 def closing(stages: Mapping[str, History], main: History) -> Iterator[str]:
     """The end of every report: contacts and balance of each stage, the time of the main one, and versions."""
-    if any(result.model.contacts for result in stages.values()):
+    if any(result.model.system.penalised for result in stages.values()):
         kept = all(one.kept for rows in stage_penetrations(stages).values() for one in rows.values())
         yield parts.section("Contacts", contacts(stages), opened=not kept)
     yield from balance_parts({stage: balanced(result) for stage, result in stages.items()})
@@ -180,7 +193,9 @@ def _end_values(result: History) -> str:
     ends = {int(row["step"]): row for row in result.rows}
     columns = [name for name in result.columns() if name != "step"]
     header = ["", *("start" if step == 0 else f"end of step {step}" for step in ends)]
-    return parts.table(header, [[name, *(f"{row[name] + 0.0:.6g}" for row in ends.values())] for name in columns])
+    return parts.table(
+        header, [[column_text(name), *(f"{row[name] + 0.0:.6g}" for row in ends.values())] for name in columns]
+    )
 
 
 def time_spent(result: History) -> str:
@@ -204,15 +219,24 @@ def _attempts(attempts: Attempts) -> str:
 def settings(result: History) -> dict[str, object]:
     """Model of a run as text."""
     model = result.model
-    options = ", ".join(f"{name}={value}" for name, value in model.bodies.only.element.options.items())
+    iterations = result.summary()["iterations"]
     rows: dict[str, object] = {
+        "effort": f"{iterations} Newton iterations in {len(result) - 1} increments; sparse solver {result.solver}",
         "mesh": f"{len(model.mesh.points)} nodes, {len(model.mesh.connectivity)} elements {model.mesh.cell}",
-        "element": f"{model.bodies.only.element.name} ({options})" if options else model.bodies.only.element.name,
-        "thickness points": f"{model.bodies.only.thickness_points} {model.bodies.only.thickness_rule}",
-        "material": material_text(model.bodies.only.material),
+    }
+    for body in model.bodies:
+        options = ", ".join(f"{column_text(name)} {text_of(value)}" for name, value in body.element.options.items())
+        of = f" of {body.name}" if len(model.bodies) > 1 else ""
+        rows |= {
+            f"element{of}": f"{body.element.name} ({options})" if options else body.element.name,
+            f"points through the thickness{of}": f"{body.thickness_points} by {body.thickness_rule.capitalize()}",
+            f"material{of}": material_text(body.material),
+        }
+    rows |= {
         "degrees of freedom": f"{model.supports.unknown_count} unknown of {model.u.size}",
     }
-    return rows | {f"contact {pair.name}": pair.tool.surface for pair in model.contacts}
+    between = {f"contact {pair.name}": "between sheets" for pair in model.system.sheet_contacts}
+    return rows | {f"contact {pair.name}": pair.tool.surface for pair in model.contacts} | between
 
 
 def contacts(stages: Mapping[str, History]) -> Iterator[str]:

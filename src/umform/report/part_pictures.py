@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -29,6 +30,7 @@ def section_picture(
     unit: str = "mm",
     *,
     points: Floats | None = None,
+    measured: str = "points of the wall",
     title: str = "",
 ) -> Figure:
     """One section in several states: both skins, the last state as full lines.
@@ -43,6 +45,8 @@ def section_picture(
         Of length.
     points : ndarray, shape (n, 2), optional
         Measured points, drawn as dots.
+    measured : str
+        What they are.
     title : str
         Numbers, above the picture.
     """
@@ -56,15 +60,20 @@ def section_picture(
                 shown = np.insert(skin, np.flatnonzero(cut.gaps) + 1, np.nan, axis=0)  # nothing over a hole
                 axes.plot(shown @ along, shown[:, 2], line, color=colour, label=label or None)
         if points is not None:
-            axes.plot(*points.T, "o", color=INK, markersize=4, label="points of the wall")
+            axes.plot(*points.T, "o", color=INK, markersize=4, label=measured)
         axes.set_title(title)
         axes.set_aspect("equal")
         _legend_below(figure)
     return figure
 
 
-def outline_picture(edge: Outline, unit: str = "mm", *, equal: bool = True) -> Figure:
-    """An edge of the blank before, and in the part; with equal scales unless the edge is nearly straight."""
+def outline_picture(edge: Outline, unit: str = "mm", *, equal: bool = True, error: float = 0.0) -> Figure:
+    """An edge of the blank before, and in the part with the band of its draw-in.
+
+    The scales are equal unless the edge is nearly straight.
+    """
+    way = edge.before - edge.after
+    band = error * way / np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-12)
     with house_style():
         figure, axes = _axes(of_unit("x", unit), of_unit("y", unit))
         for label, points, line, colour in (
@@ -75,18 +84,23 @@ def outline_picture(edge: Outline, unit: str = "mm", *, equal: bool = True) -> F
                 around = points[np.append(piece, piece[0]) if edge.closed[k] else piece]
                 named = None if k else label
                 axes.plot(*around.T, line, marker=".", markersize=3, color=colour, label=named)
+        for piece in edge.pieces if error > 0.0 else ():
+            ring = np.concatenate([(edge.after + band)[piece], (edge.after - band)[piece[::-1]]])
+            axes.fill(*ring.T, color="C1", alpha=0.2, linewidth=0)
         if equal:
             axes.set_aspect("equal")
         _legend_below(figure)
     return figure
 
 
-def ears_picture(ears: EarProfile, unit: str = "mm", *, zero: str = "the x-axis") -> Figure:
-    """Height of a cup over the angle to a direction, its mean, and how many ears it has."""
+def ears_picture(ears: EarProfile, unit: str = "mm", *, zero: str = "the x-axis", error: float = 0.0) -> Figure:
+    """Height of a cup over the angle to a direction with its band, its mean, and how many ears it has."""
     whole = ears.whole()
     with house_style():
         figure, axes = _axes(f"angle to {zero} in degrees", of_unit("height of the cup", unit))
-        axes.plot(np.append(whole.angle, whole.angle[0] + 360.0), np.append(whole.height, whole.height[0]), label="rim")
+        around, height = np.append(whole.angle, whole.angle[0] + 360.0), np.append(whole.height, whole.height[0])
+        (line,) = axes.plot(around, height, label="rim")
+        shade(axes, around, height, np.full(len(height), error), line.get_color())
         axes.axhline(ears.mean, color=INK, linewidth=0.8, linestyle=":", label=f"mean {ears.mean:.4g}")
         axes.set_title(ears.words(unit))
         axes.set_xticks(np.arange(0, 361, 45))
@@ -97,14 +111,47 @@ def ears_picture(ears: EarProfile, unit: str = "mm", *, zero: str = "the x-axis"
     return figure
 
 
-def forces_picture(way: Floats, forces: Mapping[str, Floats], x: str, y: str) -> Figure:
-    """Forces of the tools, by their names, over a travel."""
+def forces_picture(
+    way: Floats, forces: Mapping[str, Floats], x: str, y: str, errors: Mapping[str, float] | None = None
+) -> Figure:
+    """Forces of the tools, by their names, over a travel; relative errors, by the same names, are shaded."""
     with house_style():
         figure, axes = _axes(x, y)
         for name, force in forces.items():
-            axes.plot(way, force, label=name)
+            (line,) = axes.plot(way, force, label=name)
+            shade(axes, way, force, (errors or {}).get(name, 0.0) * np.abs(force), line.get_color())
         axes.set_ylim(0.0, None)
         _legend_below(figure)
+    return figure
+
+
+def shade(axes: Axes, x: Floats, y: Floats, error: Floats, colour: Any) -> None:
+    """Shade the band of a curve; without an error, nothing."""
+    if np.isfinite(error).all() and error.max(initial=0.0) > 0.0:
+        axes.fill_between(x, y - error, y + error, color=colour, alpha=0.2, linewidth=0)
+
+
+def thinning_picture(cut: Section, thickness: float, error: float = 0.0, unit: str = "mm") -> Figure:
+    """Thinning along a section, over the way along the undeformed one, with its band.
+
+    Parameters
+    ----------
+    cut : Section
+        The section in the part.
+    thickness : float
+        Thickness of the undeformed sheet.
+    error : float
+        Error of the thinning in per cent.
+    unit : str
+        Of length.
+    """
+    with house_style():
+        figure, axes = _axes(of_unit("way along the blank", unit), "thinning in %")
+        thinning = 100.0 * (1.0 - np.linalg.norm(cut.upper - cut.lower, axis=1) / thickness)
+        (line,) = axes.plot(cut.s, thinning)
+        shade(axes, cut.s, thinning, np.full(len(thinning), error), line.get_color())
+        axes.axhline(0.0, color=INK, linewidth=0.8)
+        frame(figure)
     return figure
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from datetime import datetime
 from html import escape
 from importlib.resources import files
@@ -16,7 +17,10 @@ from umform.errors import InvalidValue
 from umform.io.atomic import PendingFile
 from umform.plotting import inline_svg
 from umform.report.words import text_of
-from umform.results.quantity import Bad, Quantity
+from umform.results.quantity import OF_MESH, Bad, Quantity
+
+#: Letters of a warning on the first screen.
+_SHORT = 110
 
 
 def heading(text: str) -> str:
@@ -77,17 +81,35 @@ def cards(numbers: Iterable[Quantity]) -> str:
 
 
 def _card(one: Quantity) -> str:
-    error = "" if one.band is None else f" <small>{escape(one.error_text)}</small>"
+    error = "" if one.band is None else f" <small>{escape(replace(one, of_mesh=False).error_text)}</small>"
     unit = "°" if one.unit == "degrees" else f" <small>{escape(one.unit)}</small>" if one.unit else ""
     mark = ' class="bad"' if one.missed else ""
+    mesh = f" <small>{OF_MESH}</small>" if one.of_mesh else ""
     hint = f"<dd><small>{escape(one.hint)}</small></dd>" if one.hint else ""
-    return f"<div{mark}><dt>{escape(one.label)}</dt><dd>{escape(one.text)}{error}{unit}</dd>{hint}</div>"
+    return f"<div{mark}><dt>{escape(one.label)}</dt><dd>{escape(one.text)}{error}{unit}{mesh}</dd>{hint}</div>"
 
 
 def section(title: str, content: Iterable[str], *, opened: bool = False) -> str:
     """A part with a heading that opens at a click; printing opens it."""
     state = " open" if opened else ""
     return f'<details class="part"{state}><summary><h2>{escape(title)}</h2></summary>{"".join(content)}</details>'
+
+
+def warned(messages: Sequence[str]) -> str:
+    """The beginning of the first warning on the first screen, with a link to all; empty without any."""
+    if not messages:
+        return ""
+    first = messages[0].splitlines()[0]
+    text = first if len(first) <= _SHORT else f"{first[:_SHORT].rsplit(' ', 1)[0]} …"
+    count = "the warning" if len(messages) == 1 else f"all {len(messages)} warnings"
+    return f'<p class="note bad warned"><b>Warning:</b> {escape(text)} <a href="#warnings">{count}</a></p>'
+
+
+def warnings(messages: Sequence[str]) -> str:
+    """All warnings, the target of the line of `warned`."""
+    if not messages:
+        return ""
+    return f'<section id="warnings">{heading("Warnings")}{"".join(note(one, bad=True) for one in messages)}</section>'
 
 
 def lines(text: str) -> str:

@@ -16,41 +16,32 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import UmformError
+from umform.plotting import COLOUR_MAP
+from umform.report import looks
 from umform.report.facets import smooth_groups, unit_normals
+from umform.report.looks import LINES, ROLLING, SHEET, TOOL, TOOL_OPACITY
 from umform.report.skin import Skin
 from umform.surfaces.triangles import Triangles
+from umform.surfaces.triangulated import SHARP
 
 Floats = NDArray[np.float64]
 
 #: Azimuth and elevation of the observer in degrees.
 VIEW = (-118.0, 26.0)
-#: The colour map, sheet without a field, tools, lines of elements, lines of rolling.
-COLOUR_MAP = mpl.colors.LinearSegmentedColormap.from_list(
-    "umform", ("#e3e8ed", "#f6dfb0", "#f5b466", "#ea7b3f", "#cf3a3a", "#8e1245")
-)
-SHEET, TOOL, SECTION, LINES, ROLLING = "#a9b8c6", "#b9c2cb", "#8797a8", "#1c2733", "#b3261e"
-#: Angle between faces of a tool from which on their edge is drawn, half of it in degrees.
-_SHARP = 15.0
-#: Opacity of tools, and of the lines of elements.
-TOOL_OPACITY, _LINE_OPACITY = 0.32, 0.45
-#: How far lines and tools are drawn before what they lie on, as a part of their size: chords of elements enter tools.
-_LINES_BEFORE, _TOOLS_BEFORE = 5e-4, 2.5e-3
+#: Colour of a section of a tool.
+SECTION = "#8797a8"
 #: Pixels in a picture for one that is kept, along each side.
 _FINER = 2
 #: Margin around what is drawn, as a part of its size.
 _MARGIN = 0.02
 #: Dots per inch and size of the font; room for a scale, its largest height, room for titles, in pixels.
 _DPI, _FONT, SCALE, _TALL_SCALE, _TITLE = 100, 12, 110, 420, 36
-#: Light without a direction.
-_AMBIENT = 0.42
 #: Difference of colours out of 255 that is dithered.
 _VISIBLE = 3
 #: Bytes of a file from which on it has 256 colours only.
 _LARGEST = 190_000
 #: Height over width of a picture, at most.
 _LARGEST_ASPECT = 0.8
-#: Length of a line of rolling over the size of a face, and how flat the direction must lie in it.
-_ROLLING_LENGTH, _LYING = 0.3, 0.9
 #: Scale in a window.
 _BAR = {
     "vertical": True,
@@ -176,12 +167,12 @@ class Rendering:
         if scale is not None and skin.values is not None:
             surface.point_data["values"] = skin.values
             colours = {"scalars": "values", "cmap": COLOUR_MAP, "clim": scale.limits, "nan_color": SHEET}
-        self._sheet = self._add(surface, **colours, opacity=opacity, specular=0.25, specular_power=30)
+        self._sheet = self._add(surface, **colours, opacity=opacity, **_shine(looks.SHEET_SHINE))
         self._scale = scale
         self._extent.append(skin.points)
         if lines:
             for some in skin.lines:
-                self._add_lines(some, LINES, 1.0, _LINE_OPACITY * opacity)
+                self._add_lines(some, LINES, 1.0, looks.LINE_OPACITY * opacity)
 
     def add_tool(
         self, surface: Triangles, *, cut: Cut | None = None, colour: str = TOOL, opacity: float = TOOL_OPACITY
@@ -199,10 +190,10 @@ class Rendering:
         points[groups] = surface.corners
         size = np.linalg.norm(total, axis=1, keepdims=True)
         normals = np.divide(total, size, out=np.zeros_like(total), where=size > 0)
-        points = self._nearer(points, _TOOLS_BEFORE)
-        self._add(self._surface(points, groups, normals), color=colour, opacity=opacity, specular=0.2)
+        points = self._nearer(points, looks.TOOLS_BEFORE)
+        self._add(self._surface(points, groups, normals), color=colour, opacity=opacity, **_shine(looks.TOOL_SHINE))
         edges, free = creases(surface)
-        self._add_lines(edges, LINES, 1.0, 0.35)
+        self._add_lines(edges, LINES, 1.0, looks.EDGE_OPACITY)
         self._extent.append(surface.points)
         if cut is not None:
             self._add_sides(surface, edges[free], cut, colour)
@@ -216,7 +207,7 @@ class Rendering:
         far[:, :, 2] = back
         sides = np.stack([edges[:, 0], edges[:, 1], far[:, 1], far[:, 0]], axis=1)
         on = (np.abs((edges - np.asarray(cut.at)) @ np.asarray(cut.normal)) < 1e-6 * np.ptp(z)).all(axis=1)
-        lit = {"color": colour, "ambient": _AMBIENT}
+        lit = {"color": colour, "ambient": looks.AMBIENT}
         for some, look in ((sides[on], {"color": SECTION, "lighting": False}), (sides[~on], lit)):
             if len(some):
                 self._add_flat(some.reshape(-1, 3), np.arange(4 * len(some)).reshape(-1, 4), look)
@@ -227,7 +218,7 @@ class Rendering:
     def _add_flat(self, points: Floats, faces: NDArray[np.int64], look: dict[str, Any]) -> None:
         """Add faces without normals."""
         cells = np.insert(faces, 0, faces.shape[1], axis=1).ravel()
-        self.plotter.add_mesh(self.pv.PolyData(self._nearer(points, _TOOLS_BEFORE), cells), **look)
+        self.plotter.add_mesh(self.pv.PolyData(self._nearer(points, looks.TOOLS_BEFORE), cells), **look)
         self._extent.append(points)
 
     def add_rolling(self, skin: Skin, directions: Floats) -> None:
@@ -267,8 +258,8 @@ class Rendering:
         return np.asarray(pixels.resize((width, height), Image.Resampling.LANCZOS))
 
     def _lights(self) -> None:
-        """Light from the left above, weaker from the right, and from the observer: they go with the camera."""
-        for place, strength in (((-0.6, 0.9, 0.8), 0.38), ((0.9, -0.3, 0.6), 0.26), ((0.0, 0.1, 1.0), 0.34)):
+        """Lights that go with the camera."""
+        for place, strength in looks.LIGHTS:
             self.plotter.add_light(self.pv.Light(position=place, intensity=strength, light_type="camera light"))
 
     def _nearer(self, points: Floats, part: float) -> Floats:
@@ -284,7 +275,12 @@ class Rendering:
 
     def _add(self, surface: Any, **options: Any) -> Any:
         return self.plotter.add_mesh(
-            surface, smooth_shading=True, split_sharp_edges=False, ambient=_AMBIENT, show_scalar_bar=False, **options
+            surface,
+            smooth_shading=True,
+            split_sharp_edges=False,
+            ambient=looks.AMBIENT,
+            show_scalar_bar=False,
+            **options,
         )
 
     def _add_lines(self, lines: Floats, colour: str, width: float, opacity: float) -> Any:
@@ -293,11 +289,16 @@ class Rendering:
             return None
         count, each = lines.shape[:2]
         cells = np.insert(np.arange(count * each).reshape(count, each), 0, each, axis=1).ravel()
-        drawn = self.pv.PolyData(self._nearer(lines.reshape(-1, 3), _LINES_BEFORE), lines=cells)
+        drawn = self.pv.PolyData(self._nearer(lines.reshape(-1, 3), looks.LINES_BEFORE), lines=cells)
         width *= _FINER if self.plotter.off_screen else 1
         return self.plotter.add_mesh(
             drawn, color=colour, line_width=width, opacity=opacity, lighting=False, show_scalar_bar=False
         )
+
+
+def _shine(how: tuple[float, float]) -> dict[str, float]:
+    """How a surface shines."""
+    return {"specular": how[0], "specular_power": how[1]}
 
 
 def creases(surface: Triangles) -> tuple[Floats, NDArray[np.bool_]]:
@@ -307,7 +308,7 @@ def creases(surface: Triangles) -> tuple[Floats, NDArray[np.bool_]]:
     owner = np.repeat(np.arange(len(surface.triangles)), 3)
     edges, number, count = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
     total = np.stack([np.bincount(number.ravel(), normals[owner, c], len(edges)) for c in range(3)], axis=1)
-    sharp = (count == 1) | (np.linalg.norm(total, axis=1) < 2.0 * np.cos(np.radians(_SHARP)))
+    sharp = (count == 1) | (np.linalg.norm(total, axis=1) < 2.0 * np.cos(np.radians(0.5 * SHARP)))
     return surface.points[edges[sharp]], count[sharp] == 1
 
 
@@ -316,10 +317,10 @@ def rolling_lines(skin: Skin, directions: Floats) -> Floats:
     along, normal = directions[skin.owners], skin.directions
     flat = along - np.einsum("fi,fi->f", along, normal)[:, None] * normal
     length = np.linalg.norm(flat, axis=1)
-    seen = length > _LYING
+    seen = length > looks.LYING
     size = np.sqrt(skin.areas)[seen, None]
-    arm = _ROLLING_LENGTH * size * flat[seen] / length[seen, None]
-    middle = skin.middles[seen] + 0.02 * size * normal[seen]
+    arm = looks.ROLLING_LENGTH * size * flat[seen] / length[seen, None]
+    middle = skin.middles[seen] + looks.ROLLING_BEFORE * size * normal[seen]
     return np.stack([middle - arm, middle + arm], axis=1)
 
 

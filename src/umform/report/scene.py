@@ -6,15 +6,18 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import matplotlib as mpl
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.report import looks
 from umform.report.bodies import Poses, displacements, tool_bodies
 from umform.report.facets import smooth_groups
+from umform.report.looks import UNKNOWN, Units
 from umform.report.packing import Quantised, pack
+from umform.report.part import means_at_corners, plane_strain, widened
+from umform.report.patches import Surface
+from umform.report.skin import parts_of
 from umform.report.symmetry import Mirror, mirrors
-from umform.results.shape import outer_quads
 from umform.surfaces.triangles import Triangles
 
 if TYPE_CHECKING:
@@ -24,21 +27,8 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Ids = NDArray[np.int64]
 
-#: A field has two signs if the smaller extreme is more than this part of the larger one.
-_TWO_SIGNS = 0.02
-#: Order of the fields in the menu; others follow.
-_ORDER = (
-    "plastic_strain_max",
-    "plastic_strain_mean",
-    "thickness_change",
-    "stress_von_mises",
-    "back_stress_von_mises",
-    "modulus",
-    "displacement",
-    "contact_pressure",
-    "friction_traction",
-    "slip",
-)
+#: Largest number of parts of a face along a side in the browser, and about how many parts all faces have.
+_FINE, _PARTS = 4, 40_000
 
 
 @dataclass(frozen=True)
@@ -72,31 +62,37 @@ class Scene:
     rolling: bool = False
 
 
-def scene_of(result: History) -> Scene:
-    """The scene of a result; without kept frames, only its last state."""
-    mesh = result.model.mesh
-    faces, owners = outer_quads(mesh.connectivity.astype(np.int64))
-    nodes, faces = np.unique(faces, return_inverse=True)
-    cells, owners = np.unique(owners, return_inverse=True)
-    faces = faces.reshape(-1, 4)
-    X = mesh.points[nodes]
-    shifts = displacements(result)[:, nodes]
-    arrays: dict[str, NDArray[Any] | Quantised] = {
-        "points": X,
-        "faces": faces,
-        "groups": smooth_groups(X, faces),
-        "owners": owners,
-        "displacements": Quantised.of(shifts),
-    }
+def scene_of(result: History, units: Units = UNKNOWN) -> Scene:
+    """The scene of a result; without kept frames, only its last state.
+
+    Parameters
+    ----------
+    result : History
+        The result.
+    units : Units
+        Names of its units, for the fields.
+    """
+    mesh, planes, wide = result.model.mesh, mirrors(result.model), plane_strain(result.model)
+    cells = mesh.connectivity.astype(np.int64)
+    X = mesh.points if wide is None else widened(mesh.points, *wide)
+    surface = Surface.of(X, cells, parts_of(cells, _FINE, _PARTS), planes)
+    nodes = np.unique(np.concatenate([kind.nodes.ravel() for kind in surface.patches]))
+    arrays = _surface_arrays(surface, nodes)
+    shifts = displacements(result)
+    arrays["points"], arrays["displacements"] = X[nodes], Quantised.of(shifts[:, nodes])
     fields: list[dict[str, Any]] = []
-    for name, place, values in _fields(result.frames, shifts, nodes, cells):
-        arrays[f"field {name}"] = Quantised.of(values)
-        fields.append({"name": name, "label": name.replace("_", " "), "on": place, **_scale(values)})
-    axes = _rolling(result.frames, cells)
+    for name, kind, values in _fields(result.frames, shifts, nodes, cells):
+        look = looks.look_of(name)
+        arrays[f"field {name}"] = Quantised.of(look.factor * values)
+        fields.append({"name": name, "label": look.label(units), "on": kind})
+    axes = _rolling(result.frames)
     if axes is not None:
         arrays["rolling"] = Quantised.of(axes)
-    planes = mirrors(result.model)
     bodies, notes = tool_bodies(result, X + shifts, planes)
+    if wide is not None:
+        notes.append(
+            f"Plane strain: the same in each section, drawn {wide[1]:.3g}{units.length and f' {units.length}'} wide."
+        )
     for number, body in enumerate(bodies):
         arrays |= _tool_arrays(f"tool {number}", body.surface, body.poses)
     tools = [body.name for body in bodies]
@@ -105,12 +101,35 @@ def scene_of(result: History) -> Scene:
         "fields": fields,
         "tools": tools,
         "rolling": axes is not None,
-        "maps": _maps(fields),
+        "look": looks.for_page(),
+        "patches": [
+            {"points": kind.size, "grid": kind.nodes.shape[1:], "inner": kind.inner} for kind in surface.patches
+        ],
+        "lines": [line.shape[1] for line in surface.lines],
         "mirrors": [{"axis": plane.axis, "at": plane.at} for plane in planes],
         "toolMirrors": [[planes.index(plane) for plane in body.mirrored] for body in bodies],
     }
     labels = [field["label"] for field in fields]
     return Scene(pack(head, arrays), len(shifts), labels, tools, notes, planes, axes is not None)
+
+
+def _surface_arrays(surface: Surface, nodes: Ids) -> dict[str, NDArray[Any] | Quantised]:
+    """Matrices and numbers of a surface, whose nodes are numbered as in the scene."""
+    arrays: dict[str, NDArray[Any] | Quantised] = {}
+    for number, kind in enumerate(surface.patches):
+        of = f"patches {number}"
+        arrays |= {
+            f"{of} nodes": np.searchsorted(nodes, kind.nodes),
+            f"{of} groups": kind.groups,
+            f"{of} owners": kind.owners,
+            f"{of} position": kind.position,
+            f"{of} rows": kind.rows,
+            f"{of} columns": kind.columns,
+            f"{of} middle": kind.middle,
+            f"{of} corners": kind.corners,
+        }
+    arrays |= {f"lines {number}": line for number, line in enumerate(surface.lines)}
+    return arrays | {f"seam {number}": seam for number, seam in enumerate(surface.seams)}
 
 
 def _marks(result: History) -> list[dict[str, float]]:
@@ -121,38 +140,34 @@ def _marks(result: History) -> list[dict[str, float]]:
 
 
 def _fields(frames: list[Frame], shifts: Floats, nodes: Ids, cells: Ids) -> Iterator[tuple[str, str, Floats]]:
-    """Name, location and values (frames, n) of the scalar fields that are finite everywhere."""
-    found: dict[str, tuple[str, Floats]] = {"displacement": ("points", np.linalg.norm(shifts, axis=2))}
-    if frames:
-        for place, ids in (("points", nodes), ("cells", cells)):
-            for name, first in getattr(frames[0], place).items():
-                if first.ndim == 1:
-                    values = np.stack([getattr(frame, place)[name][ids] for frame in frames])
-                    if np.isfinite(values).all():
-                        found[name] = place, values
-    for name in sorted(found, key=lambda name: _ORDER.index(name) if name in _ORDER else len(_ORDER)):
+    """Name, location and values (frames, n) of the scalar fields that are finite everywhere.
+
+    Location: "nodes" for the shape functions, "corners" for means of the cells at corners of elements.
+    """
+    found: dict[str, tuple[str, Floats]] = {"displacement": ("nodes", np.linalg.norm(shifts[:, nodes], axis=2))}
+    for name in frames[0].points if frames else ():
+        values = [frame.points[name] for frame in frames]
+        if values[0].ndim == 1 and np.isfinite(values).all():
+            found[name] = "nodes", np.stack(values)[:, nodes]
+    for name in frames[0].cells if frames else ():
+        values = [frame.cells[name] for frame in frames]
+        if values[0].ndim == 1 and np.isfinite(values).all():
+            found[name] = "corners", np.stack([_at_corners(one, cells, shifts.shape[1])[nodes] for one in values])
+    for name in sorted(found, key=looks.place):
         yield name, *found[name]
 
 
-def _rolling(frames: list[Frame], cells: Ids) -> Floats | None:
-    """Rolling directions (frames, cells, 3) of the visible cells; None if no body has one."""
+def _at_corners(values: Floats, cells: Ids, count: int) -> Floats:
+    """Means of a field at the corners; at other nodes, which are not drawn, the least of them."""
+    means = means_at_corners(cells, count, values)
+    return np.where(np.isfinite(means), means, np.nanmin(means))
+
+
+def _rolling(frames: list[Frame]) -> Floats | None:
+    """Rolling directions (frames, cells, 3); None if no body has one."""
     if not frames or "rolling" not in frames[0].cells:
         return None
-    return np.stack([frame.cells["rolling"][cells] for frame in frames])
-
-
-def _scale(values: Floats) -> dict[str, object]:
-    """The colour map for a field: diverging about zero if it has both signs."""
-    low, high = float(values.min()), float(values.max())
-    both = min(-low, high) > _TWO_SIGNS * max(-low, high)
-    return {"map": "coolwarm" if both else "viridis", "symmetric": both}
-
-
-def _maps(fields: list[dict[str, Any]]) -> dict[str, str]:
-    """Colour maps as 64 colours in hexadecimal."""
-    names = sorted({field["map"] for field in fields})
-    steps = np.linspace(0.0, 1.0, 64)
-    return {name: (mpl.colormaps[name](steps, bytes=True)[:, :3]).tobytes().hex() for name in names}
+    return np.stack([frame.cells["rolling"] for frame in frames])
 
 
 def _tool_arrays(name: str, surface: Triangles, poses: Poses) -> dict[str, NDArray[Any] | Quantised]:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.report import parts
+from umform.report import looks, parts
 from umform.report.facets import smooth_groups
 from umform.report.live import shape_part, shape_scripts, style
 from umform.report.packing import Quantised, pack
@@ -20,9 +20,10 @@ _STYLE = """
 main { max-width: none; padding: 0 .2rem; }
 header, footer, .player, .panel label, .legend { display: none; }
 .panel { margin: 0; }
+#shape-bar { display: flex !important; }
 .stage { height: calc(100vh - 4.2rem); min-height: 12rem; }
 """
-_SCRIPTS = ("unpack.js", "space.js", "shape.js", "start_solid.js")
+_SCRIPTS = ("unpack.js", "surfaces.js", "space.js", "shape.js", "start_solid.js")
 #: Colours of flat faces and of bends.
 _FLAT, _BENT = np.array([176, 186, 197]), np.array([230, 159, 0])
 #: Decimals of positions in mm that are one.
@@ -56,24 +57,20 @@ def scene_of_solid(solid: Solid) -> Scene:
     corners[turned] = corners[turned, ::-1]
     points, ids = np.unique(corners.reshape(-1, 3).round(_PLACES), axis=0, return_inverse=True)
     triangles = ids.reshape(-1, 3)
-    faces = np.concatenate([triangles, triangles[:, 2:]], axis=1)  # quadrilaterals whose last two corners are one
-    fields: list[dict[str, Any]] = [
-        {"name": "bent", "label": "cylindrical", "on": "cells", "map": "part", "symmetric": False}
-    ]
     arrays: dict[str, NDArray[Any] | Quantised] = {
         "points": points,
-        "faces": faces,
-        "groups": np.concatenate([(groups := smooth_groups(points, triangles)), groups[:, 2:]], axis=1),
-        "owners": np.arange(len(faces)),
+        "faces": triangles,
+        "groups": smooth_groups(points, triangles),
+        "owners": np.arange(len(triangles)),
         "displacements": Quantised.of(np.zeros((1, *points.shape))),
         "field bent": Quantised.of(bent[None]),
     }
     head = {
         "frames": [{"row": 0, "time": 0.0}],
-        "fields": fields,
+        "fields": [{"name": "bent", "label": "cylindrical", "on": "faces"}],
         "tools": [],
         "rolling": False,
-        "maps": {"part": _map()},
+        "look": looks.for_page() | {"map": _map()},
         "mirrors": [],
         "toolMirrors": [],
     }

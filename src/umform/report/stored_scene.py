@@ -9,9 +9,9 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.io.vtkhdf_reader import read_vtkhdf
+from umform.io.vtkhdf_reader import read_fields, read_vtkhdf
 from umform.report.bodies import displacements, tool_bodies
-from umform.report.skin import Part
+from umform.report.part import Part, plane_strain, widened
 from umform.report.symmetry import Mirror, mirrors
 from umform.surfaces.triangles import Triangles
 
@@ -21,15 +21,18 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-#: Group of the file. Its data set ``mirrors`` has a row for each plane: axis and coordinate.
+#: Group of the file. Its data set ``mirrors`` has a row for each plane, axis and coordinate; ``wide`` has axis and
+#: width of the picture of sheet in plane strain.
 _GROUP = "umform"
 
 
 def attach_scene(series: VtkHdfSeries, result: History) -> None:
     """Add the tools and the planes of symmetry of a result to the file of its frames."""
-    planes = mirrors(result.model)
-    bodies, _ = tool_bodies(result, result.model.mesh.points + displacements(result), planes)
-    series.attach(_GROUP, {"mirrors": np.array([[plane.axis, plane.at] for plane in planes]).reshape(-1, 2)})
+    planes, wide = mirrors(result.model), plane_strain(result.model)
+    X = result.model.mesh.points if wide is None else widened(result.model.mesh.points, *wide)
+    bodies, _ = tool_bodies(result, X + displacements(result), planes)
+    table = {"mirrors": np.array([[plane.axis, plane.at] for plane in planes]).reshape(-1, 2)}
+    series.attach(_GROUP, table if wide is None else {**table, "wide": np.array(wide)})
     for number, body in enumerate(bodies):
         rotations, shifts = body.poses
         arrays: dict[str, Any] = {
@@ -40,12 +43,6 @@ def attach_scene(series: VtkHdfSeries, result: History) -> None:
             "mirrored": np.array([planes.index(plane) for plane in body.mirrored], dtype=np.int64),
         }
         series.attach(f"{_GROUP}/tools/{number}", arrays)
-
-
-def frames_in(path: Path) -> int:
-    """Number of frames of a file of fields."""
-    with h5py.File(path, "r") as file:
-        return int(file["VTKHDF/Steps"].attrs["NSteps"])
 
 
 def read_frame(path: Path, frame: int, *, whole: bool = True) -> tuple[Part, dict[str, Triangles]]:
@@ -64,18 +61,16 @@ def read_frame(path: Path, frame: int, *, whole: bool = True) -> tuple[Part, dic
     with h5py.File(path, "r") as file:
         root = file["VTKHDF"]
         frame = range(root["Steps"].attrs["NSteps"])[frame]
-        sizes = {"PointData": len(root["Points"]), "CellData": len(root["Types"])}
-        fields: dict[str, dict[str, Floats]] = {kind: {} for kind in sizes}
-        for kind, size in sizes.items():
-            for name, starts in root[f"Steps/{kind}Offsets"].items():
-                fields[kind][name] = root[f"{kind}/{name}"][starts[frame] : starts[frame] + size]
+        at_points, in_cells = read_fields(root, frame)
         group = file.get(_GROUP, {})
         planes = [Mirror(int(axis), float(at)) for axis, at in group["mirrors"]] if "mirrors" in group else []
+        wide = group["wide"][()] if "wide" in group else None
         tools = group.get("tools", {})
         stored = [{name: tool[name][()] for name in tool} for _, tool in sorted(tools.items(), key=_number)]
-    part = Part.deformed(X, next(iter(cells.values())), fields["PointData"], fields["CellData"])
+    part = Part.deformed(X, next(iter(cells.values())), at_points, in_cells)
     surfaces = {tool["name"].decode(): _at(tool, frame, planes if whole else []) for tool in stored}
-    return part.whole(planes) if whole else part, surfaces
+    part = part.whole(planes) if whole else part
+    return part if wide is None else part.widened(int(wide[0]), float(wide[1])), surfaces
 
 
 def _number(item: tuple[str, object]) -> int:

@@ -73,9 +73,13 @@ def mirrors(model: Model) -> list[Mirror]:
 
 def modelled_part(model: Model) -> str:
     """What forces and works refer to if planes of symmetry leave only a part in the model; otherwise empty."""
-    parts = {1: "half", 2: "quarter", 3: "eighth"}
-    part = parts.get(len(mirrors(model)), "")
-    return f"forces and works are those of the modelled {part} of the sheet" if part else ""
+    count = len(mirrors(model))
+    if not count:
+        return ""
+    part = {1: "half", 2: "a quarter", 3: "an eighth"}[count]
+    return (
+        f"{part} of the sheet is computed, by symmetry: forces and works of the whole are {2**count} times those here"
+    )
 
 
 def _through_the_thickness(model: Model, inside: NDArray[np.bool_]) -> bool:

@@ -20,7 +20,7 @@ def warn_of_drift(model: Model, result: History) -> None:
         f"{found.drift_step}: its increments are too long for the works, or the sheet jumped to another shape; "
         f"at least {finer:g} times as many increments"
     )
-    if any(contact.augmented for contact in model.contacts):  # multipliers remove a penetration without work. 4.12
+    if model.system.multiplied:  # multipliers remove a penetration without work. 4.12
         message += ", or a stiffer penalty, which leaves less to the multipliers"
     if message not in result.warnings:  # a run that was taken up at its end
         result.warn(message)

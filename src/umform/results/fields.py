@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
-from functools import cache, cached_property
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cache, cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,9 @@ from numpy.typing import NDArray
 from umform import _core
 from umform.errors import InvalidValue
 from umform.history_variables import columns, history_of
+from umform.mesh import FACE_NODES
 from umform.model import Body, Evaluation, Model
+from umform.results.point_places import positions
 
 Floats = NDArray[np.float64]
 
@@ -45,6 +47,8 @@ class PointFields:
         Parts of the history of the law by their names, ``history["Cp_inv"]`` for instance.
     heights : ndarray, shape (columns, layers)
         Heights t of the points, -1 in the lower face and 1 in the upper face of a cell.
+    X, x : ndarray, shape (cells, points, 3)
+        Positions of the points in the undeformed sheet and now.
     """
 
     E: Floats
@@ -54,6 +58,17 @@ class PointFields:
     volume: Floats
     history: Mapping[str, Floats]
     heights: Floats
+    _place: Callable[[bool], Floats] = field(repr=False)
+
+    @cached_property
+    def X(self) -> Floats:
+        """Positions in the undeformed sheet (cells, points, 3)."""
+        return self._place(False)
+
+    @cached_property
+    def x(self) -> Floats:
+        """Positions now (cells, points, 3)."""
+        return self._place(True)
 
     @property
     def eqps(self) -> Floats | None:
@@ -128,7 +143,8 @@ def body_fields(body: Body, u: Floats) -> PointFields:
     E, S, frame, F, volume = body.block.point_fields(u)
     t, columns = body.through[0], int(np.prod(body.element.surface_rule))
     heights = np.broadcast_to(t, (columns, np.shape(t)[-1]))
-    return PointFields(E, S, frame, F, volume, named_history(body), heights)
+    place = partial(positions, body, heights, np.array(u))
+    return PointFields(E, S, frame, F, volume, named_history(body), heights, place)
 
 
 def named_history(body: Body) -> dict[str, Floats]:
@@ -213,8 +229,6 @@ def undeformed_thickness(model: Model) -> Floats:
 @cache
 def _derivatives(half: int) -> Floats:
     """Derivatives of the shape functions in the middle of each pair of nodes, shape (3 half, 2 half)."""
-    from umform.mesh import FACE_NODES
-
     at_nodes = np.concatenate([FACE_NODES[:half], np.zeros((half, 1))], axis=1)
     derivatives: Floats = _core.shell_functions(2 * half, at_nodes)[1].reshape(3 * half, 2 * half)
     return derivatives
@@ -238,7 +252,7 @@ def _thickness(model: Model, x: Floats) -> Floats:
 
 
 def contact_at_nodes(model: Model, evaluation: Evaluation | None = None) -> tuple[Floats, Floats]:
-    """Contact pressure (sum over the contacts) and gap (to the nearest tool, NaN off the contact faces) at the nodes.
+    """Contact pressure (sum over the contacts) and gap (to the nearest tool or sheet, NaN off the faces) at the nodes.
 
     Parameters
     ----------
@@ -257,11 +271,16 @@ def contact_at_nodes(model: Model, evaluation: Evaluation | None = None) -> tupl
         here, distance = contact.found_at_nodes(found, model.u, model.mesh, model.system.whole.sum_at_nodes)
         pressure += here
         gap = np.fmin(gap, distance)
+    for sheets in model.system.sheet_contacts:
+        at = sheets.found if evaluation is None else evaluation.found[sheets]
+        here, distance = sheets.found_at_nodes(at, len(pressure))
+        pressure += here
+        gap = np.fmin(gap, distance)
     return pressure, gap
 
 
 def friction_at_nodes(model: Model, evaluation: Evaluation | None = None) -> tuple[Floats, Floats]:
-    """Tangential traction of the tools on the sheet, and distance slid along them, at the nodes of all contact faces.
+    """Tangential traction of tools and sheets, and distance slid along them, at the nodes of all contact faces.
 
     Parameters
     ----------
@@ -283,6 +302,11 @@ def friction_at_nodes(model: Model, evaluation: Evaluation | None = None) -> tup
             continue
         found = contact.found if evaluation is None else evaluation.found[contact]
         here, way = contact.friction_at_nodes(found, model.mesh, model.system.whole.sum_at_nodes)
+        traction += here
+        slip = np.maximum(slip, way)
+    for sheets in (one for one in model.system.sheet_contacts if one.has_friction):
+        at = sheets.found if evaluation is None else evaluation.found[sheets]
+        here, way = sheets.friction_at_nodes(at, len(slip))
         traction += here
         slip = np.maximum(slip, way)
     return traction, slip

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from umform.errors import InvalidValue
 from umform.model import Evaluation, Model
 from umform.model.equations.frame import Frame
+from umform.notebook import Display, InNotebook
 from umform.results import fields
 from umform.results.balance import Balance, ExternalWork, Worked, drift
 from umform.results.records import Iteration
@@ -40,7 +41,7 @@ class Mark:
     work: ExternalWork
 
 
-class History:
+class History(InNotebook):
     """History of all converged increments, frames of some of them.
 
     The history has one row for each increment: ``step``, ``time``, each control and its ``<name>_force``, for each
@@ -72,6 +73,16 @@ class History:
     def __repr__(self) -> str:
         columns = len(self.rows[0]) if self.rows else 0
         return f"{type(self).__name__}({len(self.rows)} rows, {columns} columns, {len(self.frames)} frames)"
+
+    def _display(self) -> Display:
+        names = [name for one in self.model.controls for name in (one.name, f"{one.name}_force")]
+        last = {int(row["step"]): row for row in self.rows}
+        shown = [name for name in ("step", "time", *names) if last and name in self.rows[0]]
+        rows = [shown, *([f"{row[name]:.6g}" for name in shown] for row in last.values())]
+        found = self.summary()
+        numbers = "{increments} increments, {iterations} iterations, {seconds:.3g} seconds".format(**found)
+        title = f"{type(self).__name__}: {numbers}, {len(self.frames)} frames"
+        return Display(title, {"End of each step": rows} if last else {}, self.warnings, self.events)
 
     def add(self, evaluation: Evaluation, iterations: list[Iteration], *, step: int = 0, frame: bool = True) -> None:
         """Add the converged state of the model, which the evaluation was made at, to the history."""
@@ -195,7 +206,7 @@ class History:
         work = state.pop("work")
         vars(self).update(state)
         self._work, self._ahead = ExternalWork(self.model), None
-        self.recall_work(work, self.model.evaluate(self.model.state, tangent=False))
+        self.recall_work(work, self.model.system.evaluate(self.model.state, tangent=False))
 
     def begin_anew(self, evaluation: Evaluation) -> None:
         """Go on from the last state with loads in the place of tools that have been opened."""
@@ -251,11 +262,11 @@ class History:
             "reaction": reaction,
             "thickness_change": fields.thickness_change(model, self._undeformed_thickness),
         }
-        if model.contacts:
+        if model.system.penalised:
             points["contact_pressure"], points["contact_gap"] = fields.contact_at_nodes(model, evaluation)
-        if any(pair.has_friction for pair in model.system.pairs_of_tools()):
+        if any(pair.has_friction for pair in model.system.touching):
             points["friction_traction"], points["slip"] = fields.friction_at_nodes(model, evaluation)
-        contacts = {contact.name: evaluation.found[contact].points() for contact in model.contacts}
+        contacts = {contact.name: evaluation.found[contact].points() for contact in model.system.penalised}
         return Frame(len(self.rows) - 1, model.system.time, points, fields.cell_fields(model), contacts)
 
     def __len__(self) -> int:

@@ -7,21 +7,29 @@ from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Self
 
 from umform.errors import InvalidValue
 from umform.io.tables import write_csv
+from umform.notebook import Display, InNotebook
 from umform.results.balanced import balanced
 from umform.results.history import History
 from umform.results.penetration import stage_penetrations
-from umform.results.quantity import Quantity, list_columns, prefixed, table, values
+from umform.results.quantity import Band, Quantity, list_columns, prefixed, table, values
 from umform.results.run_record import run_record
+from umform.results.studies import StudiedMesh, estimated
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 #: Heading of the table of all quantities.
 MEASURES = "Measures"
+#: Names in the line of a study, beside the first.
+_NAMED = 4
+#: Standard deviations of the scatter in half of a band: 95 % of a normal distribution.
+SIGMAS = 2.0
+_SCATTER = "with two standard deviations by the scatter of parameters"
 #: File of the quantities of an outcome.
 QUANTITIES = "quantities.csv"
 
@@ -52,17 +60,88 @@ class Annex:
     caption: str = ""
 
 
-class Outcome(ABC):
+def display_of(title: str, annexes: Sequence[Annex], before: Display | None = None) -> Display:
+    """What a notebook shows of studies, behind what is shown before them."""
+    first = before or Display(title)
+    return Display(
+        title,
+        {**first.tables, **{one.title: one.table for one in annexes}},
+        [*first.warnings, *(text for one in annexes for text in one.warnings)],
+        [*first.notes, *(text for one in annexes for text in one.notes)],
+    )
+
+
+class Study(InNotebook):
+    """Base of the results of studies: a notebook shows their tables; their line has the names of what was found."""
+
+    @property
+    def annex(self) -> Annex:
+        """The first of what is shown; a study has this or all."""
+        return self.annexes[0]
+
+    @property
+    def annexes(self) -> Sequence[Annex]:
+        """All that is shown."""
+        return [self.annex]
+
+    def __repr__(self) -> str:
+        first, *others = [row[0] for row in self.annexes[0].table[1:]]
+        names = [first, *others[:_NAMED], *(["..."] if len(others) > _NAMED else [])]
+        return f"{type(self).__name__}({', '.join(names)})"
+
+    def _display(self) -> Display:
+        return display_of(type(self).__name__, self.annexes)
+
+
+class Outcome(InNotebook, ABC):
     """Base of the results of processes: quantities, runs, warnings, notes."""
 
     #: Studies of the results.
     annexes: Sequence[Annex] = ()
+    #: Standard deviations of the quantities by the scatter of parameters, by name.
+    deviations: Mapping[str, float] = MappingProxyType({})
 
     def with_annex(self, annex: Annex) -> Self:
         """The outcome with one more study."""
         other = copy(self)
         object.__setattr__(other, "annexes", (*self.annexes, annex))  # outcomes are frozen
         return other
+
+    def with_deviations(self, deviations: Mapping[str, float]) -> Self:
+        """The outcome with standard deviations of its quantities, which widen their bands."""
+        other = copy(self)
+        object.__setattr__(other, "deviations", dict(deviations))
+        return other
+
+    @property
+    def studied(self) -> StudiedMesh | None:
+        """Mesh of the run beside those of the studies of errors; None for a process without studies."""
+        return None
+
+    def banded(self, found: Sequence[Quantity], at: StudiedMesh | None = None) -> list[Quantity]:
+        """Quantities with their bands: their own, else that of the studies; both with the scatter of parameters.
+
+        Parameters
+        ----------
+        found : sequence of Quantity
+            The quantities; one with changes by refinements keeps its band, and an extrapolation its error by the mesh.
+        at : StudiedMesh, optional
+            Their process and mesh; default: those of the outcome.
+        """
+        at = at or self.studied
+        return [replace(one, band=self._band(one, at)) for one in found]
+
+    def _band(self, one: Quantity, at: StudiedMesh | None) -> Band | None:
+        own = one.band
+        studied = None if at is None or (own is not None and own.parts) else estimated(one, at)
+        if own is None or studied is None:
+            own = own or studied
+        else:
+            own = own.joined(studied) if own.middle is None else own.beside_the_mesh(studied)
+        deviation = self.deviations.get(one.name, 0.0)
+        if not deviation > 0.0:
+            return own
+        return (own or Band(0.0, "")).widened(SIGMAS * deviation, _SCATTER, "scatter")
 
     @property
     @abstractmethod
@@ -77,6 +156,12 @@ class Outcome(ABC):
     def __repr__(self) -> str:
         numbers = ", ".join(f"{one.name}={one.full_text}" for one in self.leading)
         return f"{type(self).__name__}({numbers})"
+
+    def _display(self) -> Display:
+        missed = [one for one in self.checks if one.missed]
+        tables = {"" if title == MEASURES else title: rows for title, rows in self.short_tables.items()}
+        tables |= {"Beyond their limits": table(missed)} if missed else {}
+        return display_of(self.title, self.annexes, Display(self.title, tables, self.warnings, self.all_notes))
 
     @property
     def leading(self) -> list[Quantity]:

@@ -6,14 +6,31 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields, replace
 from functools import cache
+from html import escape
 from typing import Any, Self, get_type_hints
+
+from umform.notebook import Display, InNotebook
 
 #: Text of an unknown number, and of an unknown error.
 UNKNOWN, NO_BAND = "–", "unknown"
+#: Significant digits of a number whose error is only round-off.
+_MOST_DIGITS = 6
+#: Text of the error of a number of one mesh.
+OF_MESH = "of this mesh"
+
+
+#: Unit of forces per length of a bend or a hem: that of press tables. The number in N/mm is the same.
+FORCE_PER_LENGTH = "kN/m"
+
+#: Source of the error that is left on a finer mesh.
+ALL_BUT_MESH = "all but the mesh"
 
 
 class Bad(str):
     """Text of a cell whose number is beyond its limit: red wherever it is shown."""
+
+    def _repr_html_(self) -> str:
+        return f'<b style="color:#d92d20">{escape(self)}</b>'
 
 
 @dataclass(frozen=True)
@@ -30,16 +47,47 @@ class Band:
         The best estimate, such as the extrapolation to zero element size, if it is not the value itself.
     parts : mapping of str to float
         Changes of the number by single refinements.
+    sources : mapping of str to float
+        Errors by single sources, such as the mesh, that are part of it.
     """
 
     error: float
     source: str
     middle: float | None = None
     parts: Mapping[str, float] = field(default_factory=dict)
+    sources: Mapping[str, float] = field(default_factory=dict)
+
+    def joined(self, other: Band) -> Band:
+        """The wider one of two bands of a number, with the sources of both."""
+        wide, narrow = (self, other) if not self.error < other.error else (other, self)
+        text = wide.source if wide.source == narrow.source else f"{wide.source}; or {narrow.source} if that is more"
+        return replace(wide, source=text, sources={**narrow.sources, **wide.sources})
+
+    def beside_the_mesh(self, other: Band) -> Band:
+        """An extrapolation over meshes with the rest of another band, by the root of the sum of squares."""
+        more = other.sources.get(ALL_BUT_MESH)
+        if more is None:
+            return self
+        text = f"{self.source}; errors by other sources {other.source}"
+        sources = {"mesh": self.error, ALL_BUT_MESH: more}
+        return replace(self, error=math.hypot(self.error, more), source=text, sources=sources)
+
+    def widened(self, error: float, source: str, name: str) -> Band:
+        """With an independent error of another source, by the root of the sum of squares."""
+        return replace(
+            self,
+            error=math.hypot(self.error, error),
+            source=f"{self.source}; {source}" if self.source else source,
+            sources={**self.sources, name: error},
+        )
+
+
+#: The band of a number that the user has given.
+GIVEN = Band(0.0, "given")
 
 
 @dataclass(frozen=True)
-class Quantity:
+class Quantity(InNotebook):
     """A number that a process reports.
 
     As the annotation of a field, ``radius: Annotated[float, Quantity("inside radius", "mm", 3)]``, it has no value, and
@@ -69,6 +117,8 @@ class Quantity:
         Significant digits of a number without `decimals` and error.
     leading : bool
         Whether it is one of the few numbers that are shown first.
+    of_mesh : bool
+        Whether it is that of one mesh, whose error is not known.
     """
 
     label: str
@@ -83,15 +133,29 @@ class Quantity:
     hint: str = ""
     digits: int = 4
     leading: bool = False
+    of_mesh: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "name", self.name or self.label)
         object.__setattr__(self, "value", _known(self.value))
 
+    def _display(self) -> Display:
+        return Display(self.label, {"": table([self])})
+
     @property
     def best(self) -> float | None:
         """The middle of the band, or the value."""
         return self.value if self.band is None or self.band.middle is None else self.band.middle
+
+    @property
+    def error(self) -> float:
+        """The error, for the shade of a picture; 0 if it is not known."""
+        return 0.0 if self.band is None or math.isnan(self.band.error) else self.band.error
+
+    @property
+    def relative_error(self) -> float:
+        """The same over the number; 0 for a number that is 0."""
+        return self.error / abs(self.value) if self.value else 0.0
 
     @property
     def missed(self) -> bool:
@@ -119,15 +183,23 @@ class Quantity:
         """The error as text."""
         error = None if self.band is None else _known(self.band.error)
         if error is None:
-            return NO_BAND
-        return f"± {self.number(error)}" if error or self.decimals is not None else ""
+            return OF_MESH if self.of_mesh else NO_BAND
+        if self.band == GIVEN:
+            return GIVEN.source
+        text = f"± {self.number(error)}" if error or self.decimals is not None else ""
+        return ", ".join(filter(None, [text, OF_MESH * self.of_mesh]))
+
+    @property
+    def has_error(self) -> bool:
+        """Whether there is something to say of its error."""
+        return self.band not in (None, GIVEN) or self.of_mesh
 
     @property
     def full_text(self) -> str:
         """Number, error and unit as text."""
-        error = "" if self.band is None else f" {self.error_text}".rstrip()
+        error = "" if self.band is None else f" {replace(self, of_mesh=False).error_text}".rstrip()
         unit = "°" if self.unit == "degrees" else f" {self.unit}".rstrip()
-        return f"{self.text}{error}{unit}"
+        return f"{self.text}{error}{unit}" + (f", {OF_MESH}" if self.of_mesh else "")
 
     @property
     def heading(self) -> str:
@@ -146,31 +218,38 @@ class Quantity:
         error = None if self.band is None or self.decimals is not None else _known(self.band.error)
         if self.decimals is None and not error:
             return f"{value + 0.0:{sign}.{self.digits}g}"
-        places = self.decimals if self.decimals is not None else max(1 - math.floor(math.log10(error or 1.0)), 0)
-        return f"{value + 0.0:{sign}.{places}f}"
+        if self.decimals is not None:
+            return f"{value + 0.0:{sign}.{self.decimals}f}"
+        places = 1 - math.floor(math.log10(error or 1.0))
+        if value:  # an error of round-off asks for all digits that there are
+            places = min(places, max(self.digits, _MOST_DIGITS) - 1 - math.floor(math.log10(abs(value))))
+        return f"{value + 0.0:{sign}.{max(places, 0)}f}"
 
     def record(self) -> dict[str, Any]:
         """All of it as JSON data, None for unknown numbers; ``missed`` says whether it is beyond its limit."""
         band = None if self.band is None else asdict(self.band)
         if band is not None:
-            parts = {name: _known(change) for name, change in band["parts"].items()}
-            band |= {"error": _known(band["error"]), "parts": parts}
+            both = {of: {name: _known(one) for name, one in band[of].items()} for of in ("parts", "sources")}
+            band |= {"error": _known(band["error"]), **both}
         return asdict(self) | {"band": band, "missed": self.missed}
 
     @classmethod
     def of(cls, record: Mapping[str, Any]) -> Self:
         """The quantity of a record."""
-        given = {one.name: record[one.name] for one in fields(cls)}
+        given = {one.name: record.get(one.name, one.default) for one in fields(cls)}
         band = given["band"] and dict(given["band"])
         if band:
-            changes = {name: math.nan if change is None else change for name, change in band["parts"].items()}
-            error = math.nan if band["error"] is None else band["error"]
-            band = Band(**band | {"error": error, "parts": changes})
+            changes = {of: {name: _nan(one) for name, one in band.get(of, {}).items()} for of in ("parts", "sources")}
+            band = Band(**band | {"error": _nan(band["error"])} | changes)
         return cls(**given | {"band": band})
 
 
 def _known(value: float | None) -> float | None:
     return None if value is None or math.isnan(value) else value
+
+
+def _nan(value: float | None) -> float:
+    return math.nan if value is None else value
 
 
 @cache
@@ -213,19 +292,20 @@ def values(quantities: Iterable[Quantity]) -> dict[str, float | None]:
 def table(quantities: Sequence[Quantity]) -> list[list[str]]:
     """A header and a row for each quantity: label, number, unit.
 
-    With bands there are columns of the errors, of the numbers on the finest mesh if others are extrapolated, and of the
-    changes by refinements; without them the labels have their hints.
+    With bands or numbers of one mesh there are columns of the errors, of the numbers on the finest mesh if others are
+    extrapolated, and of the changes by refinements; without changes the labels have their hints.
     """
     bands = [one.band for one in quantities if one.band is not None]
     parts = list(dict.fromkeys(name for band in bands for name in band.parts))
     extrapolated = any(band.middle is not None for band in bands)
-    rows = [["quantity", "value", *["error"] * bool(bands), *["finest mesh"] * extrapolated, *parts, "unit"]]
+    errors_known = any(one.has_error for one in quantities)
+    rows = [["quantity", "value", *["error"] * errors_known, *["finest mesh"] * extrapolated, *parts, "unit"]]
     for one in quantities:
         band = one.band
-        label = f"{one.label} ({one.hint})" if one.hint and not bands else one.label
+        label = f"{one.label} ({one.hint})" if one.hint and not parts else one.label
         finest = replace(one, band=None).number(one.value) if band and band.middle is not None else ""
         changes = [one.number(band.parts[name], "+") if band and name in band.parts else "" for name in parts]
-        errors = [one.error_text] * bool(bands)
+        errors = [one.error_text] * errors_known
         rows.append([label, one.text, *errors, *[finest] * extrapolated, *changes, one.unit])
     return rows
 
@@ -237,10 +317,18 @@ def side_by_side(columns: Mapping[str, Sequence[Quantity]], corner: str = "quant
     return [
         [corner, *found, "unit"],
         *(
-            [label, *(column[label].text if label in column else "" for column in found.values()), one.unit]
+            [label, *(_with_error(column[label]) if label in column else "" for column in found.values()), one.unit]
             for label, one in rows.items()
         ),
     ]
+
+
+def _with_error(one: Quantity) -> str:
+    """Number and error as text; a number beyond its limit stays marked."""
+    if one.band is None or not one.error_text:
+        return one.text
+    text = f"{one.text} {one.error_text}"
+    return Bad(text) if one.missed else text
 
 
 def in_rows(rows: Sequence[Sequence[Quantity]]) -> list[list[str]]:
@@ -265,4 +353,4 @@ def list_columns(quantities: Sequence[Quantity]) -> dict[str, list[Any]]:
 
 
 #: Columns of a row of a quantity behind its unit.
-_BEHIND = ("error", "source", "limit", "missed")
+_BEHIND = ("error", "source", "of_mesh", "limit", "missed")

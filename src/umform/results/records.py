@@ -58,7 +58,7 @@ class Cause(StrEnum):
     INDEFINITE = "indefinite tangent far from equilibrium"
     SINGULAR = "singular tangent"
     STALL = "residual does not fall"
-    PASSAGE = "sheet through a tool"
+    PASSAGE = "sheet through a tool or a sheet"
     TURN = "sheet turns on a tool"
     ITERATIONS = "too many iterations"
     OTHER = "other"

@@ -12,11 +12,13 @@ mistake to a type, and `umform.spec.types` has the usual types:
 the help of a command starts quickly.
 """
 
+from umform.spec.display import ParametersInNotebook
 from umform.spec.in_deck import InDeck, OneOf, deck_keys, entries, note_of
 from umform.spec.parameter import About, FieldOf, Parameter, declared, hint_of, parameters, sentences
 from umform.spec.paths import Scalar, changed, scalars
 from umform.spec.rule import Checked, Rule, check_arguments, check_fields, check_value
 from umform.spec.takes import takes
+from umform.spec.words import names_its_words
 
 __all__ = [
     "About",
@@ -25,6 +27,7 @@ __all__ = [
     "InDeck",
     "OneOf",
     "Parameter",
+    "ParametersInNotebook",
     "Rule",
     "Scalar",
     "changed",
@@ -35,6 +38,7 @@ __all__ = [
     "declared",
     "entries",
     "hint_of",
+    "names_its_words",
     "note_of",
     "parameters",
     "scalars",

@@ -47,7 +47,7 @@ def read_dxf(path: str | Path, layer: str | None, unit: str, curve_error: float)
     OpenSection
         If it contains an entity that is not a plane curve.
     """
-    ezdxf = _ezdxf()
+    ezdxf = dxf_library("reading", "from_dxf")
     path = Path(path)
     if unit not in _UNITS:
         raise InvalidValue(
@@ -101,7 +101,7 @@ def write_dxf(path: str | Path, layers: Mapping[str, Sequence[Segment]]) -> Path
     FileProblem
         If ezdxf is not installed, or the file cannot be written.
     """
-    drawing = _ezdxf("writing").new()
+    drawing = dxf_library("writing", "write_tool").new()
     drawing.units = _UNITS["mm"]
     space = drawing.modelspace()
     for layer, segments in layers.items():
@@ -128,7 +128,7 @@ def _draw(space: Any, segment: Segment, attributes: dict[str, str]) -> None:
 
 
 def _drawing(path: Path) -> Any:
-    ezdxf = _ezdxf()
+    ezdxf = dxf_library("reading", "from_dxf")
     try:
         return ezdxf.readfile(str(path))
     except Exception as error:  # ezdxf lets many kinds through on a broken file
@@ -141,14 +141,21 @@ def _drawing(path: Path) -> Any:
         ) from error
 
 
-def _ezdxf(what: str = "reading") -> Any:
+def dxf_library(what: str, where: str) -> Any:
+    """The module ezdxf, for reading or writing.
+
+    Raises
+    ------
+    FileProblem
+        If it is not installed.
+    """
     try:
         importlib.import_module("ezdxf.units")
         return importlib.import_module("ezdxf")
     except ImportError as error:
         raise FileProblem(
             f"{what} DXF drawings needs ezdxf",
-            where="from_dxf" if what == "reading" else "write_tool",
+            where=where,
             cause=str(error),
             remedy='pip install "umform[cad]"',
         ) from error

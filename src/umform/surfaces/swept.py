@@ -10,6 +10,7 @@ import numpy as np
 
 from umform import _core
 from umform.errors import InvalidValue
+from umform.mesh import graded
 from umform.surfaces.crossings import refuse_crossings
 from umform.surfaces.directions import Direction, Point, Point2, point, right_angle, unit_vector
 from umform.surfaces.profile import Profile
@@ -90,6 +91,21 @@ class Extruded(Profiled, Swept):
         x, y = right_angle(self.x, self.y)
         return _triple(np.cross(x, y))
 
+    @property
+    def right_handed(self) -> bool:
+        """Whether the extrusion points towards positive coordinates."""
+        return max(self.along(), key=abs) > 0.0
+
+    def third(self, width: float, sector: float, elements: int) -> Floats:
+        """Borders of elements over a width."""
+        return graded(width, elements)
+
+    def in_space(self, plane: Floats, third: Floats) -> Floats:
+        """Points of the section at distances from its plane, towards positive coordinates."""
+        axes = np.array([*right_angle(self.x, self.y), self.along()])
+        axes[2] *= 1.0 if self.right_handed else -1.0
+        return np.asarray(self.origin + np.column_stack([plane, third]) @ axes)
+
 
 @dataclass(frozen=True)
 class Revolved(Profiled, Swept):
@@ -144,6 +160,23 @@ class Revolved(Profiled, Swept):
         return replace(
             self, origin=_triple(Q @ point(self.origin) + c), axis=_triple(Q @ np.array(unit_vector(self.axis)))
         )
+
+    @property
+    def right_handed(self) -> bool:
+        """Radius, axis and the direction of growing angles are a left-handed frame."""
+        return False
+
+    def third(self, width: float, sector: float, elements: int) -> Floats:
+        """Borders of elements over a sector in radians."""
+        return graded(sector, elements)
+
+    def in_space(self, plane: Floats, third: Floats) -> Floats:
+        """Points of the meridian turned by angles from the plane of x and the axis; of the axis x, from any plane."""
+        axis = np.array(unit_vector(self.axis))
+        x = np.cross(axis, np.cross((1.0, 0.0, 0.0), axis))
+        x = x / np.linalg.norm(x) if x.any() else np.array(across(unit_vector(self.axis))[0])
+        out = np.cos(third)[:, None] * x + np.sin(third)[:, None] * np.cross(axis, x)
+        return np.asarray(self.origin + plane[:, :1] * out + plane[:, 1:] * axis)
 
     def meridian(self) -> tuple[Profile, _core.ProfileEnd, _core.ProfileEnd]:
         """The segments that are surfaces, and the type of both ends."""

@@ -5,16 +5,19 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from umform import _core
 from umform.errors import InvalidValue
-from umform.spec import check_fields
-from umform.surfaces.directions import Direction, Point, point, rotation_matrix, unit_vector
+from umform.mesh import Mesh
+from umform.spec import ParametersInNotebook, check_fields
+from umform.surfaces.block import elastic_body
+from umform.surfaces.directions import Direction, Point, Point2, point, rotation_matrix, unit_vector
 from umform.surfaces.offset_field import RIGHT, OffsetField
+from umform.surfaces.profile import Profile
 from umform.surfaces.triangles import Box3, Floats, Triangles, halved
 
 
@@ -119,6 +122,25 @@ class Tool(ABC):
         """The profile that is extruded or revolved, as a drawing shows it; None if there is none."""
         return None
 
+    def elastic_body(self, face: tuple[Point2, Point2], back: tuple[Point2, Point2], **options: Any) -> Mesh:
+        """Mesh of a part of the tool, for a tool that deforms; see :func:`umform.surfaces.block.elastic_body`.
+
+        Raises
+        ------
+        InvalidValue
+            If the tool is neither extruded nor revolved.
+        """
+        section = self.section()
+        if section is None:
+            raise InvalidValue(
+                "this tool has no profile under which a block of elements fits",
+                where="elastic_body",
+                value=type(self).__name__,
+                cause="it is neither extruded nor revolved",
+                remedy="a mesh of its own: uf.mesh.read(path)",
+            )
+        return elastic_body(section, face, back, **options)
+
     def convex_radii(self) -> Iterator[float]:
         """Radii over which a sheet may bend, 0 at a sharp edge; nothing if they are unknown."""
         yield from ()
@@ -158,7 +180,7 @@ class Tool(ABC):
 
 
 @dataclass(frozen=True)
-class ToolSpec(Tool):
+class ToolSpec(ParametersInNotebook, Tool):
     """A tool that its fields declare: with the same name in Python, as `shape` in decks, and in their schema.
 
     A subclass is a frozen dataclass, its fields are annotated as in `umform.spec`.
@@ -171,9 +193,25 @@ class ToolSpec(Tool):
 class Swept(ToolSpec):
     """A profile that is extruded or revolved."""
 
+    profile: Profile
+    """Section."""
+
     @abstractmethod
     def placed(self, Q: Floats, c: Floats) -> Swept:
         """The same whose points X lie at Q X + c, with an orthogonal matrix Q."""
+
+    @property
+    @abstractmethod
+    def right_handed(self) -> bool:
+        """Whether the two directions of the section and the third one of :meth:`in_space` are a right-handed frame."""
+
+    @abstractmethod
+    def third(self, width: float, sector: float, elements: int) -> Floats:
+        """Borders of elements along the third direction: over a width, or over a sector in radians."""
+
+    @abstractmethod
+    def in_space(self, plane: Floats, third: Floats) -> Floats:
+        """Points of the section (n, 2) in space, at distances (n,) from its plane or turned by angles in radians."""
 
 
 Matrix = tuple[Point, Point, Point]

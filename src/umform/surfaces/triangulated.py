@@ -21,6 +21,8 @@ from umform.surfaces.stl import read_stl
 from umform.surfaces.tool import Tool
 from umform.surfaces.triangles import Floats, Ids, Triangles
 
+#: Angle between facets from which on their edge is sharp, in degrees.
+SHARP = 30.0
 #: Weights of the corners of a third at which its height over the triangle is measured.
 _SAMPLES = np.array([(4 - j - i, i, j) for j in range(5) for i in range(5 - j)]) / 4.0
 
@@ -64,7 +66,7 @@ class Triangulated(Tool):
 
     surface: Triangles
     normals: Floats | None = None
-    sharp: Sharp = 30.0
+    sharp: Sharp = SHARP
     """Angle from which an edge is sharp."""
     open: bool = False
     name: str = "Triangulated"

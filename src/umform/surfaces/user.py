@@ -58,7 +58,14 @@ class UserSurface(Tool):
         NotFinite
             If one of them holds NaN or infinity.
         """
-        answer = self.function(x)
+        try:
+            answer = self.function(x)
+        except Exception as error:
+            error.add_note(
+                f"in the surface {self.name!r}, called as surface(x) with x (n, 3) -> distance (n,), normal (n, 3), "
+                "Hessian (n, 3, 3)"
+            )
+            raise
         shapes = ((len(x),), (len(x), 3), (len(x), 3, 3))
         if not isinstance(answer, tuple) or len(answer) != 3:
             raise InvalidValue(

@@ -1,4 +1,6 @@
 // Friction at one place: stick, slip, first touch, a tool that moves, what is remembered, and tangents by differences.
+#include <numbers>
+
 #include "check.hpp"
 #include "umform/contact/coulomb.hpp"
 
@@ -393,7 +395,7 @@ void check_transport() {
     Vec3 before = Ball({2.0 * std::sin(colatitude), 0.0, 2.0 * std::cos(colatitude)}).n;
     const Pose pose;
     for (int i = 1; i <= steps; ++i) {
-        const double angle = 2.0 * M_PI * i / steps;
+        const double angle = 2.0 * std::numbers::pi * i / steps;
         const Vec3 x{2.0 * std::sin(colatitude) * std::cos(angle), 2.0 * std::sin(colatitude) * std::sin(angle),
                      2.0 * std::cos(colatitude)};
         const Ball ball(x);
@@ -402,7 +404,7 @@ void check_transport() {
         CHECK_NEAR(dot(a, ball.n), 0.0, 1e-12);
         before = ball.n;
     }
-    const double turned = 2.0 * M_PI * std::cos(colatitude);
+    const double turned = 2.0 * std::numbers::pi * std::cos(colatitude);
     CHECK_NEAR(dot(a, a), 1.0, 1e-12);
     CHECK_NEAR(a[0], std::cos(turned) * std::cos(colatitude), 1e-5);
     CHECK_NEAR(std::abs(a[1]), std::abs(std::sin(turned)), 1e-5);

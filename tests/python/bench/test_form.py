@@ -7,7 +7,8 @@ import pytest
 
 import umform
 from umform.bench.form import BY_MESH, form_fields
-from umform.bench.wanted import Mistakes, Wanted
+from umform.bench.values import Mistakes
+from umform.bench.wanted import Wanted
 from umform.processes.air_bending import AirBending
 from umform.spec import check_value, parameters
 
@@ -66,7 +67,7 @@ def test_an_empty_field_of_the_mesh_is_that_of_the_mesh_and_a_given_one_is_not()
 
 def test_lengths_of_a_hem_follow_the_thickness_where_they_are_empty():
     tools = {"opening": 24, "die_angle": 30, "die_radius": 3, "punch_angle": 30, "punch_radius": 1.5}
-    wanted = Wanted.read({"work": "hem", "thickness": 3, "base": 100, **tools})
+    wanted = Wanted.read({"work": "hem", "form": "insert", "thickness": 3, "base": 100, **tools})
     hem = wanted.hem(wanted.case())
     assert (hem.gap, hem.flange, hem.base) == (3.0, 36.0, 100.0)
 

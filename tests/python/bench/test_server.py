@@ -73,7 +73,7 @@ def test_part_of_a_bend_is_that_of_the_library(bench):
         assert collisions or summary == job["summary"]
         bench.queue.index.change(name, "done", summary=summary)
         row = next(row for row in bench.client.get("/api/jobs").json()["jobs"] if row["id"] == name)
-        assert row["summary"]["collides"] == bool(collisions)
+        assert (row["summary"]["verdict"] == "collides") == bool(collisions)
 
 
 @pytest.mark.long
@@ -115,8 +115,21 @@ def test_curve_is_that_of_the_file(bench, done):
 def test_table_of_jobs_as_csv(bench, done):
     answer = bench.client.get(f"/api/jobs.csv?ids={done['id']},nobody,..")
     [row] = csv.DictReader(io.StringIO(answer.text))
-    assert float(row["angle degrees"]) == done["summary"]["measures"]["angle"]
+    assert row["angle degrees"] == f"{done['summary']['measures']['angle']:.2f}"
+    assert row["largest_force kN/m"] == f"{done['summary']['measures']['largest_force']:.1f}"
     assert row["opening"] == "16.0"
+    assert max(len(cell) for name, cell in row.items() if name != "title") < 12  # no digits that mean nothing
+
+
+def test_tables_and_curves_for_a_german_spreadsheet(bench, done):
+    """Semicolons, decimal commas, and the mark of UTF-8."""
+    answer = bench.client.get(f"/api/jobs.csv?ids={done['id']}&language=de")
+    [row] = csv.DictReader(io.StringIO(answer.content.decode("utf-8-sig")), delimiter=";")
+    assert answer.content.startswith(b"\xef\xbb\xbf")
+    assert row["angle degrees"] == f"{done['summary']['measures']['angle']:.2f}".replace(".", ",")
+    plain = bench.client.get(f"/files/{done['id']}/curve.csv").text.splitlines()
+    german = bench.client.get(f"/files/{done['id']}/curve.csv?language=de").content.decode("utf-8-sig").splitlines()
+    assert [line.replace(";", " ").replace(",", ".") for line in german] == [line.replace(",", " ") for line in plain]
 
 
 def test_series_finds_angles_as_the_library_does_and_leaves_out_what_cannot_be_reached(bench):

@@ -19,6 +19,10 @@ from umform.cli import app
         (["--stroke", "6", "--curve", "Table,180,330"], "no hardening curve of this name is given by numbers"),
         (["--stroke", "6", "--swift", "520,0.004,0.22", "--flow-curve", "a.csv"], "a hardening curve is given by"),
         (["--stroke", "6", "--flow-curve", "no.csv"], "the flow curve cannot be read"),
+        (["--angle", "90", "--die", "V16/87"], "V16/88"),
+        (["--angle", "90", "--die", "V16/88", "--opening", "12"], "follows from the name of the tool"),
+        (["--angle", "80", "--die", "V16/60"], "the larger of the angles of punch and die is 85"),
+        (["--angle", "55", "--die", "V16/60", "--punch", "60/R1"], "the larger of the angles of punch and die is 60"),
         (["--stroke", "6", "--young", "200000"], "a hardening curve is given by"),
         (["--stroke", "6", "--material", "DC04", "--young", "2e5"], "by name or by numbers"),
         (["--stroke", "6", "--material", "cheese"], "cheese"),
@@ -36,6 +40,13 @@ from umform.cli import app
         (["--angle", "80"], "cannot be reached"),
         (["--stroke", "2", "--die-dxf", "no.dxf", "--opening", "20"], "follows from the drawing"),
         (["--stroke", "2", "--punch-layer", "A"], "a layer without its drawing"),
+        (["--stroke", "2", "--span", "3000"], "does not deflect"),
+        (["--stroke", "2", "--span", "3000", "--ram-height", "900"], "--ram-height and --ram-thickness"),
+        (["--stroke", "2", "--span", "3000", "--bed-height", "900", "--bed-thickness", "50"], "needs its length"),
+        (
+            ["--bottoming", "--span", "3000", "--bed-height", "900", "--bed-thickness", "50", "--length", "900"],
+            "one air bend",
+        ),
     ],
 )
 def test_the_command_refuses(typed, message, tmp_path):

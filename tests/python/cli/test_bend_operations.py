@@ -28,7 +28,9 @@ PRESS = ["--bottoming", "--die-angle", "88", "--punch-angle", "88"]
         (["bend", "--sequence", "no.toml"], "cannot be read"),
         (["bend", "--sequence", "no.toml", "--stroke", "3"], "of their own"),
         (["bend", "--sequence", "no.toml", "--budget"], "of their own"),
-        (["hem", "--gap", "0"], "must be positive"),
+        (["bend", "--angle", "90", "--flat-only"], "stand in a file"),
+        (["hem", "--form", "open", "--gap", "0"], "has a gap"),
+        (["hem", "--gap", "0.5"], "a flat hem has no gap"),
         (["hem", "--flange", "3"], "too short for the die"),
         (["hem", "--base", "5"], "longer than its flange"),
         (["hem", "--thickness", "-3"], "the thickness of the sheet"),
@@ -48,6 +50,19 @@ def test_keys_of_a_file_are_not_called_options(tmp_path):
     done = CliRunner().invoke(app, ["bend", "--sequence", str(tmp_path / "part.toml"), "--out", str(tmp_path / "out")])
     assert done.exit_code == 1
     assert "die_angle, die_radius, punch_angle" in done.stderr and "part.toml, bend 1" in done.stderr
+
+
+def test_outside_dimensions_give_the_flat_length(tmp_path):
+    file = tmp_path / "part.toml"
+    file.write_text("flanges = [50.0, 50.0]\nk_factor = 0.44\n[[bends]]\nangle = 90.0\n")
+    typed = ["bend", "--sequence", str(file), "--flat-only", "--out", str(tmp_path / "out")]
+    done = CliRunner().invoke(app, typed)
+    assert done.exit_code == 0 and "Flat length: 96.284 mm" in done.stdout  # 100 - 2 * 4.56 + 1.5708 * 3.44
+    assert "48.142" in done.stdout and not (tmp_path / "out").exists()
+    file.write_text("flanges = [50.0, 50.0]\nk_factor = 0.44\ntable = 'b.csv'\n[[bends]]\nangle = 90.0\n")
+    assert "one source" in CliRunner().invoke(app, typed).stderr
+    file.write_text("length = 90.0\n[[bends]]\nposition = 45.0\nangle = 90.0\n")
+    assert "in this file already" in CliRunner().invoke(app, typed).stderr
 
 
 def test_a_part_that_collides_is_not_done(tmp_path, monkeypatch):
@@ -76,7 +91,7 @@ def test_sizes_of_a_hem_follow_the_thickness(thickness, tmp_path, monkeypatch):
         raise InvalidValue("no run")
 
     monkeypatch.setattr("umform.processes.hemming.hemming", end)
-    CliRunner().invoke(app, ["hem", "--thickness", str(thickness)])
+    CliRunner().invoke(app, ["hem", "--form", "insert", "--thickness", str(thickness)])
     (case,) = found
     sheet = case.sheet
     sizes = [sheet.opening, sheet.die_radius, sheet.punch_radius, case.gap, case.flange, case.base]

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import shutil
+
+import h5py
 import pytest
+import pyvista as pv
 from typer.testing import CliRunner
 
 from umform import cli
@@ -91,7 +95,7 @@ def here(operations, monkeypatch):
     before = set(operations.iterdir())
     yield operations
     for file in set(operations.iterdir()) - before:
-        file.unlink()
+        shutil.rmtree(file) if file.is_dir() else file.unlink()
 
 
 def new_files(folder):
@@ -146,6 +150,21 @@ def test_a_file_is_not_overwritten_unasked(here):
     (here / "bend.k").write_text("mine")
     assert "the file exists" in umform("export", "results/bend").stderr
     assert (here / "bend.k").read_text() == "mine"
+
+
+@pytest.mark.parametrize("to", ["vtu", "pvd", "xdmf"])
+def test_fields_of_a_run_become_those_of_another_format(here, to):
+    done = umform("export", "results/bend", "--to", to, "--out", f"bend.{to}")
+    assert done.exit_code == 0, done.output
+    with h5py.File("results/bend/fields.vtkhdf") as file:
+        count = len(file["VTKHDF/Steps/Values"])
+    assert done.stdout == f"Written to bend.{to}: {'1 state' if to == 'vtu' else f'{count} states'}\n"
+    grid = pv.read(f"bend.{to}")
+    grid = grid if to == "vtu" else grid[0]
+    assert grid.n_cells == 20 and "displacement" in grid.point_data
+    assert "the file exists" in umform("export", "results/bend", "--to", to, "--out", f"bend.{to}").stderr
+    assert "end it in" in umform("export", "results/bend", "--to", to, "--out", "bend.k").stderr
+    assert "there is no such file" in umform("export", "none.vtkhdf", "--to", to).stderr
 
 
 def test_a_run_without_a_state_or_not_finished_is_refused(here, tmp_path):

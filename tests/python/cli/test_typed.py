@@ -30,7 +30,7 @@ TYPED = [
     ("bend --stroke 6 --thickness 0.08in", 2, ["lengths are in mm", "write 2.032"]),
     ('bend --stroke 6 --thickness .5"', 2, ["lengths are in mm", "write 12.7"]),
     ("bend --stroke 6 --thickness 2mm", 2, ["write 2;"]),
-    ("hem --gap 0", 1, ["no contact with itself", "half a thickness"]),
+    ("hem --gap 1", 1, ["a flat hem has no gap", "the form open, inner or insert"]),
     ("bnd", 2, ["'bend'", "remedy:"]),
 ]
 

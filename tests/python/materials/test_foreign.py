@@ -476,3 +476,50 @@ def test_decks(kinematic, elastic):
 def test_bad_decks(kinematic, old, new, text):
     with pytest.raises(DeckError, match=text):
         Problem.read(DECK % UMAT.replace(old, new), "deck.toml", kinematic.parent).build()
+
+
+BEYOND = """
+#include <stddef.h>
+int beyond(int points, const double *strain, const double *state, const double *properties, const double *axes,
+           double length, double step, double *stress, double *tangent, double *new_state) {
+    for (int i = 0; i < 6 * points; ++i) stress[i] = 100.0 * strain[i];
+    for (int i = 0; i < 36 * points; ++i) tangent[i] = (i % 36) % 7 == 0 ? 100.0 : 0.0;
+    for (int i = 0; i < (int)properties[0] * points; ++i) new_state[i] = 1.0;
+    stress[6 * points] += properties[1], tangent[36 * points] += properties[2];
+    return 0;
+}
+void umat_(double *stress, double *statev, double *ddsdde, double *sse, double *spd, double *scd, double *rpl,
+           double *ddsddt, double *drplde, double *drpldt, const double *stran, const double *dstran,
+           const double *time, const double *dtime, const double *temp, const double *dtemp, const double *predef,
+           const double *dpred, const char *cmname, const int *ndi, const int *nshr, const int *ntens,
+           const int *nstatv, const double *props) {
+    for (int i = 0; i < 36; ++i) ddsdde[i] = i % 7 == 0 ? 100.0 : 0.0;
+    for (int i = 0; i < 6; ++i) stress[i] = 100.0 * (stran[i] + dstran[i]);
+    for (int i = 0; i < (int)props[0]; ++i) statev[i] = 1.0;
+}
+"""
+
+
+@needs_compiler
+def test_a_law_that_writes_beyond_its_arrays_is_refused(build_library):
+    library = build_library("beyond", BEYOND)
+    E = cards.increments(3, 0.01)
+
+    def law(*properties, state=2):
+        return uf.CompiledLaw("beyond", library, state=state, properties=properties, strain="green-lagrange").law()
+
+    S, _, state = law(2.0, 0.0, 0.0).respond(E, np.zeros((3, 2)))
+    assert np.array_equal(S, 100.0 * E)
+    assert (state == 1.0).all()
+    for properties, what in (((3.0, 0.0, 0.0), "state"), ((2.0, 1.0, 0.0), "stress"), ((2.0, 0.0, 1.0), "tangent")):
+        with pytest.raises(InvalidValue, match=f"written beyond its {what}") as refused:
+            law(*properties).respond(E, np.zeros((3, 2)))
+        assert refused.value.where == "beyond"
+        assert "NSTATV" in refused.value.remedy
+    good, bad = (uf.Umat(library, state=2, properties=[size], directional=False) for size in (2.0, 3.0))
+    rows = good.law().initial()[None]
+    assert (good.law().respond(E[:1], rows)[2][0, -2:] == 1.0).all()
+    with pytest.raises(InvalidValue, match="written beyond its state"):
+        bad.law().respond(E[:1], rows)
+    with pytest.raises(InvalidValue, match=r"written beyond its state[^$]*cell 0"):
+        pulled(bad)[1]()

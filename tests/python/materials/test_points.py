@@ -167,3 +167,25 @@ def test_a_default_value_is_no_question_for_the_points():
 
     assert not UserLaw(scaled).sees_points
     assert UserLaw(scaled).law().respond(np.ones((1, 6)), np.zeros((1, 0)))[0][0, 0] == 2.0
+
+
+def test_check_law_at_a_step_a_size_and_axes():
+    """A viscous law whose tangent is right at any step, and one that forgot it."""
+    seen = []
+
+    def viscous(strain, history, points, *, forgets=False):
+        seen.append((points.step, points.size, points.axes.copy()))
+        rate = (strain - history) / points.step
+        factor = 100.0 * points.size
+        tangent = (factor + (7.0 if forgets else 7.0 / points.step)) * np.eye(6)
+        return factor * strain + 7.0 * rate, np.broadcast_to(tangent, (len(strain), 6, 6)), strain
+
+    E = np.full((2, 6), 0.01)
+    law = UserLaw(viscous, state={"before": 6}, name="viscous")
+    assert check_law(law, E, time_step=0.01, size=3.0, axes=np.eye(3)[::-1]) < 1e-7
+    step, size, axes = seen[0]
+    assert (step, size) == (0.01, 3.0)
+    np.testing.assert_array_equal(axes, [np.eye(3)[::-1]] * 2)
+    wrong = UserLaw(lambda E, state, points: viscous(E, state, points, forgets=True), state={"before": 6}, name="wrong")
+    assert check_law(wrong, E) < 1e-7  # at the step 1 they are the same
+    assert check_law(wrong, E, time_step=0.01) > 0.5

@@ -250,7 +250,10 @@ def test_an_error_of_the_function_says_its_cell(spoilt):
         with pytest.raises((ArithmeticError, NotFinite), match="too much") as caught:
             model.evaluate(u.ravel())
         if function is moody:
-            assert caught.value.__notes__ == [f"in the law 'moody', cell {spoilt}"]
+            (note,) = caught.value.__notes__
+            assert note.startswith(
+                f"in the law 'moody', cell {spoilt}, called as law(strain, history) -> stress (n, 6)"
+            )
         else:
             assert caught.value.where == f"bitter, cell {spoilt}"
 
@@ -262,7 +265,9 @@ def test_an_error_of_the_energy_says_its_cell():
     model, _ = pulled(UserLaw(hooke, energy=energy, name="mine"))
     with pytest.raises(ZeroDivisionError) as caught:
         model.bodies.only.block.energy(model.u)
-    assert caught.value.__notes__ == ["in the law 'mine', cell 0"]
+    assert caught.value.__notes__ == [
+        "in the law 'mine', cell 0, called as energy(strain, history) -> elastic energy (n,), plastic work (n,)"
+    ]
 
 
 def test_the_number_of_threads_changes_no_bit(threads_as_before):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
@@ -40,7 +42,7 @@ def test_the_penalty_under_a_flat_tool_carries_the_line_force_on_twenty_thicknes
     model, _, _ = stretched()
     plane = uf.Plane((0.0, 0.0, 0.5), "-z")
     pair = model.contact("upper", plane, name="holder")
-    met = Encounter.of(model.mesh, pair.facets, plane.kernel(), STEEL, "")
+    met = Encounter.of(model.mesh, model.mesh.face_set("upper"), plane.kernel(), STEEL, "")
     assert met.flat and met.length < 20.0 * met.thickness
     assert pair.penalty == pytest.approx(met.line_force / (0.005 * 20.0 * 1.0), rel=1e-12)
     assert pair.penalty == pytest.approx(1.15 * 200.0 / 8.0 / (0.005 * 20.0), rel=0.15)
@@ -266,3 +268,13 @@ def test_an_arc_that_fails_takes_its_penalty_back(monkeypatch):
     with pytest.raises(NoConvergence):
         uf.solve(model, uf.Arc(move.control, to=-5.0, increment=0.5, cuts=0), frames=0, progress=False)
     assert pair.penalty == grown
+
+
+def test_a_contact_that_allows_any_penetration_misses_none():
+    model, move, pair = stretched()
+    pair.allowed = math.inf
+    result = uf.solve(model, move, frames=0, progress=False)
+    reached = penetrations(model, result)["ball"]
+    assert not pair.adapts and pair.penalty == pair.initial_penalty and reached.reached > 0.005
+    assert reached.kept and "any allowed;" in reached.text and reached.record()["allowed"] is None
+    assert not any("penetration" in text for text in result.warnings)

@@ -16,7 +16,7 @@ from umform.analysis.steps import Move
 from umform.errors import InvalidValue, NoConvergence, NotFinite, RigidBodyMotion
 from umform.mesh import strip
 from umform.model import Model
-from umform.model.contact.points import hat_functions
+from umform.model.contact.face_basis import hat_functions
 from umform.model.terms import forces
 from umform.results import fields
 from umform.surfaces import Cylinder, Plane, Sphere, UserSurface

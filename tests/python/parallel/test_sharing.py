@@ -128,3 +128,12 @@ def test_supports_that_ranks_cannot_share_are_refused_by_name(support, name):
     with pytest.raises(InvalidValue, match="do not work with the solver petsc") as caught:
         _outline(model, [], ONE)
     assert name in str(caught.value)
+
+
+def test_sheets_that_touch_are_refused_by_name():
+    model = uf.Model(strip(8.0, 3.0, 1.0, (4, 3)), material=STEEL)
+    model.self_contact("upper", name="inside")
+    model.fix("x0")
+    with pytest.raises(InvalidValue, match="sheets that touch cannot be shared with the solver petsc") as caught:
+        _outline(model, [], ONE)
+    assert caught.value.where == "contact inside"

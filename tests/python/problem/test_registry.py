@@ -29,7 +29,7 @@ def wedge(length: Positive, cells: Divisions, *, cell: str = "hex8", rise: Posit
 
 ''',
     ),
-    ("mesh/__init__.py", '    "thicken",\n]', '    "wedge",\n'),
+    ("mesh/__init__.py", '    "together",\n]', '    "wedge",\n'),
     ("mesh/__init__.py", "from umform.mesh.mesh import", "from umform.mesh.generators import wedge\n"),
     (
         "problem/mesh.py",

@@ -23,10 +23,11 @@ from umform.processes.air_bending import (
 )
 from umform.processes.air_bending.brake import INCREMENTS, loading
 from umform.processes.air_bending.branches import Brake
+from umform.processes.air_bending.files import record
 from umform.processes.air_bending.formulas import shop_forces, tensile_strength
 from umform.processes.air_bending.problem import build, problem_of
 from umform.processes.air_bending.sheet import lines_along
-from umform.results.quantity import declared
+from umform.results.quantity import GIVEN, declared
 
 COARSE = AirBending(stroke=3.0, elements_per_thickness=2.0, layers=1, increment=0.0125)
 
@@ -143,6 +144,7 @@ def test_a_finer_mesh_changes_little():
 
 def test_the_stroke_for_an_angle_is_found():
     found = find_stroke(COARSE, 135.0, tolerance=0.05, progress=False)
+    assert found.bend["stroke"].band.error > 0.0
     assert len(found.trials) <= 3
     assert found.measures.angle == pytest.approx(135.0, abs=0.05)
     assert found.trials[-1] == (found.case.stroke, found.measures.angle)
@@ -321,3 +323,38 @@ def test_all_measures_are_defined_in_the_docs():
     assert set(declared(Measures)) == {field.name for field in fields(Measures)}
     for name, quantity in declared(Measures).items():
         assert f"| {quantity.label} | `{name}` |" in page
+
+
+def test_a_sheet_and_a_die_in_inches_get_their_sizes_in_mm():
+    with pytest.raises(InvalidValue, match="wider than the opening") as caught:
+        AirBending(thickness=0.08, opening=0.63, stroke=0.1)
+    assert "thickness 2.032, opening 16.00" in caught.value.remedy
+    with pytest.raises(InvalidValue, match="wider than the opening") as caught:
+        AirBending(thickness=0.8, opening=1.63, stroke=0.1)
+    assert "inches" not in caught.value.remedy
+
+
+def test_title_record_and_notes_have_the_length_and_the_depth_of_the_machine(bend):
+    long = replace(bend, bend_length=1000.0)
+    assert ", 1000 mm long, " in long.title and " long" not in bend.title
+    assert record(long)["bend_length"] == 1000.0 and record(bend)["bend_length"] is None
+    depth = bend.measures.below_die
+    side = "below" if depth >= 0.0 else "above"
+    assert bend.notes[0] == f"for the machine: the tip of the punch {abs(depth):.3f} mm {side} the top of the die"
+
+
+def test_the_numbers_of_a_bend_have_bands(bend):
+    """A stroke found for an angle has the error of the angle over its change with the stroke; a given one has none."""
+    assert [one.name for one in bend.quantities if one.band is None] == ["length_balance"]
+    assert {one.name for one in bend.quantities if one.band == GIVEN} == {"stroke", "below_die"}
+    bend = replace(bend, searched=True)
+    found = {one.name: one for one in bend.quantities}
+    assert [name for name, one in found.items() if one.band is None] == ["length_balance"]
+    (way, turned), angle = np.diff(bend.path[-2:], axis=0)[0], found["angle"].band
+    assert found["stroke"].band.error == pytest.approx(angle.error * way / -turned) and way > 0.0 > turned
+    assert "not from this run" in angle.source and angle.sources["layers"] > 0.0
+    table = replace(bend, bend_length=1000.0)["total_force"]
+    assert table.band.error / table.value == pytest.approx(
+        found["largest_force"].band.error / bend.measures.largest_force
+    )
+    assert replace(bend, path=bend.path[:1])["stroke"].band is None

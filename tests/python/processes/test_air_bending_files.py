@@ -20,10 +20,10 @@ from umform.materials import J2, Perfect
 from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.air_bending import budget as budget_module
 from umform.processes.air_bending.budget import error_budget, refinements
-from umform.processes.air_bending.changes import Budget
 from umform.processes.air_bending.files import parameters, write_files
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.problem import build, problem_of
+from umform.results.budget import Budget
 from umform.results.quantity import declared
 from umform.spec import parameters as parameters_of
 
@@ -208,12 +208,12 @@ def test_the_printed_deck_gives_the_curve_of_the_bend_and_its_way_back(scale, ch
     curve, history = columns_of(tmp_path / "bend" / "curve.csv"), columns_of(tmp_path / "run" / "history.csv")
     assert set(curve["step"]) == {0.0, 1.0, 2.0}
     assert np.array_equal(curve["stroke mm"], history["stroke"])
-    assert np.array_equal(curve["force N/mm"], scale * history["stroke_force"])
+    assert np.array_equal(curve["force kN/m"], scale * history["stroke_force"])
 
 
 def test_a_failed_refinement_does_not_spoil_the_files(tmp_path, bend):
     changes = {"mesh/2": dict.fromkeys(declared(Measures), float("nan"))}
-    write_files(tmp_path, replace(bend, budget=Budget(changes, {"mesh/2": "it did not converge"})))
+    write_files(tmp_path, replace(bend, budget=Budget(changes, {"mesh/2": "it did not converge"}, "refinements")))
     record = json.loads((tmp_path / "bend.json").read_text())
     assert record["budget"] == {"changes": {}, "failures": {"mesh/2": "it did not converge"}}
     assert "it did not converge" in (tmp_path / "report.html").read_text()
@@ -274,7 +274,7 @@ def test_the_command_finds_an_angle(tmp_path):
 def test_the_chart_of_the_report_has_the_force_of_the_table(bend, tmp_path):
     write_files(tmp_path, bend)
     page = (tmp_path / "report.html").read_text()
-    assert 'data-x="stroke" data-y="force_per_mm"' in page
+    assert 'data-x="stroke" data-y="force kN/m"' in page
     (coded,) = re.findall(r'href="data:text/csv;base64,([^"]*)"', page)
     rows = list(csv.DictReader(b64decode(coded).decode().splitlines()))
-    assert max(float(row["force_per_mm"]) for row in rows) == bend.measures.largest_force
+    assert max(float(row["force kN/m"]) for row in rows) == bend.measures.largest_force

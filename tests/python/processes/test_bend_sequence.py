@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib import pyplot as plt
 
 from umform.errors import FileProblem, InvalidValue
 from umform.processes.air_bending import AirBending, air_bending
@@ -17,6 +18,7 @@ from umform.processes.bend_sequence.collisions import Collision, collisions, die
 from umform.processes.bend_sequence.files import FILES, record, write_files
 from umform.processes.bend_sequence.foreseen import foreseen_collisions, foreseen_text
 from umform.processes.bend_sequence.form import read_sequence, sequence_form
+from umform.processes.bend_sequence.page import curves
 from umform.processes.bend_sequence.sides import Strip
 from umform.processes.bend_sequence.spec import MOST_BENDS
 from umform.processes.bend_sequence.strip import strip_lines
@@ -94,6 +96,15 @@ def test_the_record_is_json(profile_z, tmp_path):
     assert "coarse mesh" in page
     assert "bend 2, contact die: penetration up to" in page
     assert f"<td>work of punch</td><td>{first['works']['punch']:.6g}</td>" in page
+
+
+def test_the_force_of_each_bend_is_shaded_by_its_band(profile_z):
+    figure = curves(profile_z)
+    for number, (shade, done) in enumerate(zip(figure.axes[0].collections, profile_z.bends, strict=True), start=1):
+        upper = shade.get_paths()[0].vertices[:, 1].max()
+        band = profile_z[f"bend {number}: largest_force"].band
+        assert upper == pytest.approx(done.force.max() + band.error, rel=1e-6)
+    plt.close(figure)
 
 
 def test_a_collision_is_told_in_plain_words(profile_z):

@@ -127,14 +127,14 @@ def test_two_meshes_give_the_forces_of_the_equivalent_bead(drawn, tmp_path):
     assert both.tables["Measures"][:2] == [["quantity", "value", "error", "finest mesh", "unit"], row]
 
 
-def test_three_meshes_give_the_error_of_the_limit_too():
+def test_two_meshes_give_the_error_of_the_limit_too():
     """The limit is exact where the error falls with the square; else two limits differ by what is left."""
     exact = Limit.of_three([54.0, 52.0, 51.0], 2.0**0.5)
     assert (exact.value, exact.error) == pytest.approx((50.0, 0.2), rel=1e-12)  # a fifth of what was extrapolated
     assert Limit.of_three([54.5, 52.0, 51.0], 2.0**0.5).error == pytest.approx(0.5, rel=1e-9)
 
 
-def test_three_meshes_are_run_and_the_finest_is_kept(drawn, monkeypatch):
+def test_two_meshes_are_run_and_the_finest_is_kept(drawn, monkeypatch):
     """On meshes of half, 0.7 and all of the elements."""
     meshes = []
 

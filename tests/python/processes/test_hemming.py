@@ -1,4 +1,4 @@
-"""Hemming: the hem ends at its height, over an insert; an open one that would touch itself is refused."""
+"""Hemming: the hem ends at its height or at a force, closed on itself, on an inner sheet or over an insert."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ from umform.processes.bend_sequence.sides import Strip
 from umform.processes.hemming import Hemming, hemming
 from umform.processes.hemming.files import FILES, record, write_files
 from umform.processes.hemming.measures import clearances
-from umform.processes.hemming.run import _refuse_touch
 from umform.processes.hemming.spec import acute
 
-COARSE = Hemming(base=13.0, increments=24, sheet=acute(elements_per_thickness=1.0, layers=1, increment=0.025))
+SHEET = acute(element="BEND18", elements_per_thickness=1.0, layers=1, increment=0.025)
+COARSE = Hemming(form="insert", base=13.0, increments=24, sheet=SHEET)
+FLAT = Hemming(base=13.0, increments=24, sheet=acute(elements_per_thickness=2.0, layers=1, increment=0.025))
 
 
 @pytest.fixture(scope="module")
@@ -73,7 +74,7 @@ def test_the_record_is_json(hem, tmp_path):
     write_files(tmp_path, hem)
     assert {file.name for file in tmp_path.iterdir()} == set(FILES)
     page = (tmp_path / "report.html").read_text()
-    assert all(f"<td>{value}</td>" in page for _, value, _ in rows)
+    assert all(f"<td>{value}</td>" in page for _, value, *_ in rows)
     assert page.count("<h2>Balance of forces and energies</h2>") == 1 and "<th>flattening</th>" in page
     assert "V 8, 30 degrees, shoulder 1, punch radius 0.5, 30 degrees; V/t 8" in page
 
@@ -92,19 +93,66 @@ def test_clearance_is_the_gap():
     assert clearances(COARSE, folded(0.7)) == pytest.approx(0.7)
 
 
-def test_an_open_hem_that_goes_through_itself_is_refused():
-    case = replace(COARSE, insert=False)
-    _refuse_touch(case, folded(0.1), 0.0)
-    with pytest.raises(InvalidValue, match="no contact with itself") as refused:
-        _refuse_touch(case, folded(-0.1), 1.5)
-    assert "about 2.5" in refused.value.cause
+@pytest.fixture(scope="module")
+def flat():
+    return hemming(FLAT, tolerance=5.0, frames=12, progress=False)
+
+
+def test_a_flat_hem_is_closed(flat):
+    assert flat.is_closed and abs(flat.measures.left) <= 0.01
+    assert "closed" in flat.notes[0] and not any("not closed" in text for text in flat.warnings)
+    assert all(flat.result[f"{name}_penetration"].max() <= 0.005 for name in ("inside", "table", "plate"))
+    assert flat.measures.loaded_height == pytest.approx(2.0, abs=0.02)
+    assert flat.measures.height > flat.measures.loaded_height
+    assert flat.measures.inner_strain < 0.0 < flat.measures.outer_strain
+
+
+def test_roll_in_and_creep_are_those_of_the_section(flat):
+    end = flat.strip.current[-1, :, 0].mean()
+    assert flat.measures.roll_in == pytest.approx(FLAT.base - (end - flat.profile[:, 0].min()))
+    assert flat.measures.creep < 0.0  # the fold grows beyond that of the first bend
+
+
+def test_the_gap_along_the_flange_is_recorded(flat, tmp_path):
+    s, pressed, free = np.array(flat.gaps).T
+    assert (np.diff(s) > 0.0).all() and s[0] == 0.0 and s[-1] < FLAT.flange
+    assert free.max() == pytest.approx(flat.measures.loop_gap, abs=1e-5) and pressed[0] < 0.01
+    write_files(tmp_path, flat)
+    assert (tmp_path / "gaps.csv").read_text().startswith("from the tip mm")
+    assert json.loads((tmp_path / "hem.json").read_text())["closed"] is True
+
+
+def test_a_small_force_leaves_a_flat_hem_open():
+    hem = hemming(replace(FLAT, force=40.0), tolerance=5.0, frames=1, progress=False)
+    assert hem.measures.force == pytest.approx(40.0, rel=1e-6)
+    assert not hem.is_closed and any("not closed" in text for text in hem.warnings)
+    assert hem.measures.loaded_height > 2.2
+
+
+def test_an_inner_sheet_is_clamped_between_flange_and_base(tmp_path):
+    hem = hemming(replace(FLAT, form="inner", gap=0.5), tolerance=5.0, frames=1, progress=False)
+    assert hem.measures.loaded_height == pytest.approx(2.5, abs=0.03)
+    assert abs(hem.measures.left) <= 0.02
+    (inner,) = hem.beside
+    assert np.ptp(inner[:, 1]) == pytest.approx(0.5, abs=0.05)
+    loaded = int(np.argmax(hem.force))
+    pushed = [hem.result[f"{name}_fz"][loaded] for name in ("above", "below")]
+    assert pushed[0] > 0.0 > pushed[1] or pushed[0] < 0.0 < pushed[1]
+    write_files(tmp_path, hem)
+    assert "[added.inner]" in (tmp_path / "hem.toml").read_text()
 
 
 @pytest.mark.parametrize(
     ("change", "message"),
     [
         ({"angle": 90.0}, "a number from 20 to 70"),
-        ({"gap": 0.0}, "must be positive"),
+        ({"gap": 0.0}, "an inner sheet or an insert a thickness"),
+        ({"gap": -0.1}, "at least 0"),
+        ({"form": "flat", "gap": 0.5}, "a flat hem has no gap"),
+        ({"form": "rope", "gap": 0.0, "loop": 13.0}, "ends before its flange"),
+        ({"loop": 3.0}, "ends before its flange"),
+        ({"force": -4.0}, "must be positive"),
+        ({"form": "closed"}, "flat"),
         ({"base": 8.0, "flange": 12.0}, "longer than its flange"),
         ({"flange": 5.0}, "too short for the die"),
         ({"angle": 29.0}, "cannot be reached"),

@@ -38,7 +38,10 @@ def test_the_deck_of_a_drawn_part_repeats_its_history(case):
         assert drawn.result[name].tolist() == again[name][:held].tolist(), name
     assert drawn.released is not None
     assert drawn.released.model.u.tolist() == again.model.u.tolist()
-    assert outcome_of(case, again).values == drawn.values
+    repeated = outcome_of(case, again).values
+    of_frames = "forming limit used, by paths"  # strain paths are those of the frames that are kept
+    assert repeated.pop(of_frames) == pytest.approx(drawn.values[of_frames], abs=0.05)
+    assert repeated == {name: value for name, value in drawn.values.items() if name != of_frames}
     for first, last in ((1, 2), (3, 3)):  # the part of a history has its pictures at its own rows
         part = again.of_steps(first, last)
         assert part.rows[-1]["step"] == last and part.frames
@@ -73,7 +76,7 @@ def repeated(decks, folder, monkeypatch):
 
 def test_the_decks_of_bends_and_a_hem_repeat_their_histories(tmp_path, monkeypatch):
     sheet = acute(layers=1, elements_per_thickness=1.0, increment=0.025)
-    hem = hemming(Hemming(base=13.0, sheet=sheet, increments=12), frames=1, progress=False)
+    hem = hemming(Hemming(form="insert", base=13.0, sheet=sheet, increments=12), frames=1, progress=False)
     runs = [hem.first.bends[0].result, hem.result]
     for run, again in zip(runs, repeated(hem.decks(), tmp_path, monkeypatch), strict=True):
         assert run.table().keys() == again.table().keys()

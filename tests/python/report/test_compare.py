@@ -108,16 +108,16 @@ def test_folders_of_bends_have_a_curve(style, tmp_path):
     for name in ("bend", "hem"):
         (tmp_path / name).mkdir()
         with csv_style(style):
-            write_csv(tmp_path / name / "curve.csv", {"stroke mm": u, "force N/mm": u / 3})
+            write_csv(tmp_path / name / "curve.csv", {"stroke mm": u, "force kN/m": u / 3})
     histories = read_histories([tmp_path / "bend", tmp_path / "hem" / "curve.csv"])
     assert list(histories) == ["bend", "hem"]
-    np.testing.assert_array_equal(histories["bend"]["force N/mm"], u / 3)
+    np.testing.assert_array_equal(histories["bend"]["force kN/m"], u / 3)
     listed = plot(tmp_path / "bend")
-    assert listed.stdout == "bend: stroke mm, force N/mm\n"
+    assert listed.stdout == "bend: stroke mm, force kN/m\n"
     drawn = plot(tmp_path / "bend", tmp_path / "hem", "--y", "force", "--out", tmp_path / "c.svg")
     assert drawn.exit_code == 0, drawn.output
     text = (tmp_path / "c.svg").read_text()
-    assert "stroke mm" in text and "force N/mm" in text
+    assert "stroke mm" in text and "force kN/m" in text
 
 
 def test_command_writes_a_picture(runs, tmp_path):

@@ -121,5 +121,26 @@ def test_a_title_is_the_heading_and_the_material_has_six_digits(result, tmp_path
 def test_the_material_note_and_the_modelled_part_are_said(result, tmp_path):
     page = write_report(result, tmp_path / "r.html", note="DC04: from <a standard>").read_text(encoding="utf-8")
     assert "DC04: from &lt;a standard&gt;" in page
-    half = "Forces and works are those of the modelled half of the sheet." in page
+    half = "Half of the sheet is computed, by symmetry: forces and works of the whole are 2 times those here." in page
     assert half == (len(mirrors(result.model)) == 1)
+
+
+def test_first_screen_has_the_picture_the_key_numbers_and_the_first_warning(result, tmp_path):
+    result.warnings.append("the sheet tears: " + 30 * "long words ")
+    page = result.report(tmp_path / "r.html").read_text(encoding="utf-8")
+    result.warnings.pop()
+    first = page[: page.index('id="warnings"')]
+    assert "the sheet tears" in first
+    assert " …" in first
+    assert 'class="cards"' in first
+    assert 'id="shape-canvas"' in first
+    for label in ("largest punch force", "largest thinning", "largest plastic strain"):
+        assert f"<dt>{label}</dt>" in first
+    assert first.count("of this mesh") >= 4
+
+
+def test_a_report_has_no_objects_of_python_no_long_digits_and_no_none(page):
+    text = re.sub(r"<script.*?</script>|<style.*?</style>|href=\"[^\"]*\"|<svg.*?</svg>", " ", page, flags=re.DOTALL)
+    words = re.sub(r"<[^>]+>", " ", text)
+    assert not re.search(r"\bNone\b|\bTrue\b|\bFalse\b|\w+\(\w+=|<\w+ object|np\.float", words)
+    assert not re.search(r"[1-9](?:\.?\d){8,}", words)

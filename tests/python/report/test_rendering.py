@@ -9,9 +9,11 @@ from PIL import Image
 
 import umform as uf
 from umform.errors import UmformError
+from umform.plotting import COLOUR_MAP
 from umform.report import rendering
-from umform.report.rendering import COLOUR_MAP, Cut, Panel, Rendering, Scale, scaled, write_picture
-from umform.report.skin import Part, skin_of
+from umform.report.part import Part
+from umform.report.rendering import Cut, Panel, Rendering, Scale, scaled, write_picture
+from umform.report.skin import skin_of
 
 _PROBE = (
     "import pyvista; p = pyvista.Plotter(off_screen=True); p.add_mesh(pyvista.Sphere()); p.screenshot(return_img=True)"

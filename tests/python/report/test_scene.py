@@ -6,11 +6,19 @@ from base64 import b64decode
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_hex
 
 import umform as uf
+from umform.plotting import COLOUR_MAP
 from umform.report.facets import smooth_groups
+from umform.report.looks import MILLIMETRES
 from umform.report.packing import Quantised
+from umform.report.part import Part, plane_strain
+from umform.report.patches import Surface
 from umform.report.scene import scene_of
+from umform.report.skin import skin_of
+from umform.report.stored_scene import read_frame
+from umform.report.symmetry import Mirror
 from umform.results.shape import Shape
 
 
@@ -50,47 +58,71 @@ def result():
     return bent(uf.Cylinder((4, 0, -3), "y", 2.0))
 
 
+def surface_in(head, arrays, x):
+    """Points of the faces for positions of the nodes, by the matrices of the scene."""
+    found = []
+    for number in range(len(head["patches"])):
+        weights = arrays[f"patches {number} position"].reshape(-1, np.prod(head["patches"][number]["grid"]))
+        nodes = arrays[f"patches {number} nodes"].reshape(-1, weights.shape[1])
+        found.append(np.einsum("pn,mnc->mpc", weights, x[nodes]).reshape(-1, x.shape[1]))
+    return np.concatenate(found)
+
+
 @pytest.mark.parametrize("cell", ["hex8", "hex18"])
-def test_positions_and_fields_come_back(cell):
+def test_surface_and_fields_are_those_of_the_pictures(cell):
+    """The scene interpolates as `skin_of` does, which PyVista draws."""
     result = bent(cell=cell)
     head, arrays = unpacked(scene_of(result).data)
-    faces, points = arrays["faces"].reshape(-1, 4), arrays["points"].reshape(-1, 3)
+    X, cells = result.model.mesh.points, result.model.mesh.connectivity
     assert [mark["row"] for mark in head["frames"]] == [frame.number for frame in result.frames]
-    for number in range(len(result.frames)):
-        shape = Shape.of(result, number)
-        x = points + arrays["displacements"][number].reshape(-1, 3)
-        np.testing.assert_allclose(x[faces], shape.points[shape.quads], atol=2e-5)
-        for name in ("thickness_change", "displacement"):
-            values = arrays[f"field {name}"][number][faces].mean(axis=1)
-            expected = (
-                shape.values[name]
-                if name in shape.values
-                else np.linalg.norm(result.frames[number].points["displacement"], axis=1)[shape.quads].mean(axis=1)
-            )
-            np.testing.assert_allclose(values, expected, atol=2e-5 * max(np.abs(expected).max(), 0.5))
+    for number, frame in enumerate(result.frames):
+        skin = skin_of(
+            Part.deformed(X, cells, frame.points, frame.cells), "thickness_change", head["patches"][0]["points"][0] - 1
+        )
+        x = arrays["points"].reshape(-1, 3) + arrays["displacements"][number].reshape(-1, 3)
+        np.testing.assert_allclose(surface_in(head, arrays, x), skin.points, atol=2e-5)
+        values = surface_in(head, arrays, arrays["field thickness_change"][number][:, None])[:, 0]
+        np.testing.assert_allclose(values, -100.0 * skin.values, atol=2e-3)
 
 
-def test_fields_of_cells_belong_to_the_cells_of_the_faces():
+def test_fields_of_cells_are_means_at_the_corners():
     steel = uf.J2(kappa=175e3, mu=80.77e3, hardening=uf.Linear(yield_stress=160, modulus=500))
     model = uf.Model(uf.mesh.strip(8, 2, 0.5, (4, 1)), "ANS3DEAS", material=steel)
     model.fix("x0", "xyz")
     result = uf.solve(model, uf.Move(model.prescribe("x1", "z", name="end"), to=1.0, steps=4), progress=False, frames=9)
     head, arrays = unpacked(scene_of(result).data)
     (field,) = [field for field in head["fields"] if field["name"] == "plastic_strain_max"]
-    assert (field["on"], field["label"], field["map"]) == ("cells", "plastic strain max", "viridis")
-    expected = Shape.of(result).values["plastic_strain_max"]
-    assert expected.max() > 0.001
-    got = arrays["field plastic_strain_max"][-1][arrays["owners"]]
-    np.testing.assert_allclose(got, expected, atol=1e-5 * expected.max())
+    assert (field["on"], field["label"]) == ("corners", "largest plastic strain")
+    strain = result.frames[-1].cells["plastic_strain_max"]
+    assert strain.max() > 0.001
+    x, got = arrays["points"].reshape(-1, 3)[:, 0], arrays["field plastic_strain_max"][-1]
+    for at, mean in ((0.0, strain[0]), (2.0, strain[:2].mean()), (8.0, strain[3])):
+        assert got[np.isclose(x, at)] == pytest.approx(mean, rel=1e-3)
 
 
-def test_a_field_with_two_signs_has_a_scale_about_zero(result):
-    fields = {field["name"]: field for field in unpacked(scene_of(result).data)[0]["fields"]}
-    change = np.concatenate([frame.points["thickness_change"] for frame in result.frames])
-    assert change.min() < 0 < change.max()
-    assert fields["thickness_change"]["map"] == "coolwarm"
-    assert not fields["contact_pressure"]["symmetric"]
-    assert "contact_gap" not in fields  # not a number where there is no facet
+def test_fields_have_words_units_and_one_colour_map(result):
+    head, _ = unpacked(scene_of(result, MILLIMETRES).data)
+    labels = {field["name"]: field["label"] for field in head["fields"]}
+    assert labels["thickness_change"] == "thinning, %"
+    assert labels["contact_pressure"] == "contact pressure, MPa"
+    assert labels["displacement"] == "displacement, mm"
+    assert "contact_gap" not in labels  # not a number where there is no facet
+    assert len(head["look"]["map"]) == 6 * 64
+    assert head["look"]["map"].startswith(to_hex(COLOUR_MAP(0.0))[1:])
+    assert head["look"]["map"].endswith(to_hex(COLOUR_MAP(1.0))[1:])
+    assert "displacement" in scene_of(result).fields  # without units that nobody has named
+
+
+def test_faces_in_a_plane_of_symmetry_are_the_last_and_its_normals_lie_in_it():
+    """In the whole part there are no faces inside, and no edge where the halves meet."""
+    mesh = uf.mesh.strip(4, 2, 0.5, (4, 2), cell="hex18")
+    surface = Surface.of(mesh.points, mesh.connectivity, 2, [Mirror(0, 0.0)])
+    across = surface.patches[1]
+    assert across.inner == 2
+    inside = np.abs(mesh.points[across.corner_nodes][:, :, 0]).max(axis=1) < 1e-9
+    assert np.flatnonzero(inside).tolist() == [len(inside) - 2, len(inside) - 1]
+    (seam,) = surface.seams
+    assert len(seam) == 2 * 3 + 2 * 2  # on both faces of the sheet, and at the two rims
 
 
 def test_tools_stand_where_they_stood(result):
@@ -205,3 +237,23 @@ def test_rolling_direction_of_the_cells():
     assert head["rolling"]
     assert shown[-1] == pytest.approx(result.frames[-1].cells["rolling"], abs=1e-3)
     assert not scene_of(bent()).rolling
+
+
+def test_plane_strain_is_drawn_wide_with_its_tools_in_pages_and_files(tmp_path):
+    """A strip of 0.5 mm would be a thread; it is the same in each section."""
+    model = uf.Model(uf.mesh.strip(8, 0.5, 0.5, (4, 1)), "ANS3DEAS", material=uf.SVK(E=1000.0, nu=0.3))
+    model.fix("x0", "xz")
+    model.fix(range(len(model.mesh.points)), "y")
+    model.contact("lower", uf.Cylinder((4, 0, -3), "y", 2.0), penalty=10.0, name="tool")
+    push = model.prescribe("x1", "z", name="push")
+    result = uf.solve(model, uf.Move(push, to=-0.2, steps=2), progress=False, frames=2)
+    scene = scene_of(result, MILLIMETRES)
+    _, arrays = unpacked(scene.data)
+    width = np.ptp(arrays["points"].reshape(-1, 3)[:, 1])
+    assert width == pytest.approx(0.3 * 8)
+    assert np.ptp(arrays["tool 0 points"].reshape(-1, 3)[:, 1]) > width
+    assert scene.notes == ["Plane strain: the same in each section, drawn 2.4 mm wide."]
+    part, tools = read_frame(result.write(tmp_path / "run.vtkhdf"), -1)
+    assert np.ptp(part.points[:, 1]) == pytest.approx(width)
+    assert np.ptp(tools["tool"].points[:, 1]) > width
+    assert plane_strain(bent().model) is None

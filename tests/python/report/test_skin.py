@@ -5,9 +5,11 @@ import numpy as np
 import pytest
 
 import umform as uf
+from umform.io.vtkhdf_reader import frames_in
+from umform.report.part import Part
 from umform.report.rendering import creases, rolling_lines
-from umform.report.skin import Part, skin_of
-from umform.report.stored_scene import frames_in, read_frame
+from umform.report.skin import skin_of
+from umform.report.stored_scene import read_frame
 from umform.report.symmetry import Mirror
 from umform.surfaces.triangles import Triangles
 

@@ -186,3 +186,37 @@ def test_a_plastic_frame_has_the_yield_stress_as_its_von_mises_stress(build):
     frame = solve(model, Move(pull, 0.2, steps=10), frames=1).frames[-1]
     flow = 160.0 + 500.0 * frame.cells["plastic_strain_max"]
     np.testing.assert_allclose(frame.cells["stress_von_mises"], flow, rtol=2e-3)
+
+
+@pytest.mark.parametrize("element", ["ANS3DEAS", "DISP3D", "MI9K3DEAS"])
+def test_positions_of_the_points(build, element):
+    """Their weights are those of the volume and its first moments; a motion of the nodes is that of the points."""
+    made = build.jittered(strip(3.0, 2.0, 0.4, (3, 2), cell="hex18" if "9K" in element else "hex8"), 0.15)
+    model = Model(made, element, material=mt.J2(E=206e3, nu=0.3, hardening=mt.Linear(200.0, 1000.0)))
+    turn = np.array([[1.1, 0.2, 0.0], [-0.1, 0.95, 0.05], [0.02, 0.0, 1.0]])
+    model.u = (made.points @ turn.T + [1.0, 2.0, 3.0] - made.points).ravel()
+    at = fields.point_fields(model)
+    assert at.X.shape == at.x.shape == (*at.volume.shape, 3)
+    np.testing.assert_allclose(at.x, at.X @ turn.T + [1.0, 2.0, 3.0], atol=1e-12)
+    points = made.points[made.connectivity]
+    low, high = points.min(axis=1, keepdims=True), points.max(axis=1, keepdims=True)
+    assert ((low < at.X) & (high > at.X)).all()
+
+
+def test_positions_run_as_the_points_do():
+    """F of a deformation by x^2 and y^2 differs from point to point: that of each is the derivative at its position."""
+    made = strip(2.0, 2.0, 0.4, (1, 1), cell="hex18")
+    model = Model(made, "DISP9K3D", material=mt.SVK(E=206e3, nu=0.3))
+    X = made.points
+    model.u = np.column_stack([0.05 * X[:, 0] ** 2, 0.08 * X[:, 1] ** 2, 0.1 * X[:, 2] * X[:, 0]]).ravel()
+    at = fields.point_fields(model)
+    np.testing.assert_allclose(at.F[..., 0, 0], 1.0 + 0.1 * at.X[..., 0], atol=1e-12)
+    np.testing.assert_allclose(at.F[..., 1, 1], 1.0 + 0.16 * at.X[..., 1], atol=1e-12)
+    np.testing.assert_allclose(at.F[..., 2, 0], 0.1 * at.X[..., 2], atol=1e-12)
+    model = Model(strip(2.0, 2.0, 0.4, (1, 1)), "DISP3D", material=mt.SVK(E=206e3, nu=0.3))
+    X = model.mesh.points
+    model.u = np.column_stack([0.05 * X[:, 0] * X[:, 1], 0.02 * X[:, 1] * X[:, 2], 0.0 * X[:, 0]]).ravel()
+    at = fields.point_fields(model)
+    np.testing.assert_allclose(at.F[..., 0, 0], 1.0 + 0.05 * at.X[..., 1], atol=1e-12)
+    np.testing.assert_allclose(at.F[..., 0, 1], 0.05 * at.X[..., 0], atol=1e-12)
+    np.testing.assert_allclose(at.F[..., 1, 1], 1.0 + 0.02 * at.X[..., 2], atol=1e-12)

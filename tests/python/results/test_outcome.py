@@ -129,7 +129,7 @@ def test_the_table_of_the_bench_has_it(pulled, tmp_path):
     with TestClient(Starlette(routes=routes(queue))) as client:
         answer = client.get("/api/jobs.csv", params={"ids": "0" * 12})
     (row,) = csv.DictReader(io.StringIO(answer.text))
-    assert float(row["force N"]) == pulled.values["force"] and row["length mm"] == "10.1"
+    assert row["force N"] == "103.8" and row["length mm"] == "10.100"
 
 
 def test_an_unknown_quantity_of_an_outcome_is_refused_with_the_known_ones(pulled):

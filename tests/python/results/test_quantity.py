@@ -64,6 +64,28 @@ def test_a_number_beyond_its_limit_is_marked(changes, missed):
     assert isinstance(one.text, Bad) is bool(missed) and one.text.endswith(missed)
 
 
+def test_an_error_of_round_off_adds_no_digits():
+    quantity = Quantity("depth", "mm", value=0.04, band=Band(1e-13, "a difference"))
+    assert quantity.number(0.04, "+") == "+0.0400000"
+    assert quantity.number(123456.7) == "123457"
+    assert quantity.number(0.0) == "0.00000000000000"
+
+
+@pytest.mark.parametrize(
+    ("value", "band", "error", "relative"),
+    [
+        (-4.0, Band(0.5, "mesh"), 0.5, 0.125),
+        (0.0, Band(0.5, "mesh"), 0.5, 0.0),
+        (None, Band(0.5, "mesh"), 0.5, 0.0),
+        (4.0, Band(math.nan, "mesh"), 0.0, 0.0),
+        (4.0, None, 0.0, 0.0),
+    ],
+)
+def test_the_error_of_a_shade(value, band, error, relative):
+    one = Quantity("height", "mm", value=value, band=band)
+    assert (one.error, one.relative_error) == (error, relative)
+
+
 def test_a_full_text_has_error_and_unit():
     assert HEIGHT.full_text == "12.35 mm"
     assert Quantity("angle", "degrees", 1, value=90.0, band=Band(0.2, "mesh")).full_text == "90.0 ± 0.2°"
@@ -120,4 +142,18 @@ def test_a_record_gives_the_quantity_back():
         kept = json.loads(json.dumps(one.record(), allow_nan=False))
         assert repr(Quantity.of(kept)) == repr(one)  # NaN differs from itself
     (row,) = zip(*list_columns([replace(HEIGHT, limit=3.0, band=Band(0.1, "meshes"))]).values(), strict=True)
-    assert row == ("height", "height", 12.3456, "mm", 0.1, "meshes", 3.0, True)
+    assert row == ("height", "height", 12.3456, "mm", 0.1, "meshes", False, 3.0, True)
+
+
+def test_a_number_of_one_mesh_says_so_in_text_table_and_record():
+    one = replace(HEIGHT, of_mesh=True)
+    assert one.full_text.endswith("mm, of this mesh")
+    assert one.error_text == "of this mesh"
+    header, row = table([one])
+    assert row[header.index("error")] == "of this mesh"
+    assert one.record()["of_mesh"]
+    rippling = replace(one, band=Band(0.25, "ripple"))
+    assert rippling.error_text.startswith("± 0.2")
+    assert rippling.error_text.endswith(", of this mesh")
+    old = {name: value for name, value in HEIGHT.record().items() if name != "of_mesh"}
+    assert not Quantity.of(old).of_mesh  # a record of an earlier version

@@ -19,9 +19,10 @@ from umform_book.derivatives.differences import TIGHT, Compared
 SHEET = AirBending(thickness=1.9, opening=16.0, elements_per_thickness=1.0, layers=1, increment=0.025)
 PART = BendSequence(70.0, (Bend(20.0, stroke=4.9), Bend(45.0, stroke=4.6, direction="down")), SHEET)
 HEM = Hemming(
+    form="insert",
     base=13.0,
     increments=24,
-    sheet=acute(elements_per_thickness=1.0, layers=1, increment=0.025, stroke=7.3),
+    sheet=acute(element="BEND18", elements_per_thickness=1.0, layers=1, increment=0.025, stroke=7.3),
 )
 #: Change of a parameter in central differences, relative to its value.
 _SIZE = 1e-4

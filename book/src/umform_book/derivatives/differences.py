@@ -114,6 +114,7 @@ def _error(had: Floats, wanted: Floats, faint: float) -> float:
 def _whole(example: Example, built: tuple[uf.Model, Any], run: uf.Result) -> uf.Result:
     """A whole run, in its own increments or in those of another run."""
     model, steps = built
+    contacts, initial = model.system.penalised, [contact.initial_penalty for contact in model.system.penalised]
     if not example.replays:
         return uf.solve(model, steps, options=TIGHT, frames=0, progress=False)
     again = OpenRun(model, options=TIGHT, frames=0)
@@ -121,9 +122,9 @@ def _whole(example: Example, built: tuple[uf.Model, Any], run: uf.Result) -> uf.
         starts, since = [control.value for control in step.moved()], model.system.time
         rows = [row for row in run.rows if row["step"] == number]
         for before, row in zip([since, *(one["time"] for one in rows)], rows, strict=False):
-            for contact, other in zip(model.contacts, run.model.contacts, strict=True):
-                growth = row[f"{contact.name}_penalty"] / other.initial_penalty
-                contact.use_penalty(growth * contact.initial_penalty)
+            for contact, start, other in zip(contacts, initial, run.model.system.penalised, strict=True):
+                if other.adapts:  # what is set does not grow by itself as well
+                    contact.penalty = row[f"{contact.name}_penalty"] / other.initial_penalty * start
             values = step.values((row["time"] - since) / step.time, starts)
             again.take(uf.Move(step.moved(), values, steps=1, time=row["time"] - before))
     return again.close()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import umform as uf
@@ -11,6 +12,7 @@ from umform_book.contact.figures import Curve, plot
 from umform_book.derivatives.chains import CHAINS, compared_chain
 from umform_book.derivatives.differences import TIGHT, Example, compared
 from umform_book.derivatives.laws import LAWS, example
+from umform_book.derivatives.sheets import SHEETS
 from umform_book.derivatives.steps import BEND, EXAMPLES, bent
 from umform_book.page import Page
 
@@ -36,7 +38,7 @@ def _chains(page: Page) -> None:
     for name, chain in page.each(
         [(name, CHAINS[name]) for name in page.pick(tuple(CHAINS), ("part of two bends",))], lambda it: it[0]
     ):
-        for one in compared_chain(chain):
+        for one in compared_chain(replace(chain, by=tuple(page.pick(chain.by, chain.by[-1:])))):
             rows.append((name, one.parameter, one.derivative, chain.limit))
             page.at_most(f"{name}, {one.parameter}", one.derivative, chain.limit)
     page.table("Operations one after the other", ("case", "parameter", "derivative", "limit"), rows)
@@ -76,6 +78,7 @@ def _sizes(name: str, changes: Sequence[float], *, points: bool) -> list[tuple[f
 def run(page: Page) -> None:
     """Fill the page."""
     _table(page, "Steps, tools, controls and loads", "model", EXAMPLES, ("Move; friction", "Close", "Arc"))
+    _table(page, "Sheets that touch", "model", SHEETS, ("two sheets, points; friction",))
     laws = {name: example(law) for name, law in LAWS.items()}
     _table(page, "Laws, with all their constants", "law", laws, ("J2, Linear", "Metal, Mises"))
     _chains(page)
@@ -92,6 +95,7 @@ CASE = Case(
   the bends before, sizes and strength.
 * Steps, tools, controls and loads: small models of each kind, with respect to constants of the metal, thickness,
   radii, friction, forces, gaps, springs, stops, beads, strokes and times.
+* Sheets that touch: two strips bent on each other, and a strip folded onto itself, at Gauss points and over cells.
 """,
     reference="""
 Whole runs with a residual of 1e-12. "shadow": the change in the shadow beside that of a whole run with the same change
@@ -103,5 +107,5 @@ force is zero to a part of it, or where contact is lost to 1e-6 of the way: whol
 parameters know their ends no better, and only the last rows are compared.
 """,
     run=run,
-    cost=110.0,
+    cost=140.0,
 )

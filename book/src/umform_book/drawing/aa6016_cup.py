@@ -158,6 +158,9 @@ def _check_heights(page: Page, found: dict[str, Made], means: list[float]) -> No
         page.check(f"{label}: mean height, mm", height, MEASURED, WITHIN, relative=False, known=KNOWN, cause=_CAUSE)
     finest = list(_MESHES)[-1]
     page.check(f"{_BASE}: mean height, mm, against {finest}", base, found[finest].ears.mean, 0.3, relative=False)
+    scatter = f"seven teams {min(means):.1f} to {max(means):.1f}"
+    page.compare("mean height of the cup of AA6016-T4, mm", found[_BASE].ears.mean, MEASURED, scatter)
+    page.compare("the same with the card of Postech, mm", found["Postech"].ears.mean, MEASURED, scatter)
     middle, half = 0.5 * (min(means) + max(means)), 0.5 * (max(means) - min(means))
     page.check(f"{_BASE}: mean height within the band of the teams", base, middle, half, relative=False)
     case = setups()[_BASE]
@@ -177,10 +180,14 @@ def _check_ears(page: Page, found: dict[str, Made]) -> None:
     if _FREE in found:
         formula, size = cosine(_compressed("")), cosine(found[_FREE].ears)
         page.check(f"{_FREE}: cos 4θ against that of a compressed flange, mm", size, formula, 0.2, relative=False)
+    real = cosine(EarProfile(measured["angle"][:-1], measured["height"][:-1]))
+    sizes = [cosine(EarProfile(teams["angle"][:-1], teams[name][:-1])) for name in _names(teams)]
+    scatter = f"seven teams {min(sizes):.2f} to {max(sizes):.2f}"
+    page.compare("its ears: cos 4θ of the height, mm", cosine(found[_FINE].ears), real, scatter)
     page.check(
         f"{_FINE}: cos 4θ of the height, mm",
         cosine(found[_FINE].ears),
-        cosine(EarProfile(measured["angle"][:-1], measured["height"][:-1])),
+        real,
         0.2,
         relative=False,
         known=0.9,

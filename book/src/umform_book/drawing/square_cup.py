@@ -46,9 +46,10 @@ DEFORM = {STROKE: (5.5, 3.3), DEEP: (26.9, 15.5)}
 
 @dataclass(frozen=True)
 class Setup:
-    """How it is computed: element size where tools bend the sheet, mm, and the other parameters."""
+    """How it is computed: element size where tools bend the sheet, mm, its multiple at the rim, the others."""
 
     size: float = 3.0
+    rim: float = 1.6
     material: J2 | Metal = ALUMINIUM
     thickness: float = THICKNESS
     friction: float = FRICTION
@@ -117,9 +118,9 @@ class Made:
         return self.elements, self.x, self.y, self.diagonal, self.force, self.thinning
 
 
-def lines(size: float) -> Floats:
+def lines(size: float, rim: float) -> Floats:
     """Places of nodes along a side of the quarter: finer from the edge of the punch to where the die begins."""
-    ends, sizes = (0.0, 25.0, 52.0, 0.5 * BLANK), (2.5 * size, size, 1.6 * size)
+    ends, sizes = (0.0, 25.0, 52.0, 0.5 * BLANK), (2.5 * size, size, rim * size)
     parts = [
         np.linspace(a, b, max(round((b - a) / h), 1) + 1)[1:] for a, b, h in zip(ends, ends[1:], sizes, strict=False)
     ]
@@ -129,13 +130,14 @@ def lines(size: float) -> Floats:
 def blank(setup: Setup) -> Mesh:
     """A quarter of the blank."""
     half = 0.5 * setup.thickness
-    return grid(lines(setup.size), lines(setup.size), [-half, half])
+    side = lines(setup.size, setup.rim)
+    return grid(side, side, [-half, half])
 
 
-def press_of(setup: Setup) -> tuple[Model, Close, ToolMotion]:
-    """Quarter of the blank between its tools, the step that closes the holder, and the drive of the punch."""
+def press_of(setup: Setup, mesh: Mesh | None = None) -> tuple[Model, Close, ToolMotion]:
+    """Quarter of a blank between its tools, the step that closes the holder, and the drive of the punch."""
     half = 0.5 * setup.thickness
-    model = Model(blank(setup), setup.element, material=setup.material, rolling=(1.0, 0.0, 0.0))
+    model = Model(mesh or blank(setup), setup.element, material=setup.material, rolling=(1.0, 0.0, 0.0))
     model.symmetry("x0", "x")
     model.symmetry("y0", "y")
     die = Profile.from_corners([(BLANK, -half), (0.0, -half), (0.0, -BLANK)], radii=[0.0, DIE_EDGE, 0.0], closed=False)
@@ -260,6 +262,11 @@ def _outlines(page: Page, early: dict[str, Made], late: dict[str, Made]) -> None
 
 def _checks(page: Page, finest: Made) -> None:
     side, diagonal = MEASURED[STROKE]
+    for what, found, measured, other in (
+        ("side", finest.side, side, DEFORM[STROKE][0]),
+        ("corner", finest.diagonal, diagonal, DEFORM[STROKE][1]),
+    ):
+        page.compare(f"draw-in of the {what} at {STROKE:g} mm, mm", found, measured, f"another code {other:g}")
     page.check(f"{FINEST}: draw-in of the sides, mm", finest.side, side, WITHIN, relative=False)
     page.check(f"{FINEST}: draw-in of the corner, mm", finest.diagonal, diagonal, WITHIN, relative=False)
     page.check(f"{FINEST}: draw-in of both sides is the same, mm", finest.x, finest.y, SYMMETRIC, relative=False)

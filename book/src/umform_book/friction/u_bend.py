@@ -13,6 +13,7 @@ from umform.analysis.steps import Move
 from umform.materials import J2, Material, Swift
 from umform.model import Model
 from umform.results.forming import u_bend_angles
+from umform.results.forming.u_bend import HEIGHTS
 from umform.surfaces import Box, Plane, UDie
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
@@ -57,6 +58,8 @@ class Setup:
         Law of the blank.
     stroke : float
         Of the punch.
+    heights : tuple of float
+        Where the wall is measured, above the bottom.
     """
 
     variant: Variant = Variant("BEND8")
@@ -67,6 +70,7 @@ class Setup:
     increments: int = 0
     material: Material = STEEL
     stroke: float = STROKE
+    heights: tuple[float, float, float] = HEIGHTS
 
 
 @dataclass(frozen=True)
@@ -153,7 +157,7 @@ def u_bend(page: Page, setup: Setup, label: str) -> tuple[Measured, Floats, Resu
 
 def measure(setup: Setup, drawn: Result, model: Model, draw_in: float) -> Measured:
     """Angles and radius of the released part; force and draw-in at the end of the stroke."""
-    found = u_bend_angles(shape(model), flange=max(setup.intervals // 12, 2))
+    found = u_bend_angles(shape(model), setup.heights, flange=max(setup.intervals // 12, 2))
     return Measured(
         force=punch_force(drawn),
         draw_in=draw_in,

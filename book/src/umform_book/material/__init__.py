@@ -7,7 +7,6 @@ from umform_book.material import (
     elements,
     finite_strain,
     identification,
-    measured_loop,
     paths,
     u_bend,
     yield_functions,
@@ -19,7 +18,6 @@ CHAPTER = Chapter(
     (
         yield_functions.CASE,
         paths.CASE,
-        measured_loop.CASE,
         finite_strain.CASE,
         elements.CASE,
         cards.CASE,

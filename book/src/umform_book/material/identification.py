@@ -39,7 +39,7 @@ OTHERS: dict[str, dict[str, Any]] = {
     "opening 24, stroke 8": {"opening": 24.0, "stroke": 8.0},
 }
 #: Metals of the coil.
-COILS = {
+COILS: dict[str, uf.materials.Hardening] = {
     "strength +12 %, exponent -5 %": Swift(1.12 * 520.0, 0.004, 0.95 * 0.22),
     "offset 0.008 besides": Swift(1.12 * 520.0, 0.008, 0.95 * 0.22),
     "another law, of Voce and a line": LinearVoce(190.0, 420.0, 370.0, 18.0),

@@ -3,6 +3,7 @@
 
 #include "umform/contact/locator.hpp"
 #include "umform/contact/overlap.hpp"
+#include "umform/contact/own_overlap.hpp"
 #include "umform/contact/rule.hpp"
 
 namespace umform {
@@ -76,10 +77,12 @@ class OverCells : public FacetCells<Nodes> {
     static constexpr VariableTable table{{{"gap of the cell"}, {"pressure"}, {"contact energy"}, {"contact work"}}};
 
     struct Workspace {
-        explicit Workspace(std::size_t cells) : reactions(cells), overlaps(cells), pressures(cells) {}
+        explicit Workspace(std::size_t cells)
+            : reactions(cells), gap(cells), share(cells), pressures(cells), energies(cells), slopes(cells) {}
         std::vector<Reaction> reactions;
-        std::vector<Overlap> overlaps;
-        std::vector<double> pressures;
+        std::vector<double> gap, share;             // the gap that is left, the part of the area that is held
+        std::vector<double> pressures, energies;    // means over the cell
+        std::vector<std::array<double, 4>> slopes;  // minus the derivatives of the pressure by the gaps at the corners
     };
 
     using FacetCells<Nodes>::FacetCells;
@@ -87,20 +90,19 @@ class OverCells : public FacetCells<Nodes> {
     void respond(const ContactLaw& law, const Locator<Nodes>& locator, int e, const double* weights,
                  const HistoryRows& rows, Workspace& work) const {
         const Places places = locator.places(e);
-        const double penalty = law.penalty();
-        for (int q = 0; q < this->count(); ++q) {
-            work.overlaps[q] = overlap(places, q, rows.trial[q * rows.size + ContactHistory::Multiplier] / penalty);
-            work.reactions[q].held = work.overlaps[q].share > 0.0;
-            work.pressures[q] = -penalty * work.overlaps[q].gap;
-        }
+        if (const GivenPressure given = law.given_pressure(); given.law != nullptr)
+            press_by(given, places, work);
+        else
+            press_by_penalty(law.penalty(), places, rows, work);
+        for (int q = 0; q < this->count(); ++q) work.reactions[q].held = work.share[q] > 0.0;
         law.press(this->count(), places, work.pressures.data(), weights, rows, work.reactions.data());
         for (int q = 0; q < this->count(); ++q)
-            remember(penalty, places.gap[q], work.overlaps[q], rows.state + q * rows.size + rows.of_law,
+            remember(places.gap[q], q, work, rows.state + q * rows.size + rows.of_law,
                      rows.trial + q * rows.size + rows.of_law);
     }
 
     /// f_a and K_ab of a cell: -dt has the part penalty (dt/dp) (x) dP0. eqs. (4.86), (4.87)
-    void add(const ContactLaw& law, const Locator<Nodes>& locator, int e, int q, const Workspace& work, bool tangent,
+    void add(const ContactLaw&, const Locator<Nodes>& locator, int e, int q, const Workspace& work, bool tangent,
              double* K, double* f) const {
         const Places places = locator.places(e);
         const Reaction& reaction = work.reactions[q];
@@ -114,7 +116,7 @@ class OverCells : public FacetCells<Nodes> {
         for (int i = 0; i < this->corners; ++i) {
             const Values& there = locator.shapes(e)[corners[i]];
             for (int l = 0; l < 3; ++l) {
-                const double by_place = law.penalty() * work.overlaps[q].by_corner[i] * places.n[corners[i]][l];
+                const double by_place = work.slopes[q][i] * places.n[corners[i]][l];
                 for (int b = 0; b < Nodes; ++b) slope[l * Nodes + b] += by_place * there[b];
             }
         }
@@ -129,13 +131,13 @@ class OverCells : public FacetCells<Nodes> {
     /// The gap that is left: that of a point with the same pressure and the same multiplier. eq. (4.90)
     double gap(const ContactLaw& law, const Locator<Nodes>&, int, int q, const Workspace& work,
                const double* row) const {
-        return work.overlaps[q].gap + row[ContactHistory::Multiplier] / law.penalty();
+        return work.gap[q] + row[ContactHistory::Multiplier] / law.penalty();
     }
     /// The mean over the cell, zero where it is outside of the tool.
     double penetration(const Locator<Nodes>& locator, int e, int q) const {
-        return -overlap(locator.places(e), q, 0.0).gap;
+        return -Cut(corner_gaps(locator.places(e), q)).overlap.gap;
     }
-    double share(const Workspace& work, int q) const { return work.overlaps[q].share; }
+    double share(const Workspace& work, int q) const { return work.share[q]; }
 
     /// The tool has left the cell: what was stored comes back.
     void leave(const double* state, double* trial) const {
@@ -152,21 +154,45 @@ class OverCells : public FacetCells<Nodes> {
         Work = table["contact work"]
     };
 
-    /// Of the gaps at the corners less a shift.
-    Overlap overlap(const Places& places, int q, double shift) const {
+    std::array<double, 4> corner_gaps(const Places& places, int q) const {
         std::array<double, 4> G;
         const auto corners = this->corners_of(q);
-        for (int i = 0; i < this->corners; ++i) G[i] = places.gap[corners[i]] - shift;
-        return Cut(G).overlap;
+        for (int i = 0; i < this->corners; ++i) G[i] = places.gap[corners[i]];
+        return G;
+    }
+
+    void press_by_penalty(double penalty, const Places& places, const HistoryRows& rows, Workspace& work) const {
+        for (int q = 0; q < this->count(); ++q) {
+            const double shift = rows.trial[q * rows.size + ContactHistory::Multiplier] / penalty;
+            std::array<double, 4> G = corner_gaps(places, q);
+            for (double& value : G) value -= shift;
+            const Overlap overlap = Cut(G).overlap;
+            work.gap[q] = overlap.gap, work.share[q] = overlap.share;
+            work.pressures[q] = -penalty * overlap.gap, work.energies[q] = penalty * overlap.half_square;
+            for (int i = 0; i < this->corners; ++i) work.slopes[q][i] = penalty * overlap.by_corner[i];
+        }
+    }
+
+    /// All cells by one call of the law of a user. eqs. (4.283), (4.284)
+    void press_by(const GivenPressure& given, const Places& places, Workspace& work) const {
+        std::vector<std::array<double, 4>> G;
+        for (int q = 0; q < this->count(); ++q) G.push_back(corner_gaps(places, q));
+        const OwnCuts cuts(*given.law, given.scale, G);
+        for (int q = 0; q < this->count(); ++q) {
+            const OwnOverlap& overlap = cuts.overlaps[q];
+            work.gap[q] = overlap.share > 0.0 ? overlap.gap / overlap.share : 0.0, work.share[q] = overlap.share;
+            work.pressures[q] = overlap.pressure, work.energies[q] = overlap.energy;
+            work.slopes[q] = overlap.by_corner;
+        }
     }
 
     /// The work of the mean pressure on the gap of the mean place; a first touch and the end of contact take the energy that a
     /// cell of the same slope has. eq. (4.89)
-    static void remember(double penalty, double gap, const Overlap& overlap, const double* state, double* trial) {
-        const bool before = state[Pressure] > 0.0, now = overlap.share > 0.0;
+    static void remember(double gap, int q, const Workspace& found, const double* state, double* trial) {
+        const bool before = state[Pressure] > 0.0, now = found.share[q] > 0.0;
         trial[Gap] = now ? gap : 0.0;
-        trial[Pressure] = now ? -penalty * overlap.gap : 0.0;
-        trial[Energy] = now ? penalty * overlap.half_square : 0.0;
+        trial[Pressure] = now ? found.pressures[q] : 0.0;
+        trial[Energy] = now ? found.energies[q] : 0.0;
         double work = trial[Energy] - state[Energy];
         if (before && now) work = -0.5 * (state[Pressure] + trial[Pressure]) * (gap - state[Gap]);
         trial[Work] = state[Work] + work;

@@ -9,6 +9,14 @@
 
 namespace umform {
 
+class NormalLaw;
+
+/// The law of a user by which the pressure follows from the gap, and what it is times; none where it follows from the penalty.
+struct GivenPressure {
+    const NormalLaw* law = nullptr;
+    double scale = 1.0;
+};
+
 /// What the history of every contact law begins with.
 struct ContactHistory {
     static constexpr VariableTable table{{{"multiplier"}}};
@@ -97,6 +105,7 @@ class ContactLaw {
     /// Pressure per penetration.
     virtual double penalty() const = 0;
     virtual void set_penalty(double value) = 0;
+    virtual GivenPressure given_pressure() const { return {}; }
     /// Largest traction per way of a place in any direction, from its history.
     virtual double stiffness(const double* history) const = 0;
     /// Largest gap at which one of `count` places can be held, from rows of `size` numbers.
@@ -126,6 +135,10 @@ class ContactLawOf final : public ContactLaw {
     std::vector<HistoryVariable> history_variables() const override { return Law::table.list(); }
     double penalty() const override { return law_.penalty; }
     void set_penalty(double value) override { law_.penalty = value; }
+    GivenPressure given_pressure() const override {
+        if constexpr (requires { law_.normal; }) return {law_.normal.get(), law_.scale()};
+        return {};
+    }
     double stiffness(const double* history) const override { return law_.stiffness(history); }
     double reach(int count, const double* trial, int size) const override {
         double largest = law_.reach(trial);
@@ -134,6 +147,10 @@ class ContactLawOf final : public ContactLaw {
     }
     void respond(int count, const Places& places, const double* weights, const HistoryRows& rows,
                  Reaction* reactions) const override {
+        if constexpr (requires { law_.respond_all(count, places, weights, rows, reactions); }) {
+            law_.respond_all(count, places, weights, rows, reactions);
+            return;
+        }
         for (int q = 0; q < count; ++q)
             reactions[q].held = law_.respond(places[q], weights == nullptr ? 1.0 : weights[q],
                                              rows.state + q * rows.size, rows.trial + q * rows.size, reactions[q]);

@@ -14,6 +14,51 @@ struct Overlap {
     std::array<double, 4> by_corner{};  // derivatives of the first with respect to the values at the corners
 };
 
+template <class Real>
+struct VertexOf {
+    Real xi, eta, G;
+};
+
+/// A part of the square, counterclockwise, and how many corners of the square it has.
+template <class Real>
+struct PolygonOf {
+    std::array<VertexOf<Real>, 5> vertices;
+    int count = 0, held = 0;
+};
+
+inline bool inside(double G) { return G <= 0.0; }
+
+/// The part of the square where G = g + p xi + q eta is not positive.
+template <class Real>
+PolygonOf<Real> inside_of(const Real& g, const Real& p, const Real& q) {
+    constexpr std::array<std::array<double, 2>, 4> corners{{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
+    const auto at = [&](const std::array<double, 2>& corner) {
+        return VertexOf<Real>{Real{corner[0]}, Real{corner[1]}, g + corner[0] * p + corner[1] * q};
+    };
+    PolygonOf<Real> part;
+    VertexOf<Real> before = at(corners[3]);
+    for (const auto& corner : corners) {
+        const VertexOf<Real> now = at(corner);
+        if (inside(before.G) != inside(now.G)) {  // where G vanishes between a vertex inside and one outside
+            const Real share = before.G / (before.G - now.G);
+            part.vertices[part.count++] = {before.xi + share * (now.xi - before.xi),
+                                           before.eta + share * (now.eta - before.eta), Real{0.0}};
+        }
+        if (inside(now.G)) part.vertices[part.count++] = now, ++part.held;
+        before = now;
+    }
+    return part;
+}
+
+/// The plane next to values at the corners of the square.
+struct CellPlane {
+    double g, p, q;
+
+    explicit CellPlane(const std::array<double, 4>& G)
+        : g(0.25 * (G[0] + G[1] + G[2] + G[3])), p(0.5 * (G[1] + G[2] - G[0] - G[3])),
+          q(0.5 * (G[2] + G[3] - G[0] - G[1])) {}
+};
+
 /// Overlap of a cell from values at its corners: G is the plane next to them, and the square is cut with the line G = 0. No step divides by p or q, so that a cell along the tool is no
 /// special case.
 class Cut {
@@ -21,42 +66,24 @@ class Cut {
     Overlap overlap;
 
     explicit Cut(const std::array<double, 4>& G) {
-        const double g = 0.25 * (G[0] + G[1] + G[2] + G[3]);
-        const double p = 0.5 * (G[1] + G[2] - G[0] - G[3]), q = 0.5 * (G[2] + G[3] - G[0] - G[1]);
-        cut(g, p, q);
+        cut(CellPlane(G));
         const double half_xi = 0.5 * overlap.m_xi, half_eta = 0.5 * overlap.m_eta, quarter = 0.25 * overlap.share;
         overlap.by_corner = {quarter - half_xi - half_eta, quarter + half_xi - half_eta, quarter + half_xi + half_eta,
                              quarter - half_xi + half_eta};
     }
 
   private:
-    struct Vertex {
-        double xi, eta, G;
-    };
+    using Vertex = VertexOf<double>;
 
-    void cut(double g, double p, double q) {
-        constexpr std::array<std::array<double, 2>, 4> corners{{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
-        std::array<Vertex, 5> inside;
-        int count = 0, held = 0;
-        Vertex before{corners[3][0], corners[3][1], g - 0.5 * p + 0.5 * q};
-        for (const auto& corner : corners) {
-            const Vertex now{corner[0], corner[1], g + corner[0] * p + corner[1] * q};
-            if ((before.G <= 0.0) != (now.G <= 0.0)) inside[count++] = between(before, now);
-            if (now.G <= 0.0) inside[count++] = now, ++held;
-            before = now;
-        }
-        if (held == 4) {
+    void cut(const CellPlane& plane) {
+        const auto& [g, p, q] = plane;
+        const PolygonOf<double> part = inside_of(g, p, q);
+        if (part.held == 4) {
             overlap.gap = g, overlap.share = 1.0;
             overlap.half_square = 0.5 * (g * g + (p * p + q * q) / 12.0);
             return;
         }
-        for (int i = 2; i < count; ++i) add(inside[0], inside[i - 1], inside[i]);
-    }
-
-    /// Where G vanishes between a vertex inside and one outside.
-    static Vertex between(const Vertex& a, const Vertex& b) {
-        const double part = a.G / (a.G - b.G);
-        return {a.xi + part * (b.xi - a.xi), a.eta + part * (b.eta - a.eta), 0.0};
+        for (int i = 2; i < part.count; ++i) add(part.vertices[0], part.vertices[i - 1], part.vertices[i]);
     }
 
     void add(const Vertex& a, const Vertex& b, const Vertex& c) {

@@ -71,6 +71,7 @@ class ShellBlockOf final : public ShellBlock {
             if (failed_[e] != Failure::None && outcome.failed < 0) outcome.failed = e, outcome.failure = failed_[e];
             outcome.force_scale_squared += scale_[e];
         }
+        note_change(target.wants_tangent() ? last_.y : followed_);
         return outcome;
     }
 
@@ -130,6 +131,18 @@ class ShellBlockOf final : public ShellBlock {
         last_.y.resize(rows);
         last_.Y.resize(rows * size);
         from_kept_ = false;
+    }
+
+    /// Of the elements that have not failed.
+    void note_change(const std::vector<Lanes>& y) {
+        const std::size_t modes = element_.modes();
+        enhanced_change_ = 0.0;
+        for (std::size_t b = 0; b < batches_.size(); ++b)
+            for (int lane = 0; lane < batches_[b].count; ++lane) {
+                if (failed_[batches_[b].element[lane]] != Failure::None) continue;
+                for (std::size_t m = 0; m < modes; ++m)
+                    enhanced_change_ = std::max(enhanced_change_, std::abs(y[b * modes + m][lane]));
+            }
     }
 
     using Failures = std::array<Failure, lane_count>;

@@ -90,6 +90,9 @@ class ShellBlock {
     }
     /// Whether the blocks of the converged state exist: not before the first `commit`, and not after `restore`.
     virtual bool keeps_blocks() const = 0;
+    /// Largest change of an enhanced parameter that a recovery without a displacement makes after the last `evaluate`: zero where they
+    /// are in equilibrium. eq. (2.19)
+    double enhanced_change() const { return enhanced_change_; }
     /// Points at which return maps have gone through stages of a shrinking yield surface, over all evaluations.
     virtual std::uint64_t staged_returns() const = 0;
 
@@ -112,6 +115,7 @@ class ShellBlock {
     double step = 0.0;  // time increment, for laws that need it
 
   protected:
+    double enhanced_change_ = 0.0;
     std::int32_t number_of(int e) const { return numbers_.empty() ? e : numbers_[e]; }
     virtual void recover_enhanced(const double* du) = 0;
     virtual void keep_blocks() = 0;

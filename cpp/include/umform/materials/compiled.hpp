@@ -22,11 +22,19 @@ inline std::shared_ptr<Material> compiled_law(CompiledFunction* function, Compil
     const Gate gate(traits.parallel);
     auto call = [=](const FunctionArguments& at, const FunctionAnswer& out) {
         const auto* axes = reinterpret_cast<const double*>(at.axes);
+        const std::size_t n = at.n, size = n * traits.law.initial.size();
+        GuardedAnswer& guarded = GuardedAnswer::of_thread();
+        double *S = guarded.stress.reset(6 * n), *CC = guarded.tangent.reset(36 * n),
+               *trial = guarded.state.reset(size);
         const int refused = gate.pass([&] {
-            return function(at.n, at.E->data(), at.state, traits.properties.data(), axes, at.size, at.step,
-                            out.S->data(), out.CC->a.data(), out.trial);
+            return function(at.n, at.E->data(), at.state, traits.properties.data(), axes, at.size, at.step, S, CC,
+                            trial);
         });
+        guarded.require_intact(traits.name, at.cell, -1);
         if (refused != 0) return 0;
+        std::copy_n(S, 6 * n, out.S->data());
+        std::copy_n(CC, 36 * n, out.CC->a.data());
+        std::copy_n(trial, size, out.trial);
         require_sound(traits, at, out);
         return at.n;
     };
@@ -37,7 +45,8 @@ inline std::shared_ptr<Material> compiled_law(CompiledFunction* function, Compil
             const int refused =
                 gate.pass([&] { return energy(n, E->data(), state, traits.properties.data(), both.data()); });
             if (refused != 0 || !all_finite(both.data(), both.size()))
-                throw RefusedAnswer(traits.name, "the energy of a law is not finite", false, cell, 0);
+                throw RefusedAnswer(traits.name, "the energy of a law is not finite", RefusedAnswer::NotFinite, cell,
+                                    0);
             for (int q = 0; q < n; ++q) out[q] = {both[2 * q], both[2 * q + 1]};
         };
     return std::make_shared<MaterialFromFunction>(std::move(call), traits.law, std::move(energies));

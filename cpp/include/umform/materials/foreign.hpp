@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "umform/materials/function.hpp"
 
@@ -15,14 +17,58 @@ namespace umform {
 
 /// An answer that is refused, and the run with it: what is wrong, the law, and where.
 struct RefusedAnswer final : std::exception {
+    enum Kind { NotFinite, Asymmetric, BeyondItsArrays };
     std::string law, wrong;
-    bool finite;  // else it has a number that is none
+    Kind kind;
     std::int32_t cell;
     int point;
 
-    RefusedAnswer(std::string name, std::string what, bool is_finite, std::int32_t number, int q)
-        : law(std::move(name)), wrong(std::move(what)), finite(is_finite), cell(number), point(q) {}
+    RefusedAnswer(std::string name, std::string what, Kind of, std::int32_t number, int q)
+        : law(std::move(name)), wrong(std::move(what)), kind(of), cell(number), point(q) {}
     const char* what() const noexcept override { return wrong.c_str(); }
+};
+
+/// Numbers that a foreign function may write, between margins that it must not.
+class Guarded {
+  public:
+    double* reset(std::size_t size) {
+        size_ = size;
+        numbers_.assign(size + 2 * margin, mark);
+        std::fill_n(data(), size, 0.0);
+        return data();
+    }
+    double* data() { return numbers_.data() + margin; }
+    bool intact() const {
+        const auto marked = [](double number) { return number == mark; };
+        return std::all_of(numbers_.begin(), numbers_.begin() + margin, marked)
+               && std::all_of(numbers_.begin() + static_cast<std::ptrdiff_t>(margin + size_), numbers_.end(), marked);
+    }
+
+  private:
+    static constexpr std::size_t margin = 64;
+    static constexpr double mark = -7.0173e-211;  // that no law writes by chance
+
+    std::vector<double> numbers_;
+    std::size_t size_ = 0;
+};
+
+/// What a law from a library fills, guarded; one a thread.
+struct GuardedAnswer {
+    Guarded stress, tangent, state;
+
+    void require_intact(const std::string& law, std::int32_t cell, int point) const {
+        const char* beyond = !state.intact()     ? "its state"
+                             : !stress.intact()  ? "its stress"
+                             : !tangent.intact() ? "its tangent"
+                                                 : nullptr;
+        if (beyond != nullptr)
+            throw RefusedAnswer(law, std::string("a law has written beyond ") + beyond, RefusedAnswer::BeyondItsArrays,
+                                cell, point);
+    }
+    static GuardedAnswer& of_thread() {
+        static thread_local GuardedAnswer guarded;
+        return guarded;
+    }
 };
 
 /// What a law from a library is, beside its functions.
@@ -75,9 +121,11 @@ inline void require_sound(const ForeignTraits& traits, const FunctionArguments& 
         if (!all_finite(out.CC[q].a.data(), 36)) part = "the tangent";
         if (!all_finite(out.S[q].data(), 6)) part = "the stress";
         if (part != nullptr)
-            throw RefusedAnswer(traits.name, part + std::string(" of a law is not finite"), false, at.cell, q);
+            throw RefusedAnswer(traits.name, part + std::string(" of a law is not finite"), RefusedAnswer::NotFinite,
+                                at.cell, q);
         if (traits.law.symmetric && asymmetry(out.CC[q]) > round_off)
-            throw RefusedAnswer(traits.name, "the tangent of a law is not symmetric", true, at.cell, q);
+            throw RefusedAnswer(traits.name, "the tangent of a law is not symmetric", RefusedAnswer::Asymmetric,
+                                at.cell, q);
     }
 }
 

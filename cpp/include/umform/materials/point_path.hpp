@@ -6,7 +6,9 @@
 #include <limits>
 #include <vector>
 
+#include "umform/algebra/solve_free.hpp"
 #include "umform/materials/concept.hpp"
+#include "umform/materials/logarithmic_answer.hpp"
 
 namespace umform {
 
@@ -22,41 +24,13 @@ struct PointTarget {
     double step;  // of time
 };
 
-/// Solves the equations of the free components by elimination with row pivots; zero elsewhere.
-inline Voigt solve_free(const Voigt66& C, const Voigt& r, const std::array<bool, 6>& free) {
-    std::array<int, 6> of{};
-    int n = 0;
-    for (int p = 0; p < 6; ++p)
-        if (free[p]) of[n++] = p;
-    std::array<std::array<double, 7>, 6> A{};
-    for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < n; ++j) A[i][j] = C(of[i], of[j]);
-        A[i][n] = r[of[i]];
-    }
-    for (int k = 0; k < n; ++k) {
-        int pivot = k;
-        for (int i = k + 1; i < n; ++i)
-            if (std::abs(A[i][k]) > std::abs(A[pivot][k])) pivot = i;
-        std::swap(A[k], A[pivot]);
-        for (int i = k + 1; i < n; ++i) {
-            const double factor = A[i][k] / A[k][k];
-            for (int j = k; j <= n; ++j) A[i][j] -= factor * A[k][j];
-        }
-    }
-    Voigt x{};
-    for (int k = n - 1; k >= 0; --k) {
-        double sum = A[k][n];
-        for (int j = k + 1; j < n; ++j) sum -= A[k][j] * x[of[j]];
-        x[of[k]] = sum / A[k][k];
-    }
-    return x;
-}
-
-/// Leads a point of a law of logarithmic strains whose axes are turned against those of the test.
+/// Leads a point of a law along logarithmic strains; its axes are turned against those of the test.
 class PointWalk {
   public:
-    /// `turn` makes strains in the axes of the sheet of those in the axes of the test (engineering shears).
-    PointWalk(const Material& law, const Voigt66& turn) : law_(law), turn_(turn), history_(law.state_size()) {}
+    /// `turn` makes strains in the axes of the sheet of those in the axes of the test (engineering shears). `finite`: the law is one of
+    /// the Green-Lagrange strain.
+    PointWalk(const Material& law, const Voigt66& turn, bool finite = false)
+        : law_(law), turn_(turn), finite_(finite), history_(law.state_size()) {}
 
     /// Advance to the target, with bisection if Newton's method fails; false if it cannot be reached.
     bool reach(PointState& at, const PointTarget& target, int cuts = 0) {
@@ -76,6 +50,20 @@ class PointWalk {
   private:
     static constexpr int most_iterations = 60, most_cuts = 12;
     static constexpr double tolerance = 1e-11, least_stress = 1e-6, most_growth = 1e3;
+    /// What remains of a stress that vanishes is the round-off of stiffness times strain.
+    static constexpr double round_off = 16.0 * std::numeric_limits<double>::epsilon();
+
+    /// The largest entry.
+    static double norm(const auto& entries) {
+        double largest = 0.0;
+        for (const double entry : entries) largest = std::max(largest, std::abs(entry));
+        return largest;
+    }
+
+    bool respond(const Voigt& strain, const double* state, Voigt& T, Voigt66& C, const Point<double>& point) {
+        if (finite_) return logarithmic_answer(law_, strain, state, T, C, history_.data(), point);
+        return law_.respond(1, &strain, state, &T, &C, history_.data(), point) == 1;
+    }
 
     /// One increment; leaves the point where it is if that fails.
     bool newton(PointState& at, const PointTarget& target) {
@@ -87,14 +75,15 @@ class PointWalk {
         }
         Point<double> point;
         point.step = target.step;
-        double smallest = std::numeric_limits<double>::infinity();
+        double smallest = std::numeric_limits<double>::infinity(), rest = 0.0;
         for (int iteration = 0; iteration < most_iterations; ++iteration) {
             Voigt turned{}, T, stress{}, residual{};
             for (int i = 0; i < 6; ++i)
                 for (int j = 0; j < 6; ++j) turned[i] += turn_(i, j) * strain[j];
             Voigt66 C;
-            if (law_.respond(1, &turned, at.history.data(), &T, &C, history_.data(), point) != 1) return false;
+            if (!respond(turned, at.history.data(), T, C, point)) return false;
             double size = 0.0, largest = least_stress;
+            if (iteration == 0) rest = round_off * norm(C.a) * norm(strain);  // not of an iterate that runs away
             for (int i = 0; i < 6; ++i) {
                 for (int j = 0; j < 6; ++j) stress[i] += turn_(j, i) * T[j];
                 if (free[i]) residual[i] = stress[i] - target.stress[i];
@@ -102,7 +91,7 @@ class PointWalk {
                 largest = std::max(largest, std::abs(stress[i]));
                 if (!std::isfinite(stress[i])) return false;
             }
-            if (size <= tolerance * largest) {
+            if (size <= std::max(tolerance * largest, rest)) {
                 at.strain = strain;
                 at.stress = stress;
                 at.history = history_;
@@ -130,6 +119,7 @@ class PointWalk {
 
     const Material& law_;
     Voigt66 turn_;
+    bool finite_;
     std::vector<double> history_;  // of the increment that is tried
 };
 

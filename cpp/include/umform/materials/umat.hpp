@@ -41,7 +41,11 @@ class Umat {
         const std::size_t size = traits_.law.initial.size();
         double* state = out.trial + size * q;
         std::copy_n(at.state + size * q, size, state);
-        std::array<double, 6> stress, strain, change, expansion{}, coupling{};
+        std::array<double, 6> strain, change, expansion{}, coupling{};
+        GuardedAnswer& guarded = GuardedAnswer::of_thread();
+        double *stress = guarded.stress.reset(6), *tangent = guarded.tangent.reset(36);
+        double* variables = guarded.state.reset(variables_);
+        std::copy_n(state + UmatState::variables, variables_, variables);
         for (int p = 0; p < 6; ++p) {
             const int from = order[p];
             stress[p] = state[UmatState::stress + from];
@@ -54,17 +58,18 @@ class Umat {
         const std::array<int, 4> jstep{1, 1, 0, 0};
         const std::array<double, 9> identity{1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
         const std::array<double, 3> nowhere{};
-        std::array<double, 36> tangent{};
         const int ndi = 3, nshr = 3, ntens = 6, one = 1, nprops = static_cast<int>(traits_.properties.size());
         const int noel = at.cell + 1, npt = q + 1, kinc = before > 0.0 ? 2 : 1;
         const double zero = 0.0;
         double rpl = 0.0, drpldt = 0.0, pnewdt = 1.0;
         double* energies = state + UmatState::energies;
-        function_(stress.data(), state + UmatState::variables, tangent.data(), energies, energies + 1, energies + 2,
-                  &rpl, expansion.data(), coupling.data(), &drpldt, strain.data(), change.data(), time.data(), &step,
-                  &zero, &zero, &zero, &zero, name_.data(), &ndi, &nshr, &ntens, &variables_, traits_.properties.data(),
-                  &nprops, nowhere.data(), identity.data(), &pnewdt, &at.size, identity.data(), identity.data(), &noel,
-                  &npt, &one, &one, jstep.data(), &kinc, name_.size());
+        function_(stress, variables, tangent, energies, energies + 1, energies + 2, &rpl, expansion.data(),
+                  coupling.data(), &drpldt, strain.data(), change.data(), time.data(), &step, &zero, &zero, &zero,
+                  &zero, name_.data(), &ndi, &nshr, &ntens, &variables_, traits_.properties.data(), &nprops,
+                  nowhere.data(), identity.data(), &pnewdt, &at.size, identity.data(), identity.data(), &noel, &npt,
+                  &one, &one, jstep.data(), &kinc, name_.size());
+        guarded.require_intact(traits_.name, at.cell, q);
+        std::copy_n(variables, variables_, state + UmatState::variables);
         for (int p = 0; p < 6; ++p) {
             out.S[q][order[p]] = state[UmatState::stress + order[p]] = stress[p];
             state[UmatState::strain + order[p]] = at.E[q][order[p]];

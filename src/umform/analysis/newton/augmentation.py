@@ -37,9 +37,7 @@ def augmented(model: Model, newton: Newton, converged: Converged) -> Converged:
     """
     for number in range(1, _PASSES + 1):
         found = converged.evaluation.found
-        pairs = [
-            contact for contact in model.contacts if contact.augmented and _anywhere(model, found[contact].active.any())
-        ]
+        pairs = [contact for contact in model.system.multiplied if _anywhere(model, found[contact].active.any())]
         if not pairs or (number > 1 and not _anywhere(model, any(contact.loose(found[contact]) for contact in pairs))):
             break
         parts = {contact: np.zeros(model.u.size) for contact in pairs}

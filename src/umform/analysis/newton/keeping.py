@@ -52,7 +52,7 @@ def within_allowed(
     Failed
         If a pass does not converge, and the increment may not exceed the allowed penetration.
     """
-    penalties = {contact: contact.penalty for contact in model.contacts}
+    penalties = {contact: contact.penalty for contact in model.system.penalised}
     for growth in _GROWTHS:
         if not model.system.too_deep(converged.evaluation):
             break
@@ -109,7 +109,9 @@ def _grown(model: Model, newton: Newton, converged: Converged, growth: float, mo
 
 def relaxed(model: Model) -> bool:
     """Reset grown penalties to their initial values; whether there were any."""
-    grown = [contact for contact in model.contacts if contact.penalty > contact.initial_penalty and contact.adapts]
+    grown = [
+        contact for contact in model.system.penalised if contact.penalty > contact.initial_penalty and contact.adapts
+    ]
     for contact in grown:
         contact.use_penalty(contact.initial_penalty)
     return bool(grown)

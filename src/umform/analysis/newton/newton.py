@@ -224,7 +224,6 @@ class Newton:
     ) -> Converged:
         """First increment from the extrapolation, or from the tangent by eq. (5.6); then corrections."""
         system = self.system
-        solver = self.ready_solver()
         start = clock.perf_counter()
         u = goal.x.copy()
         du, of_tangent = self.prescribed_increment(goal, u), None
@@ -233,6 +232,7 @@ class Newton:
         else:
             first = system.evaluate(system.state_at(u, goal), du)
             self.check_domain(first, [])
+            solver = self.ready_solver()
             factors = solver.factor(first)
             if not first.border.unknowns:
                 of_tangent = First(factors, system.largest_entry(first.values))
@@ -283,6 +283,9 @@ class Newton:
                 tangent.follow()
                 return Converged(evaluation, iterations, goal, jumped=guard.jumps)
 
+            if system.pattern is not self._analysed.pattern:  # sheets have met others
+                solver = self.ready_solver()
+                tangent.use(solver)
             longest = guard.longest_step(evaluation, norm, iterations)
             evaluation = tangent.factor(goal, evaluation, residual, increment, iterations, moved=moved)
             du = system.extend(solver.solve(-r))

@@ -13,6 +13,7 @@ from umform.analysis.newton.newton import Newton
 from umform.analysis.newton.options import IterationMode
 from umform.model import Model
 from umform.model.contact import Contact
+from umform.model.contact.sheets import SheetContact
 from umform.model.equations.changed_forces import changed_residual
 from umform.model.terms.state import State
 from umform.results.records import Cause, Converged, Failed
@@ -94,9 +95,9 @@ def _stiffened(
 
 
 @contextmanager
-def _own_penalties(model: Model) -> Iterator[dict[Contact, float]]:
+def _own_penalties(model: Model) -> Iterator[dict[Contact | SheetContact, float]]:
     """The penalties of the contacts, restored at the end in any case."""
-    penalties = {contact: contact.penalty for contact in model.contacts}
+    penalties = {contact: contact.penalty for contact in model.system.penalised}
     try:
         yield penalties
     finally:

@@ -86,8 +86,8 @@ class Increment:
 
     @property
     def touches(self) -> bool:
-        """Whether there is contact with tools that are not open."""
-        return any(not pair.tool.open for pair in self.model.contacts)
+        """Whether there is contact, of sheets or with tools that are not open."""
+        return any(pair.tool is None or not pair.tool.open for pair in self.model.system.penalised)
 
     @property
     def has_friction(self) -> bool:
@@ -154,7 +154,7 @@ class Increment:
         rates = {c: self.goal.controls[c.name] - state.controls[c.name] for c in self.moved}
 
         def increment() -> Floats:
-            evaluation = model.evaluate(state, rates=rates, until=self.goal.time)
+            evaluation = model.system.evaluate(state, rates=rates, until=self.goal.time)
             newton.check_domain(evaluation, [])
             solver = newton.ready_solver()
             solver.factor(evaluation)
@@ -212,7 +212,7 @@ STRATEGIES = (
     # Tools may hold an undeformed sheet only in another position, where it has no tangent until it is there.
     Strategy(
         "rigid motion",
-        lambda at: at.undeformed and at.model.system.ranks.size == 1,
+        lambda at: at.undeformed and bool(at.model.contacts) and at.model.system.ranks.size == 1,
         lambda at: at.rigid(),
     ),
 )

@@ -43,10 +43,17 @@ class Tangent:
         first: First | None,
     ) -> None:
         self._system, self._solver, self._mode, self._guard = system, solver, mode, guard
+        self._options = options
         self._reuse, self._shift = Reuse(options, system.pattern.n, system.effort), Shift(system)
         self.pivots = None if first is None else self._reuse.remember(first.factors)
         self.entry = None if first is None else first.entry
         self.shifted, self.forces_first = False, first is not None and self._saves
+
+    def use(self, solver: Bordered) -> None:
+        """Use a solver that has analysed the present pattern, after that has changed; it has no factors yet."""
+        system = self._system
+        self._solver, self._shift = solver, Shift(system)
+        self._reuse = Reuse(self._options, system.pattern.n, system.effort)
 
     @property
     def _saves(self) -> bool:

@@ -118,6 +118,13 @@ def _outline(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> Outline:
 
 def _refuse_what_cannot_be_cut(model: Model) -> None:
     """Reject terms that cannot be distributed."""
+    if model.system.sheet_contacts:
+        raise InvalidValue(
+            "sheets that touch cannot be shared with the solver petsc",
+            where=", ".join(f"contact {contact.name}" for contact in model.system.sheet_contacts),
+            cause="a rank has the points of its part of the mesh, and not the faces that they may meet",
+            remedy="another solver in one process",
+        )
     for term in model.system.others:
         if not term.shareable:
             raise InvalidValue(

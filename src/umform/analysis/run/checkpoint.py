@@ -207,6 +207,10 @@ def memory_of(run: Run) -> dict[str, Any]:
     )
 
 
+#: Name of the version in the fingerprint of a run.
+_VERSION = "version of umform"
+
+
 def _refuse_another_run(path: str | PathLike[str], there: dict[str, str], here: dict[str, str]) -> None:
     different = [part for part in {**here, **there} if there.get(part) != here.get(part)]
     if different == ["solver"] and "petsc" in (there.get("solver"), here["solver"]):
@@ -214,12 +218,14 @@ def _refuse_another_run(path: str | PathLike[str], there: dict[str, str], here: 
     if not different:
         return
     part = different[0]
+    older = f"resume with umform {there[_VERSION]}, which wrote it" if part == _VERSION and part in there else ""
+    same = "resume with the same deck, model and files as at the start"
     raise FileProblem(
         "the checkpoint belongs to another run",
         where=str(path),
         value="different: " + ", ".join(different),
         cause=f"{part}: {_around(there.get(part, ''), here.get(part, ''))}",
-        remedy="resume with the same deck, model and files as at the start, or start again without the checkpoint",
+        remedy=f"{older or same}, or start again without the checkpoint",
     )
 
 

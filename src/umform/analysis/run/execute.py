@@ -22,6 +22,8 @@ from umform.results.cells import tell_of_cells
 from umform.results.history import FRAMES
 from umform.timing import new_timing
 
+#: Called with the result so far.
+OnIncrement = Callable[[Result], object]
 _Work = Callable[[Model, Sequence[Step]], Result]
 
 
@@ -36,6 +38,7 @@ def solve(
     checkpoint: str | PathLike[str] | None = None,
     every: float = 60.0,
     note: Mapping[str, Any] | None = None,
+    on_increment: OnIncrement | None = None,
 ) -> Result:
     """Solve a model step by step.
 
@@ -61,6 +64,9 @@ def solve(
         Least seconds between two checkpoints; 0 writes one after each increment.
     note : mapping of str to object, optional
         Texts and numbers to keep in the checkpoint, see :func:`umform.analysis.run.checkpoint.read_checkpoint`: a deck.
+    on_increment : callable, optional
+        Called with the :class:`Result` so far after each increment; its model is in the converged state. An exception
+        in it ends the run. On ranks the first one calls it.
 
     Returns
     -------
@@ -102,6 +108,7 @@ def solve(
         checkpoint=checkpoint,
         every=every,
         note=note,
+        on_increment=on_increment,
     )
 
 
@@ -117,6 +124,7 @@ def solve_followed(
     checkpoint: str | PathLike[str] | None = None,
     every: float = 60.0,
     note: Mapping[str, Any] | None = None,
+    on_increment: OnIncrement | None = None,
 ) -> Result:
     """Solve a model, with runs that follow it; parameters of :func:`solve`, and a function that makes these runs."""
 
@@ -126,6 +134,7 @@ def solve_followed(
             result = Result(model, timing)
             run = ready(result, solver, options, frames, steps)
             run.follower = None if follower is None else follower(run)
+            run.on_increment = on_increment
             checkpoints = checkpoints_of(run, steps, checkpoint, every, note)
             tell_of_cells(model, result)
             result.add(run.evaluation, [], frame=frames > 0)
@@ -145,6 +154,7 @@ def resume(
     frames: int = FRAMES,
     progress: Show = None,
     every: float = 60.0,
+    on_increment: OnIncrement | None = None,
 ) -> Result:
     """Continue a run from its checkpoint; the result equals that of an uninterrupted run, to the last bit.
 
@@ -154,7 +164,7 @@ def resume(
         The checkpoint, which the run continues to write.
     model, steps, solver, options, frames
         Those of the call of :func:`solve`, built again.
-    progress, every
+    progress, every, on_increment
         See :func:`solve`; they may differ.
 
     Returns
@@ -184,7 +194,16 @@ def resume(
     >>> result = uf.resume("run.h5", model, steps)  # doctest: +SKIP
     """
     return resume_followed(
-        path, model, steps, None, solver=solver, options=options, frames=frames, progress=progress, every=every
+        path,
+        model,
+        steps,
+        None,
+        solver=solver,
+        options=options,
+        frames=frames,
+        progress=progress,
+        every=every,
+        on_increment=on_increment,
     )
 
 
@@ -199,6 +218,7 @@ def resume_followed(
     frames: int = 60,
     progress: Show = None,
     every: float = 60.0,
+    on_increment: OnIncrement | None = None,
 ) -> Result:
     """Continue a run and those that follow it; parameters of :func:`resume`, and a function that makes these."""
     from umform.analysis.run.checkpoint import take_up  # imported late: few runs need it
@@ -209,6 +229,7 @@ def resume_followed(
             result = Result(model, timing)
             run = ready(result, solver, options, frames, steps)
             run.follower = None if follower is None else follower(run)
+            run.on_increment = on_increment
             checkpoints = checkpoints_of(run, steps, path, every)
             assert checkpoints is not None
             memory = take_up(run, checkpoints)

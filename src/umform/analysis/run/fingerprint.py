@@ -127,6 +127,7 @@ def _contact(contact: Contact) -> str:
             contact.initial_penalty,
             contact.allowed,
             contact.augmented,
+            *([] if contact.law is None else [contact.law]),
         ]
     )
 

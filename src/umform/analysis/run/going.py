@@ -44,7 +44,7 @@ def ready(result: Result, solver: str, options: NewtonOptions | None, frames: in
     model.system.timing = timing
     first = steps[0] if steps else None
     model.system.check(first.on if isinstance(first, Free) else None)
-    evaluation = model.evaluate(model.system.x, tangent=False)  # history and frames need forces only
+    evaluation = model.system.evaluate(model.system.x, tangent=False)  # history and frames need forces only
     model.system.begin(evaluation)
     run = Run(model, Newton(model.system, options, solver, timing), result, evaluation, frames=frames)
     run.result.solver = run.newton.solver

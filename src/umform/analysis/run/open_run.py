@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.newton.strategy_statistics import StrategyStatistics
 from umform.analysis.run.checked import checked
+from umform.analysis.run.execute import OnIncrement
 from umform.analysis.run.going import begun, taken
 from umform.analysis.run.result import Result
 from umform.analysis.steps import Step
@@ -62,8 +63,9 @@ class Mark:
 
 
 class OpenRun:
-    """A run whose steps are chosen as it proceeds; its result equals that of `umform.solve` with its steps to the last
-    bit.
+    """A run whose steps are chosen as it proceeds: take a step, mark a state, go back to it.
+
+    Its result equals that of `umform.solve` with its steps to the last bit. docs/open-run.md
 
     Parameters
     ----------
@@ -75,6 +77,8 @@ class OpenRun:
         Tolerances, line search, predictor.
     frames : int
         Approximate number of states kept for pictures in each step.
+    on_increment : callable, optional
+        As that of :func:`umform.solve`.
 
     Attributes
     ----------
@@ -84,15 +88,39 @@ class OpenRun:
         These steps.
     iterations : int
         Newton iterations of all steps, including those of other branches.
+
+    Examples
+    --------
+    Loads of two directions from one state:
+
+    >>> import umform as uf
+    >>> model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=210e3, nu=0.3))
+    >>> clamp = model.fix("x0")
+    >>> tip = model.prescribe("x1_lower", "z", name="tip")
+    >>> run = uf.OpenRun(model)
+    >>> run.take(uf.Move(tip, to=-0.1, steps=2))
+    >>> bent = run.mark()
+    >>> run.take(uf.Move(tip, to=-0.2, steps=2))
+    >>> run.go_back(bent)
+    >>> run.take(uf.Move(tip, to=0.0, steps=2))
+    >>> [round(float(value), 3) for value in run.close()["tip"]]
+    [0.0, -0.05, -0.1, -0.05, 0.0]
     """
 
     def __init__(
-        self, model: Model, *, solver: str = "auto", options: NewtonOptions | None = None, frames: int = FRAMES
+        self,
+        model: Model,
+        *,
+        solver: str = "auto",
+        options: NewtonOptions | None = None,
+        frames: int = FRAMES,
+        on_increment: OnIncrement | None = None,
     ) -> None:
         timing = new_timing()
         with timing.run:
             self.result = Result(model, timing)
             self._run = begun(self.result, solver, options, frames)
+            self._run.on_increment = on_increment
         self.steps: list[Step] = []
         self.iterations = 0
         self._run.newton.callbacks.append(self._count)

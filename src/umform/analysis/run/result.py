@@ -12,6 +12,10 @@ from umform.results.run_record import run_record
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+#: Suffixes of files of fields.
+_FIELDS = (".vtkhdf", ".xdmf", ".pvd", ".vtu")
+_WRITTEN = ".csv for the history; .vtkhdf, .xdmf, .pvd or .vtu for fields"
+
 
 class Result(History):
     """History of all converged increments, frames of some of them; see :class:`umform.results.history.History`.
@@ -35,18 +39,28 @@ class Result(History):
     def write(self, path: str | Path, *, lagrange: bool = False) -> Path:
         """Write frames (``.vtkhdf``) with the tools and planes of symmetry, or the history (``.csv``), atomically.
 
+        Programs that do not read VTKHDF take the frames as ``.xdmf`` (with ``.xdmf.h5``) or ``.pvd`` (with a folder of
+        ``.vtu`` files), or the last one as ``.vtu``; without tools.
+
         Parameters
         ----------
         path : str or Path
             The file to write.
         lagrange : bool, optional
             Whether frames of 18-node cells are written as Lagrange cells of VTK with the same nodes, which needs
-            VTK 9.7 or later to read, and not as cells with 27 nodes, which every VTK reads.
+            VTK 9.7 or later to read, and not as cells with 27 nodes, which every VTK reads. Of ``.vtkhdf`` only.
 
         Returns
         -------
         Path
             The file written.
+
+        Raises
+        ------
+        InvalidValue
+            If the suffix is another one, or the run kept no frames.
+        FileProblem
+            If the file cannot be written.
         """
         path = Path(path)
         if not self._writes:
@@ -55,20 +69,30 @@ class Result(History):
             from umform.io.tables import write_csv
 
             write_csv(path, self.table())
-        elif path.suffix == ".vtkhdf":
-            from umform.io.vtkhdf import BUFFER, VtkHdfSeries
-            from umform.report.stored_scene import attach_scene
-
+        elif path.suffix in _FIELDS:
             if not self.frames:
                 raise InvalidValue("this run kept no frames", remedy="solve(..., frames=60)")
-            mesh = (self.model.mesh.points, self.model.mesh.cell, self.model.mesh.connectivity)
-            with VtkHdfSeries(path, *mesh, lagrange=lagrange, buffer=BUFFER) as series:
-                for frame in self.frames:
-                    series.append(frame.time, frame.points, frame.cells)
-                attach_scene(series, self)
+            self._write_fields(path, lagrange)
         else:
-            raise InvalidValue("results are written to .csv (history) or .vtkhdf (fields)", value=path.name)
+            raise InvalidValue("results are not written in this format", where="path", value=path.name, remedy=_WRITTEN)
         return path
+
+    def _write_fields(self, path: Path, lagrange: bool) -> None:
+        mesh = (self.model.mesh.points, self.model.mesh.cell, self.model.mesh.connectivity)
+        if path.suffix != ".vtkhdf":
+            from umform.io.series import Grid, Step, write_series
+
+            if lagrange:
+                raise InvalidValue("only .vtkhdf has Lagrange cells", value=path.name, remedy="leave lagrange out")
+            write_series(path, Grid(*mesh), [Step(frame.time, frame.points, frame.cells) for frame in self.frames])
+            return
+        from umform.io.vtkhdf import BUFFER, VtkHdfSeries
+        from umform.report.stored_scene import attach_scene
+
+        with VtkHdfSeries(path, *mesh, lagrange=lagrange, buffer=BUFFER) as series:
+            for frame in self.frames:
+                series.append(frame.time, frame.points, frame.cells)
+            attach_scene(series, self)
 
     def plot(self, x: str, y: str | list[str], path: str | Path | None = None) -> Figure:
         """Draw columns of the history against each other.

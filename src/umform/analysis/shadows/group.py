@@ -91,7 +91,7 @@ class Shadows:
         self.level = True
 
     def _follow(self, lead: Run, before: _Unknowns, *, frame: bool) -> None:
-        growth = [contact.penalty / contact.initial_penalty for contact in lead.model.contacts]
+        growth = [contact.penalty / contact.initial_penalty for contact in lead.model.system.penalised]
         reference, model = self.reference, self.reference.run.model
         start, change = _Unknowns.of(model), self._lead.since(before)
         try:

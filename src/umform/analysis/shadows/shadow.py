@@ -34,8 +34,10 @@ _SMALL = 1e-9
 _OF_DIFFERENCE, _ENOUGH = 1e-6, 1e-12
 #: Residual relative to the forces that is round-off; below another one, a residual that hardly falls is.
 _EXACT, _ROUND_OFF, _STAYS = 1e-13, 1e-9, 0.3
-#: Corrections with the factors of the reference; all corrections.
+#: Corrections with the factors of the reference; all corrections after which the same points touch and slide.
 _CORRECTIONS, _MOST = 5, 20
+#: Relative difference of residuals two corrections apart below which they go to and fro between two states.
+_CYCLE = 1e-6
 #: Residual, relative to the forces, up to which a run that fails is solved with a line search; a shadow is then at most
 #: this part of the thickness from the reference.
 _NEAR, _FAR = 1e-6, 0.01
@@ -168,7 +170,7 @@ class Shadow:
 
     def stiffen_like(self, growth: Sequence[float]) -> None:
         """Penalties that have grown like those of the leading run."""
-        for contact, factor in zip(self.run.model.contacts, growth, strict=True):
+        for contact, factor in zip(self.run.model.system.penalised, growth, strict=True):
             contact.use_penalty(factor * contact.initial_penalty)
 
     def lose(self, why: str, row: int) -> None:
@@ -213,9 +215,8 @@ class Shadow:
             for done in range(_PASSES if passes is None else passes):
                 if passes is None and not self._loose(evaluation, first=done == 0):
                     break
-                for contact in run.model.contacts:
-                    if contact.augmented:
-                        contact.augment(evaluation.found[contact], np.zeros(run.model.u.size))
+                for contact in system.multiplied:
+                    contact.augment(evaluation.found[contact], np.zeros(run.model.u.size))
                 evaluation = self._correct(goal, evaluation.x, np.zeros_like(u), factors)
             else:
                 done = _PASSES if passes is None else passes
@@ -247,7 +248,7 @@ class Shadow:
         return found
 
     def _loose(self, evaluation: Evaluation, *, first: bool) -> bool:
-        pairs = [one for one in self.run.model.contacts if one.augmented and evaluation.found[one].active.any()]
+        pairs = [one for one in self.run.model.system.multiplied if evaluation.found[one].active.any()]
         return bool(pairs) and (first or any(one.loose(evaluation.found[one]) for one in pairs))
 
     def _correct(
@@ -256,6 +257,8 @@ class Shadow:
         """Equilibrium from ``u + du``, to round-off; or nearly so, with the factors of the reference. eq. (5.162)"""
         run, system = self.run, self.run.model.system
         norms: list[float] = []
+        before: NDArray[np.uint8] | None = None
+        fronts = 0  # corrections after which other points touch or slide
         while True:
             forces = given is not None and len(norms) < _CORRECTIONS and not system.unknowns
             if guess is not None and not norms:
@@ -278,8 +281,11 @@ class Shadow:
                 self.residual = norms[-1]
                 self.kept.residual = max(self.kept.residual, norms[-1])
                 return evaluation
-            if len(norms) > _MOST or not math.isfinite(norms[-1]):
-                raise Failed(f"no convergence in {len(norms)} corrections, residual {norms[-1]:.1e}", [])
+            now = evaluation.status
+            switching = np.zeros(now.shape, dtype=bool) if before is None else now != before
+            fronts, before = fronts + int(switching.any()), now
+            if len(norms) - min(fronts, now.size) > _MOST or not math.isfinite(norms[-1]) or _cycles(norms):
+                raise Failed(_not_solved(norms, evaluation.at_points(switching)), [])
             if given is not None and len(norms) <= _CORRECTIONS:
                 solver = given.solver
             else:
@@ -310,6 +316,21 @@ def forces_of(model: Model, evaluation: Evaluation) -> Floats:
     """Forces that drive supports and tools."""
     driven = (control for control in model.controls if isinstance(control, OnDofs | ToolWay))
     return np.array([control.force(evaluation, model.system.ranks) for control in driven])
+
+
+def _cycles(norms: Sequence[float]) -> bool:
+    """Whether corrections go to and fro between two states."""
+    if len(norms) < 5:
+        return False
+    a, b, c, d = norms[-4:]
+    return abs(a - c) <= _CYCLE * c and abs(b - d) <= _CYCLE * d and min(c, d) > _ROUND_OFF
+
+
+def _not_solved(norms: Sequence[float], where: str) -> str:
+    """Why corrections end, and where points still come into contact, or leave it, stick or slide, as text."""
+    ended = "they go to and fro between two states" if _cycles(norms) else "no convergence"
+    still = f"; contact still changes{where}" if where else ""
+    return f"{ended} after {len(norms)} corrections, residual {norms[-1]:.1e}{still}"
 
 
 def _exact(norms: Sequence[float]) -> bool:

@@ -7,7 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from umform.analysis.steps import Step
+from umform.mesh import Ids
 from umform.model import Model
+from umform.model.contact.sheets import SheetContact
 
 
 def other_structure(model: Model, steps: Sequence[Step], other: Model, other_steps: Sequence[Step]) -> str:
@@ -20,9 +22,17 @@ def other_structure(model: Model, steps: Sequence[Step], other: Model, other_ste
     names, other_names = ([control.name for control in each.controls] for each in (model, other))
     if names != other_names:
         return f"controls {', '.join(other_names)} in place of {', '.join(names)}"
-    pairs, other_pairs = ({pair.name: pair.facets for pair in each.contacts} for each in (model, other))
+    pairs, other_pairs = _facets(model), _facets(other)
     for name in {**pairs, **other_pairs}:
         faces, other_faces = pairs.get(name, np.empty(0)), other_pairs.get(name, np.empty(0))
         if not np.array_equal(faces, other_faces):
             return f"contact {name} with {len(other_faces)} faces in place of {len(faces)}"
     return ""
+
+
+def _facets(model: Model) -> dict[str, Ids]:
+    """Nodes of the facets of each contact; of sheets those of one side after the other."""
+    return {
+        pair.name: np.concatenate(pair.facets) if isinstance(pair, SheetContact) else pair.facets
+        for pair in model.system.penalised
+    }

@@ -16,7 +16,7 @@ from umform.model import Model
 from umform.model.tools.press import Press
 from umform.model.tools.tool_controls import ToolForce, ToolTurn
 from umform.results.records import Failed
-from umform.spec import check_fields
+from umform.spec import check_fields, names_its_words
 from umform.spec.types import Duration, Positive
 
 #: Largest residual of the last increment relative to the force.
@@ -34,6 +34,7 @@ _EASY = 8
 _SAME, _CLOSER = 1e-13, 5
 
 
+@names_its_words
 @dataclass(frozen=True)
 class Close:
     """Close a force-driven tool that need not touch the sheet yet: displacement control, then force control.
@@ -64,6 +65,9 @@ class Close:
     """Largest way (or angle); default: its distance from the sheet and the largest extent of the sheet."""
     time: Duration = 1.0
     """Duration of the step: for rate-dependent metals, and for motions of tools in time."""
+    increment: Positive | None = None
+    """Largest increment of the way (or angle) in contact; default: any in which Newton converges easily. A sheet that
+    touches itself needs one below half of its thickness."""
 
     def __post_init__(self) -> None:
         if not isinstance(self.control, ToolForce):
@@ -206,7 +210,7 @@ class Closing:
                 break
             before, target = (target, found), closer
             saved.restore(run)
-            run.model.evaluate(run.model.state)  # the blocks for the recovery of enhanced parameters
+            run.model.system.evaluate(run.model.state)  # the blocks for the recovery of enhanced parameters
         step.control.value = _takes(run, press)
 
     def _time_at(self, step: Close, way: float) -> float:
@@ -247,7 +251,7 @@ class Closing:
         step.control.value = found
         self.taken, self.before = way, (value, force) if touched else None
         if touched and len(converged.iterations) <= _EASY:
-            self.size *= 4.0
+            self.size = min(4.0 * self.size, step.increment or math.inf)
         done = abs(found - self.start_force) / abs(step.force - self.start_force)
         run.keep(converged, [step.control], name=f"step {run.number}: close", fraction=min(done, 1.0), frame=False)
 

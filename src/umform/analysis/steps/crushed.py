@@ -15,8 +15,9 @@ _CRUSHED = 0.2
 
 def crushed(run: Run) -> list[str]:
     """Contacts deep in the sheet at the last converged state, with the mean pressure and the yield stress, as text."""
-    ranks, thickness, words = run.model.system.ranks, sheet_thickness(run.model.mesh), []
+    ranks, words = run.model.system.ranks, []
     for contact in run.model.contacts:
+        thickness = sheet_thickness(run.model.mesh, contact.faces)
         found = run.evaluation.found[contact]
         deepest = ranks.max(found.penetration)
         pressure = _mean_pressure(run, contact, found)
@@ -25,7 +26,7 @@ def crushed(run: Run) -> list[str]:
         share = 100.0 * deepest / thickness
         words.append(
             f"contact {contact.name} is {deepest:.3g} deep, {share:.3g} % of the thickness {thickness:.4g}, at a mean "
-            f"pressure of {pressure:.3g}{_against_yield(run, pressure)}"
+            f"pressure of {pressure:.3g}{_against_yield(run, contact, pressure)}"
         )
     return words
 
@@ -38,8 +39,8 @@ def _mean_pressure(run: Run, contact: Contact, found: ContactFound) -> float:
     return force / max(ranks.sum(float(areas.sum())), 1e-300)
 
 
-def _against_yield(run: Run, pressure: float) -> str:
-    material: object = run.model.bodies.only.material
+def _against_yield(run: Run, contact: Contact, pressure: float) -> str:
+    material: object = run.model.bodies.of(contact.faces[:, 0]).material
     if not isinstance(material, Plastic):
         return ""
     first = material.hardening.curve()(0.0)[0]

@@ -18,10 +18,11 @@ from umform.model.contact import Contact
 from umform.model.supports.support import Support
 from umform.model.terms.control import Control
 from umform.model.terms.term import Tree
-from umform.spec import check_fields
+from umform.spec import check_fields, names_its_words
 from umform.spec.types import Cuts, Duration, Growth, Increments
 
 
+@names_its_words
 @dataclass(frozen=True)
 class Free:
     """Remove supports and open tools; their forces become dead loads that decrease to zero over the step.
@@ -146,7 +147,7 @@ def _let_go(run: Run, step: Free) -> None:
     for tool in (thing for thing in step.things if isinstance(thing, Tool)):
         open_tool(model.system, tool)
     if any(isinstance(thing, Tool) for thing in step.things):
-        run.evaluation = model.evaluate(model.system.x, tangent=False)
+        run.evaluation = model.system.evaluate(model.system.x, tangent=False)
         run.result.begin_anew(run.evaluation)
 
 

@@ -17,17 +17,15 @@ from umform.analysis.newton.strategies import Increment, equilibrium
 from umform.analysis.steps.crushed import crushed
 from umform.analysis.steps.limit_load import limit_load
 from umform.analysis.steps.loop import Run
+from umform.analysis.steps.own_parts import own_parts
 from umform.analysis.steps.thinned import thinned
 from umform.analysis.steps.trail import Trail, changes
 from umform.errors import NoConvergence
-from umform.materials import UserLaw
-from umform.model import Model
 from umform.model.equations.checks import diagnosis
 from umform.model.terms.control import Control
 from umform.model.terms.state import State
 from umform.model.transfer.loose_part import loose_part
 from umform.results.records import Cause, Converged, Failed, Iteration
-from umform.surfaces import UserSurface
 
 Floats = NDArray[np.float64]
 
@@ -53,7 +51,7 @@ def take_increment(
     start = model.state
     targets = {control.name: float(value) for control, value in zip(controls, values, strict=True)}
     goal, x_before = start.toward(targets, time), start.x.copy()
-    penalties = {contact: contact.penalty for contact in model.contacts}
+    penalties = {contact: contact.penalty for contact in model.system.penalised}
     try:
         guess = None if extrapolation is None or run.trail is None else run.trail.guess(extrapolation)
         increment = Increment(model, newton, run.statistics, goal, tuple(controls), guess, run.evaluation, keep)
@@ -104,7 +102,7 @@ def _within_allowed(increment: Increment) -> tuple[Converged, Floats | None]:
 
 def _multipliers_stay(run: Run, goal: State, failure: Failed | None) -> None:
     """Mark the pairs whose multipliers stay constant because an augmentation failed, and warn of it."""
-    pairs = [contact for contact in run.model.contacts if contact.augmented]
+    pairs = run.model.system.multiplied
     for pair in pairs:
         pair.multipliers_stay = failure is not None
     if failure is not None:
@@ -117,8 +115,7 @@ def _multipliers_stay(run: Run, goal: State, failure: Failed | None) -> None:
 
 def _counted(run: Run) -> AbstractContextManager[None]:
     """Number of augmentations, if there are multipliers."""
-    multiplied = any(contact.augmented for contact in run.model.contacts)
-    return run.newton.timing.attempts.trying("multipliers") if multiplied else nullcontext()
+    return run.newton.timing.attempts.trying("multipliers") if run.model.system.multiplied else nullcontext()
 
 
 def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], values: Sequence[float]) -> NoConvergence:
@@ -171,17 +168,6 @@ def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], value
         cause=cause,
         remedy=remedy,
     )
-
-
-def own_parts(model: Model) -> str:
-    """Checks of the laws and tools of the user in a model, as the end of a remedy."""
-    laws = [getattr(body.material, "small", body.material) for body in model.bodies]
-    surfaces = [tool.surface for tool in model.tools]
-    checks = [
-        ("check_law compares the tangent of your law", any(isinstance(law, UserLaw) for law in laws)),
-        ("check_surface the derivatives of your tool", any(isinstance(one, UserSurface) for one in surfaces)),
-    ]
-    return "".join(f"; {check} with differences" for check, own in checks if own)
 
 
 def pressed_tools(run: Run) -> list[str]:

@@ -30,7 +30,7 @@ def limit_load(run: Run, controls: Sequence[Control]) -> tuple[str, str] | None:
         f"near {values} the sheet gives way {growth:.0f} times as far under the same load as an increment before: a "
         "maximum of the load, beyond which a larger one has no equilibrium"
     )
-    multiplied = " and augmented=False" if any(contact.augmented for contact in run.model.contacts) else ""
+    multiplied = " and augmented=False" if run.model.system.multiplied else ""
     remedy = (
         f'follow the path in place of the load: the step Arc, kind = "arc" with to = {{ {names} }}{multiplied}, lets '
         "the load fall behind its maximum; or prescribe a displacement"

@@ -14,6 +14,7 @@ from typing import Any, Protocol
 from umform.analysis.newton.newton import Newton
 from umform.analysis.newton.strategy_statistics import StrategyStatistics
 from umform.analysis.steps.lost import lost_tools
+from umform.analysis.steps.own_parts import linear_rate, own_checks
 from umform.analysis.steps.trail import Trail
 from umform.model import Evaluation, Model
 from umform.model.terms.control import Control
@@ -23,6 +24,8 @@ from umform.results.records import Converged
 
 log = logging.getLogger("umform.analysis.steps")
 
+#: Slow increments at which the run warns.
+_SLOW = 3
 #: Beginning of the warning about return maps in stages, which is issued once.
 _STAGES = "the return map of the material went through stages of a shrinking yield surface"
 
@@ -94,6 +97,10 @@ class Run:
         Shows progress; writes checkpoints and stops the run, between increments.
     follower : Follower, optional
         Runs that follow this one.
+    slow : int
+        Increments in which the residual has fallen by nearly the same factor from one iteration to the next.
+    on_increment : callable, optional
+        Called with the result after each increment, on the first rank.
     """
 
     model: Model
@@ -109,6 +116,8 @@ class Run:
     tick: Tick = silent
     pause: Callable[[], None] = field(default=lambda: None)
     follower: Follower | None = None
+    on_increment: Callable[[Any], object] | None = None
+    slow: int = 0
 
     def __post_init__(self) -> None:
         self.staged = self._staged()
@@ -120,6 +129,7 @@ class Run:
         self.newton.timing.attempts.accepted += len(converged.iterations)
         self.result.add(converged.evaluation, converged.iterations + converged.passes, step=self.number, frame=frame)
         self._warn_of_stages()
+        self._warn_of_slow(converged)
         if self.follower is not None:
             self.follower.follow(self, frame=frame)
         row = self.result.rows[-1]
@@ -128,6 +138,21 @@ class Run:
             tell(f"step {self.number}, time {self.model.system.time:.4f}: {message}")
         forces = [f"{c.name} {row[c.name]:.5g}, force {row[f'{c.name}_force']:.5g}" for c in controls]
         self.tick(name, fraction, "; ".join([*forces, f"{row['iterations']} iterations"]))
+        if self.on_increment is not None and self.model.system.ranks.rank == 0:
+            self.on_increment(self.result)
+            self.model.system.revert()  # what evaluations of the user have tried
+
+    def _warn_of_slow(self, converged: Converged) -> None:
+        """Warn at the third increment without quadratic convergence, if laws or tools of the user may be the cause."""
+        rate = linear_rate(converged.iterations)
+        self.slow += rate is not None
+        if rate is None or self.slow != _SLOW or not (checks := own_checks(self.model)):
+            return
+        self.result.warn(
+            f"step {self.number}: Newton's method converges slowly in {self.slow} of {len(self.result.rows) - 1} "
+            f"increments, by a factor of about {rate:.2g} in each iteration: a tangent is not the derivative; "
+            f"{' and '.join(checks)} with differences"
+        )
 
     def _staged(self) -> int:
         return sum(body.block.staged_returns for body in self.model.bodies)

@@ -11,13 +11,14 @@ import numpy as np
 from umform.analysis.steps.pace import Pace
 from umform.errors import InvalidValue, NotFinite
 from umform.model.terms.control import Control
-from umform.spec import check_fields
+from umform.spec import check_fields, names_its_words
 from umform.spec.types import Cuts, Duration, Growth, Increments
 
 #: Value of a control as a function of another one: a function, or pairs of both.
 Law = Callable[[float], float] | Sequence[tuple[float, float]]
 
 
+@names_its_words
 @dataclass(frozen=True)
 class Move:
     """Move one or more controls along straight lines in time, or along functions of time.

@@ -14,7 +14,7 @@ from umform.model import Model
 from umform.model.bodies.change import strained, turned
 from umform.results.balance import Worked
 from umform.results.records import Converged
-from umform.spec import About, check_fields
+from umform.spec import About, check_fields, names_its_words
 from umform.spec.types import Count, Positive, Share
 
 Floats = NDArray[np.float64]
@@ -27,6 +27,7 @@ _SHORTEST = 0.3
 _FEW_POINTS = 8
 
 
+@names_its_words
 @dataclass(frozen=True)
 class Pace:
     """Limits of the changes in one increment; half of them give finer increments, for a study of convergence.

@@ -10,12 +10,13 @@ from typing import Any, Self
 from umform.analysis.steps.increment import no_convergence, take_increment
 from umform.analysis.steps.loop import Run, Take
 from umform.analysis.steps.saved import Saved, tightened
+from umform.errors import InvalidValue
 from umform.model import Evaluation
 from umform.model.terms.control import Control
 from umform.model.tools.tool_controls import ToolForce
 from umform.results.records import Converged, Failed
-from umform.spec import check_fields
-from umform.spec.types import Duration, Positive
+from umform.spec import check_fields, names_its_words
+from umform.spec.types import Duration, Increments, Positive
 
 #: Part of the zero-force tolerance that the residual of an increment may reach.
 _PART = 0.1
@@ -31,6 +32,7 @@ _LEFT, _AWAY = 1e-6, 1e-3
 _CLAMPED = 1e-3
 
 
+@names_its_words
 @dataclass(frozen=True)
 class Release:
     """Retract a displacement or a tool until its force is zero (or contact is lost).
@@ -61,9 +63,28 @@ class Release:
     """Force that counts as zero, relative to the force at the beginning."""
     time: Duration = 1.0
     """Time for the full way back to zero: for rate-dependent metals, and for motions of tools in time."""
+    steps: Increments | None = None
+    """Number of equal increments of the whole way back to zero, instead of the increment: none is longer, and the last
+    ones before zero force are as short as they must be."""
 
     def __post_init__(self) -> None:
         check_fields(self)
+        if self.increment is not None and self.steps is not None:
+            raise InvalidValue(
+                "a release takes a first increment or a number of steps, and not both",
+                where="Release",
+                value=f"increment {self.increment:g}, steps {self.steps}",
+                cause="both set the first increment",
+                remedy="leave one of them away",
+            )
+
+    def first(self, value: float) -> float:
+        """The first increment of a control with a value."""
+        return self.increment or abs(value) / (self.steps or 1000.0)
+
+    def largest(self, value: float) -> float:
+        """The largest increment of a control that began with a value."""
+        return abs(value) / (self.steps or 20.0)
 
 
 @dataclass
@@ -112,7 +133,7 @@ class Releasing:
         model, control = run.model, _retracted(run, step)
         evaluation, value = run.evaluation, control.value
         force = control.force(evaluation, model.system.ranks)
-        size = -math.copysign(step.increment or abs(value) / 1000.0, value)
+        size = -math.copysign(step.first(value), value)
         loop = cls(model.system.time, value, abs(force), force, size, finest=1e-6 * abs(value))
         if value == 0.0 or loop.scale <= 1e-9 * evaluation.force_scale:
             run.result.note(f"step {run.number}: nothing to release, the force of {control.name} is zero")
@@ -169,7 +190,7 @@ class Releasing:
         if isinstance(step.control, ToolForce):
             step.control.value = model.tools.press_of(step.control).takes(target, -force)[0]
         self.done = zero or target == 0.0
-        if self.bound is None and abs(2.0 * self.size) <= abs(self.start_value) / 20.0 and _at_ease(converged):
+        if self.bound is None and abs(2.0 * self.size) <= step.largest(self.start_value) and _at_ease(converged):
             self.size *= 2.0
         part = 1.0 if self.done else 1.0 - min(1.0, abs(force) / self.scale)
         name = f"step {run.number}: release"
@@ -211,7 +232,7 @@ class Releasing:
                     raise
                 target = 0.5 * (start + target)
             saved.restore(run)
-            model.evaluate(model.state)  # the blocks for the recovery of enhanced parameters
+            model.system.evaluate(model.state)  # the blocks for the recovery of enhanced parameters
         self.before, self.force, self.done = before, force, led.done
         if isinstance(step.control, ToolForce):
             step.control.value = model.tools.press_of(step.control).takes(target, -force)[0]

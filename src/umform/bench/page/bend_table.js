@@ -1,7 +1,7 @@
 // @ts-check
 // A bend table: bends that are stored appear at once, the others as they are computed.
 
-import { make } from "./dom.js";
+import { make, wide } from "./dom.js";
 import { message } from "./messages.js";
 import { number, t } from "./texts.js";
 
@@ -31,7 +31,7 @@ export function tableRows(rows, before = []) {
     return [make("tr", {}, make("th", { scope: "rowgroup", colspan: COLUMNS.length + 1 }, title)),
       ...own.map((row) => make("tr", {}, make("th", { scope: "row" }, `${number(row.angle)}°`), ...COLUMNS.map(([name2, decimals]) => cell(row, name2, decimals))))];
   };
-  return make("div", { class: "wide" }, make("table", { class: "columns", id: "bend-table" }, make("thead", {}, head), ...names.map((name) => make("tbody", {}, ...group(name)))));
+  return wide(make("table", { class: "columns", id: "bend-table" }, make("thead", {}, head), ...names.map((name) => make("tbody", {}, ...group(name)))));
 }
 
 /** @param {any} job @returns {Node[]} */

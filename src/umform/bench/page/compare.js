@@ -2,11 +2,11 @@
 // Comparison of jobs: numbers in columns, curves in one picture.
 
 import { get } from "./api.js";
-import { element, make } from "./dom.js";
+import { element, make, wide } from "./dom.js";
 import { fields, label } from "./fields.js";
 import { plot } from "./plot.js";
 import { cell, forShop, heading } from "./quantities.js";
-import { number, t } from "./texts.js";
+import { language, number, t } from "./texts.js";
 
 /** @param {string[]} names */
 export async function compare(names) {
@@ -33,8 +33,8 @@ export async function compare(names) {
   const found = [...new Set(columns.flat().map((one) => one.name))].map((name) => row(name, (one) => one));
   place.replaceChildren(
     make("figure", { class: "card" }, plot(curves, { x: t("axis.stroke"), y: t("axis.force"), label: t("curve.label") }, 900, 320)),
-    make("div", { class: "wide" }, make("table", { class: "columns" }, make("thead", {}, head), make("tbody", {}, ...given, press, ...found))),
-    make("p", { class: "bar" }, make("a", { class: "button", href: `/api/jobs.csv?ids=${jobs.map((job) => job.id).join(",")}` }, t("file.table")),
+    wide(make("table", { class: "columns" }, make("thead", {}, head), make("tbody", {}, ...given, press, ...found))),
+    make("p", { class: "bar" }, make("a", { class: "button", href: `/api/jobs.csv?ids=${jobs.map((job) => job.id).join(",")}&language=${language}` }, t("file.table")),
       make("button", { type: "button", onclick: () => window.print() }, t("print"))),
   );
 }

@@ -2,7 +2,7 @@
 // "I measured 91.3": the metal is corrected by a measured bend, and the bend to the wanted angle is found again.
 
 import { tableNumbers } from "./bend_table.js";
-import { make } from "./dom.js";
+import { make, wide } from "./dom.js";
 import { label } from "./fields.js";
 import { message } from "./messages.js";
 import { howRead, numberField, taking, unclear } from "./number_field.js";
@@ -77,5 +77,5 @@ function compared(bends) {
     return make("tr", {}, make("th", { scope: "row" }, heading(one)), make("td", {}, numberText(one)), make("td", {}, numberText(other)));
   });
   const head = make("tr", {}, make("td"), make("th", { scope: "col" }, t("measured.before")), make("th", { scope: "col" }, t("measured.after")));
-  return make("div", { class: "wide" }, make("table", { class: "columns", id: "measured-bends" }, make("thead", {}, head), make("tbody", {}, ...rows)));
+  return wide(make("table", { class: "columns", id: "measured-bends" }, make("thead", {}, head), make("tbody", {}, ...rows)));
 }

@@ -15,6 +15,9 @@ export function make(tag, attributes = {}, ...content) {
   return node;
 }
 
+/** A region that scrolls sideways, also by keyboard. @param {...(Node | null)} content */
+export const wide = (...content) => make("div", { class: "wide", tabindex: "0" }, ...content);
+
 /** @param {string} tag @param {Record<string, any>} [attributes] @param {...(Node | string)} content @returns {any} */
 export function draw(tag, attributes = {}, ...content) {
   const node = document.createElementNS("http://www.w3.org/2000/svg", tag);

@@ -2,6 +2,7 @@
 // Tools and sheet to scale: before a run by geometry, then as computed.
 
 import { draw } from "./dom.js";
+import { drawSketch } from "./draw_sketch.js";
 import { drawPart, partByGeometry } from "./part.js";
 import { number } from "./texts.js";
 
@@ -42,21 +43,25 @@ export class Drawing {
     const { clientWidth: width, clientHeight: height } = this.svg;
     if (!outlines || !width) return;
     const { computed } = this;
+    if (/** @type {any} */ (outlines).kind === "draw") {
+      drawSketch(this.svg, /** @type {any} */ (outlines));
+      return;
+    }
     if (computed?.profile || computed?.flattening) {
       drawPart(this.svg, computed.profile ?? computed.outline, "sheet computed");
       return;
     }
-    if (!computed && this.values.work === "sequence") {
+    if (!computed && ["sequence", "outside"].includes(this.values.work) && this.values.strip_length) {
       const part = partByGeometry(this.values, outlines.sizes.die.opening);
-      drawPart(this.svg, part.outline, "sheet", part.bends);
+      drawPart(this.svg, part.outline, "sheet", part.bends, part.sizes);
       return;
     }
     const bent = computed?.outline ? computed : computed ? fromSection(computed) : byGeometry(outlines, this.values);
     const deep = Math.max(outlines.depth, outlines.largest_stroke);
-    const extent = (/** @type {(point: Point) => number} */ of) => 1.08 * (computed?.outline ?? []).reduce((/** @type {number} */ most, /** @type {Point} */ point) => Math.max(most, of(point)), 0);
+    const extent = (/** @type {(point: Point) => number} */ of) => 1.08 * bent.outline.reduce((/** @type {number} */ most, /** @type {Point} */ point) => Math.max(most, of(point)), 0);
     const half = Math.max(1.1 * outlines.half_length, extent(([x]) => Math.abs(x)));
     const top = Math.max(0.95 * outlines.half_length, 3 * outlines.thickness, extent(([, z]) => z));
-    const bottom = Math.max(1.18 * deep + outlines.thickness, extent(([, z]) => -z));
+    const bottom = Math.max(1.18 * deep + outlines.thickness, 1.1 * extent(([, z]) => -z));
     const scale = Math.min(width / (2 * half), height / (top + bottom));
     const place = (/** @type {Point} */ [x, z]) =>
       /** @type {Point} */ ([width / 2 + x * scale, (height - (top + bottom) * scale) / 2 + (top - z) * scale]);

@@ -2,11 +2,11 @@
 // The fields of the form, as the server reads them off the parameters of the processes.
 
 import { message } from "./messages.js";
-import { t } from "./texts.js";
+import { has, t } from "./texts.js";
 
 /**
  * @typedef {{name: string, label: string, help: string, valid: string, unit: string, group: string, works: string[],
- *   kind: "number" | "numbers" | "words" | "select" | "check" | "bends", integer: boolean, bounds: {gt?: number, ge?: number, lt?: number, le?: number},
+ *   kind: "number" | "numbers" | "words" | "select" | "check" | "bends" | "outside", integer: boolean, bounds: {gt?: number, ge?: number, lt?: number, le?: number},
  *   choices: string[], default: any, times: number | null, tool: "" | "punch" | "die", size: string, usual: number[]}} Field
  */
 
@@ -21,15 +21,25 @@ export function setFields(given) {
 /** Those values that the form has; a job of another version may have others. @param {Record<string, any>} values */
 export const known = (values) => Object.fromEntries(fields.filter(({ name }) => name in values).map(({ name }) => [name, values[name]]));
 
-/** The label of a field. @param {string} name */
-export function label(name) {
+/** The full name of a field, as the command calls it. @param {string} name */
+function fullLabel(name) {
   const text = message(fields.find((one) => one.name === name)?.label ?? name).replace(/^(the|der|die|das) |,$/gi, "");
   return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
-/** The sentence of a field, and its valid values. @param {Field} field */
-export function help({ help: sentence, valid }) {
-  return [sentence && message(sentence), valid && t("field.valid", { valid: message(valid) })].filter(Boolean).join(" ");
+/** The key of the short label of a field; drawn parts have common ones. @param {string} name */
+const keyOf = (name) => [`label.${name}`, `label.${name.replace(/^(cup|u)_/, "draw.")}`].find(has);
+
+/** The label of a field: a word of the shop where there is one. @param {string} name */
+export function label(name) {
+  const key = keyOf(name);
+  return key ? t(key) : fullLabel(name);
+}
+
+/** The name of a field as the command calls it, its sentence, and its valid values. @param {Field} field */
+export function help({ name, help: sentence, valid }) {
+  const full = !sentence && keyOf(name) ? `${fullLabel(name)}.` : "";
+  return [full, sentence && message(sentence), valid && t("field.valid", { valid: message(valid) })].filter(Boolean).join(" ");
 }
 
 /** The field of a size of a tool. @param {"punch" | "die"} tool @param {string} size */

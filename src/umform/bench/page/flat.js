@@ -1,7 +1,7 @@
 // @ts-check
 // The flat pattern of a part: drawing, bends, steps of the operator, warnings.
 
-import { make } from "./dom.js";
+import { make, wide } from "./dom.js";
 import { message } from "./messages.js";
 import { tile } from "./quantities.js";
 import { number, t } from "./texts.js";
@@ -43,5 +43,5 @@ const step = ({ bend: count, turned, opening, die_angle: die, punch_radius: punc
 function rows(id, title, names, lines) {
   const head = make("tr", {}, ...names.map((name) => make("th", { scope: "col" }, t(`flat.col.${name}`))));
   const body = lines.map((line) => make("tr", {}, ...line.map((cell) => make("td", {}, String(cell)))));
-  return make("div", { class: "wide" }, make("table", { class: "columns", id }, make("caption", {}, title), make("thead", {}, head), make("tbody", {}, ...body)));
+  return wide(make("table", { class: "columns", id }, make("caption", {}, title), make("thead", {}, head), make("tbody", {}, ...body)));
 }

@@ -7,8 +7,10 @@ import { element, make } from "./dom.js";
 import { fields, help, label, sizeField, sizesIn } from "./fields.js";
 import { store, stored } from "./storage.js";
 import { put } from "./notes.js";
+import { found as metalsWith, heading, MetalList, nameOf } from "./metal_list.js";
 import { takingList, typedList, unclearList } from "./lists.js";
 import { howRead, numberField, show, unclear } from "./number_field.js";
+import { Outside } from "./outside.js";
 import { Parts, partText } from "./parts.js";
 import { has, number, problemText, t } from "./texts.js";
 import { sizesText, Tools } from "./tools.js";
@@ -33,10 +35,15 @@ export class Form {
     this.looked = looked;
     this.values = structuredClone({ ...Object.fromEntries(fields.map((one) => [one.name, one.default])), ...stored(fields.map(({ name }) => name)) });
     this.bends = new Bends(() => this.look());
+    this.outside = new Outside(() => this.look());
     this.tools = new Tools((kind, name) => this.takeTool(kind, name));
     this.parts = new Parts((name) => this.takePart(name));
     /** Finished bend tables, by metal, which a correction may issue again. @type {() => any[]} */
     this.tables = () => [];
+    /** @type {MetalList | null} */
+    this.metals = null;
+    /** Values of empty fields that follow from others, as the server found them. @type {Record<string, number>} */
+    this.follow = {};
     this.round = 0;
     /** @type {AbortController | null} */
     this.asking = null;
@@ -55,12 +62,16 @@ export class Form {
 
   build() {
     const open = new Set([...document.querySelectorAll("#fields details[open]")].map((one) => /** @type {any} */ (one).dataset.group));
+    const press = this.shown().some(({ tool }) => tool); // of a press brake
+    const drawings = this.shown().some(({ name }) => name === "die");
     const groups = [...new Set(fields.map(({ group }) => group))].map((group) => {
       const rows = this.shown().filter((field) => field.group === group).map((field) => this.row(field));
       if (!group) return make("div", { class: "group" }, ...rows);
-      const hint = has(`group.${group}.hint`) ? [make("p", { class: "soft" }, t(`group.${group}.hint`))] : [];
-      const more = group === "Tools" ? [make("button", { type: "button", id: "tool-ask", onclick: () => this.tools.ask() }, t("tool.ask"))] : [];
-      return make("details", { "data-group": group, open: open.has(group) }, make("summary", {}, t(`group.${group}`, {}, group)),
+      const name = group === "Tools" && !press ? "More" : group;
+      const hint = has(`group.${name}.hint`) ? [make("p", { class: "soft" }, t(`group.${name}.hint`))] : [];
+      const more = name === "Tools" && drawings ? [make("button", { type: "button", id: "tool-ask", onclick: () => this.tools.ask() }, t("tool.ask"))] : [];
+      if (!rows.length) return make("span");
+      return make("details", { "data-group": group, open: open.has(group) }, make("summary", {}, t(`group.${name}`, {}, group)),
         make("div", { class: "group" }, ...hint, ...rows, ...more));
     });
     const { work } = this.values;
@@ -75,19 +86,35 @@ export class Form {
     const { name, kind, unit, usual } = field;
     const value = this.values[name];
     if (kind === "bends") return this.bends.build(value);
+    if (kind === "outside") return this.outside.build(value);
     const common = { id: `f-${name}`, "aria-describedby": `n-${name}` };
+    const text = make("label", { for: `f-${name}` }, label(name));
+    const note = make("p", { class: "note", id: `n-${name}`, role: "status" });
     /** @type {any} */
     let input;
+    /** @type {any} */
+    let search = null;
+    if (name === "material") {
+      this.metals = new MetalList(this.library.metals, value, (metal) => this.take(name, metal));
+      return make("div", { class: "row metal", "data-field": name, title: help(field) }, text, this.metals.node, note);
+    }
     if (kind === "words") {
       const chosen = () => [...input.selectedOptions].map((one) => one.value);
-      input = make("select", { ...common, multiple: true, size: 6, onchange: () => this.take(name, chosen()) }, ...this.options(field));
+      search = make("input", { id: "metals-search", type: "search", class: "search", placeholder: t("metals.search"), "aria-label": t("metals.search"), autocomplete: "off" });
+      search.addEventListener("input", () => {
+        const left = [false, true].flatMap((card) => metalsWith(this.library.metals, card, search.value)).map((metal) => metal.name);
+        for (const one of input.options) one.hidden = !left.includes(one.value);
+        for (const group of input.querySelectorAll("optgroup")) group.hidden = [...group.children].every((one) => one.hidden);
+      });
+      input = make("select", { ...common, multiple: true, size: 8, onchange: () => this.take(name, chosen()) }, ...this.options(field));
       for (const one of input.options) one.selected = Array.isArray(value) && value.includes(one.value);
     } else if (kind === "numbers") {
       input = make("input", { ...common, type: "text", autocomplete: "off", value: typedList(value) });
       input.addEventListener("input", () => this.take(name, takingList(input.value)));
     } else if (kind === "select") {
-      input = make("select", { ...common, onchange: () => this.take(name, input.value || null) }, ...this.options(field));
-      input.value = value ?? "";
+      const taken = (/** @type {string | null} */ chosen) => (name === "punch" || name === "die" ? this.takeNamed(name, chosen) : this.take(name, chosen));
+      input = make("select", { ...common, onchange: () => taken(input.value || null) }, ...this.options(field));
+      input.value = value ?? (name === "punch" || name === "die" ? this.named(name) : "");
     } else if (kind === "check") {
       input = make("input", { ...common, type: "checkbox", checked: Boolean(value), onchange: () => this.take(name, input.checked) });
     } else {
@@ -96,10 +123,9 @@ export class Form {
     }
     const unitText = unit ? make("span", { class: "unit", "aria-hidden": "true" }, unit) : null;
     const offered = usual.length && kind === "number" ? make("datalist", { id: `l-${name}` }, ...usual.map((one) => make("option", { value: one }))) : null;
-    const text = make("label", { for: `f-${name}` }, label(name));
-    const box = make("span", { class: "input" }, input, unitText, offered);
+    const box = make("span", { class: "input" }, search, input, unitText, offered);
     const more = name === "part" ? this.parts.controls(value) : null;
-    return make("div", { class: `row ${kind}`, "data-field": name, title: help(field) }, text, box, more, make("p", { class: "note", id: `n-${name}`, role: "status" }));
+    return make("div", { class: `row ${kind}`, "data-field": name, title: help(field) }, text, box, more, note);
   }
 
   /** Fill the lists that the server gave. The rest of the form stays: the user may be typing there. */
@@ -109,28 +135,30 @@ export class Form {
       list.replaceChildren(...this.options(field));
       list.value = this.values[field.name] ?? "";
     }
+    this.showNamed();
   }
 
   /** @param {import("./fields.js").Field} field */
   options({ name, choices }) {
-    if (name === "punch" || name === "die") return this.tools.options(name, this.values[name]);
+    if (name === "punch" || name === "die") return this.tools.options(name, this.values[name], this.library.tools[name]);
     if (name === "part") return this.parts.options(this.values.part);
     if (name === "issue_again") {
       const rows = this.tables().filter((row) => row.parameters.metals.includes(this.values.material));
       return [make("option", { value: "" }, t("again.none")), ...rows.map((row) => make("option", { value: row.id }, `${row.number} · ${row.title}`))];
     }
     const offered = name === "work" ? choices.filter((one) => !VIEWS_OF_WORK.includes(one)) : choices;
-    if (name !== "material" && name !== "metals") return offered.map((one) => make("option", { value: one }, t(`${name}.${one}`, {}, one)));
-    const group = (/** @type {boolean} */ card) => this.library.metals.filter((/** @type {any} */ metal) => metal.card === card)
-      .map((/** @type {any} */ metal) => make("option", { value: metal.name }, metal.number && metal.number !== metal.name ? `${metal.name} (${metal.number})` : metal.name));
-    return [make("optgroup", { label: t("metals.standard") }, ...group(false)), make("optgroup", { label: t("metals.cards") }, ...group(true))];
+    if (name !== "metals") return offered.map((one) => make("option", { value: one }, t(`${name}.${one}`, {}, one)));
+    const group = (/** @type {boolean} */ card) => metalsWith(this.library.metals, card, "").map((metal) => make("option", { value: metal.name }, nameOf(metal)));
+    return [false, true].map((card) => make("optgroup", { label: heading(card) }, ...group(card)));
   }
 
   /** The value of an empty field. @param {import("./fields.js").Field} field */
   placeholder({ name, times }) {
-    const { thickness, mesh } = this.values;
+    const { work, mesh } = this.values;
+    const thickness = this.values[`${work}_thickness`] ?? this.values.thickness;
     const metal = this.metal();
     if (name === "rolling") return metal?.directional ? "" : "–";
+    if (name in this.follow) return number(this.follow[name]);
     if (times !== null) return Number.isFinite(thickness) ? number(times * thickness) : "";
     const thick = metal?.thicker.findLast((/** @type {any} */ range) => thickness >= range.from);
     const values = { ...metal, ...thick, ...this.library.meshes[mesh] };
@@ -205,10 +233,32 @@ export class Form {
     if (focus) element("f-work")?.focus();
   }
 
-  /** The shoulder radius of the library's die with this opening. */
+  /** The option of the usual tool that has the sizes of the form. @param {"punch" | "die"} kind */
+  named(kind) {
+    const usual = this.library.tools[kind].find((/** @type {any} */ { sizes }) => Object.entries(sizes).every(([name, size]) => this.values[name] === size));
+    return usual ? `usual:${usual.name}` : "";
+  }
+
+  /** Show the names of the tools whose sizes the form has. */
+  showNamed() {
+    for (const kind of /** @type {("punch" | "die")[]} */ (["punch", "die"])) {
+      const list = element(`f-${kind}`);
+      if (list) list.value = this.values[kind] ?? this.named(kind);
+    }
+  }
+
+  /** The shoulder radius of the library's dies with this opening. */
   suitRadius() {
-    const die = this.library.tools.dies.find((/** @type {any} */ one) => one.opening === this.values.opening);
-    if (die) this.change({ [sizeField("die", "radius")]: die.radius });
+    const [opening, radius] = [sizeField("die", "opening"), sizeField("die", "radius")];
+    const die = this.library.tools.die.find((/** @type {any} */ { sizes }) => sizes[opening] === this.values[opening]);
+    if (die) this.change({ [radius]: die.sizes[radius] });
+  }
+
+  /** The sizes of a usual tool, or a drawn one. @param {"punch" | "die"} kind @param {string | null} value */
+  takeNamed(kind, value) {
+    const usual = this.library.tools[kind].find((/** @type {any} */ { name }) => `usual:${name}` === value);
+    this.change(usual ? { ...usual.sizes, [kind]: null } : { [kind]: value });
+    this.look();
   }
 
   suitMaterial() {
@@ -223,7 +273,8 @@ export class Form {
       this.values[name] = value;
       const input = element(`f-${name}`);
       if (!input) continue;
-      if (input.type === "checkbox") input.checked = Boolean(value);
+      if (name === "material") this.metals?.show(value);
+      else if (input.type === "checkbox") input.checked = Boolean(value);
       else if (input.tagName === "SELECT") input.value = value ?? "";
       else if (Array.isArray(value)) input.value = typedList(value);
       else show(input, value);
@@ -238,6 +289,7 @@ export class Form {
     this.asking = new AbortController();
     store(this.values);
     this.fillPlaceholders();
+    this.showNamed();
     try {
       const found = await post("/api/look", this.values, this.asking.signal);
       if (round !== this.round) return;
@@ -252,9 +304,11 @@ export class Form {
 
   /** Show the findings beside the fields. @param {any} found */
   say(found) {
+    this.follow = found.follow ?? this.follow;
+    this.fillPlaceholders();
     this.change(found.measured ?? {});
     for (const { name, tool } of this.shown().filter((one) => one.tool)) element(`f-${name}`).disabled = Boolean(this.values[tool]) && element(`f-${tool}`) !== null;
-    const offer = (/** @type {"punch" | "die"} */ tool) => sizesText(sizesIn(tool, found.change));
+    const offer = (/** @type {"punch" | "die"} */ tool) => sizesText(sizesIn(tool, { ...this.values, ...found.change }));
     this.remedy.textContent = found.change ? t("offer", { die: offer("die"), punch: offer("punch") }) : "";
     this.offered = found.change ?? {};
     const notes = this.notes(found);
@@ -267,10 +321,24 @@ export class Form {
       element(`f-${name}`).removeAttribute("aria-invalid");
       if (kind === "bad") element(`f-${name}`).setAttribute("aria-invalid", "true");
     }
+    this.mark(found.problems);
     if (found.part) put(element("n-part"), "", [partText(found.part)]);
     const others = [...notes.values()];
     put(element("form-note"), others.some(({ kind }) => kind === "bad") ? "bad" : "warn", others.flatMap(({ texts }) => texts));
     element("run").disabled = found.problems.length > 0;
+  }
+
+  /** Mark the numbers of bends and flanges with an error. @param {any[]} problems */
+  mark(problems) {
+    for (const one of document.querySelectorAll(".bends input")) one.removeAttribute("aria-invalid");
+    const outside = this.values.work === "outside";
+    for (const { where } of problems) {
+      const [, bend, part] = /^bend (\d+), (\w+)/.exec(where) ?? [];
+      const [, flange] = /^flange (\d+)/.exec(where) ?? [];
+      const i = Number(bend ?? flange) - 1;
+      const id = flange ? `o-${i}-flange` : outside ? `o-${this.values.outside.bends[i]?.line}-${part}` : `b-${i}-${part}`;
+      element(id)?.setAttribute("aria-invalid", "true");
+    }
   }
 
   /**
@@ -289,14 +357,20 @@ export class Form {
       if (text) add(name, "", text);
     }
     if (element("f-bends")) this.bends.howRead().forEach((text) => add("bends", "", text));
+    if (element("f-outside")) this.outside.howRead().forEach((text) => add("outside", "", text));
     for (const [kind, rows] of [["warn", found.warnings], ["bad", found.problems]]) {
       for (const row of rows) {
         const [, bend, part] = /^bend (\d+)(?:, (\w+))?/.exec(row.where) ?? [];
-        const typed = bend ? this.values.bends[Number(bend) - 1]?.[part] : this.values[row.where];
-        const asked = bend ? part : fields.find((one) => one.name === row.where)?.kind === "number";
+        const [, flange] = /^flange (\d+)/.exec(row.where) ?? [];
+        const outside = this.values.work === "outside";
+        const bends = outside ? this.values.outside.bends : this.values.bends;
+        const typed = bend ? bends[Number(bend) - 1]?.[part] : flange ? this.values.outside.flanges[Number(flange) - 1] : this.values[row.where];
+        const asked = bend ? part : flange || fields.find((one) => one.name === row.where)?.kind === "number";
         const many = fields.find((one) => one.name === row.where)?.kind === "numbers";
         const text = many && typeof typed === "string" && typed.trim() ? unclearList(typed) : asked && typeof typed === "string" ? unclear(typed) : problemText(row) + valueOf(row, many);
-        add(bend ? "bends" : row.where, row.level ?? kind, bend ? `${t("bend.number", { number: Number(bend) })}: ${text}` : text);
+        const number = bend && outside ? bends[Number(bend) - 1]?.line : Number(bend); // by its line: so it stands on the form
+        const of = bend ? `${t("bend.number", { number })}: ` : flange ? `${t("outside.leg", { number: Number(flange) })}: ` : "";
+        add(bend || flange ? (outside ? "outside" : "bends") : row.where, row.level ?? kind, of + text);
       }
     }
     return notes;

@@ -4,6 +4,7 @@
 import { get, post } from "./api.js";
 import { element, make } from "./dom.js";
 import { language, number, problemText, t } from "./texts.js";
+import { titleOf } from "./titles.js";
 
 const [BUSY, IDLE] = [300, 2000];
 
@@ -56,7 +57,7 @@ export class Jobs {
     if (endings > this.endings && this.endings >= 0) this.ended();
     this.endings = endings;
     element("jobs-empty").hidden = this.rows.length > 0;
-    const seen = JSON.stringify([this.rows.map(({ id, state }) => [id, state]), this.shown, [...this.chosen], language]);
+    const seen = JSON.stringify([this.rows.map(({ id, state, summary }) => [id, state, summary.verdict]), this.shown, [...this.chosen], language]);
     if (seen !== this.seen) {
       const focus = document.activeElement?.id;
       element("jobs").replaceChildren(...this.rows.map((row) => this.item(row)));
@@ -67,13 +68,15 @@ export class Jobs {
   }
 
   /** @param {any} row */
-  item({ id, state, title, summary, number: count }) {
+  item(row) {
+    const { id, state, summary, number: count } = row;
+    const name = titleOf(row);
     const comparable = state === "done" && summary.measures?.angle !== undefined;
-    const mark = markOf(state, summary);
-    const box = make("input", { type: "checkbox", id: `job-c-${id}`, "aria-label": t("compare.choose", { title }), checked: this.chosen.has(id), disabled: !comparable });
+    const said = t(`state.${markOf(state, summary)}`);
+    const box = make("input", { type: "checkbox", id: `job-c-${id}`, "aria-label": t("compare.choose", { title: name }), checked: this.chosen.has(id), disabled: !comparable });
     box.addEventListener("change", () => this.toggle(id, box.checked));
     const button = make("button", { type: "button", id: `job-o-${id}`, "aria-current": id === this.shown ? "true" : null, onclick: () => this.open(id) },
-      make("i", { class: `dot ${mark}`, title: t(`state.${mark}`) }), make("span", {}, `${count} · ${title}`), make("b", { id: `job-e-${id}` }));
+      make("i", { class: `dot ${state} ${summary.verdict ?? ""}`, role: "img", title: said, "aria-label": said }), make("span", {}, `${count} · ${name}`), make("b", { id: `job-e-${id}` }));
     return make("li", {}, box, button);
   }
 
@@ -94,11 +97,12 @@ export class Jobs {
   }
 }
 
-/** A part that collided with the tools has a state of its own. @param {string} state @param {any} summary */
-const markOf = (state, summary) => (state === "done" && summary.collides ? "collides" : state);
+/** A finished job whose numbers are not good has a state of its own. @param {string} state @param {any} summary */
+const markOf = (state, summary) => (state === "done" && summary.verdict ? summary.verdict : state);
 
 /** Progress of a job, or its outcome. @param {any} row @returns {string} */
 function end({ state, fraction, summary }) {
   const angle = summary.measures?.angle;
-  return state === "running" ? `${Math.round(100 * fraction)} %` : state === "done" && angle ? `${number(angle, 1)}°` : t(`state.${markOf(state, summary)}`);
+  const bad = ["missed", "collides"].includes(summary.verdict);
+  return state === "running" ? `${Math.round(100 * fraction)} %` : state === "done" && angle && !bad ? `${number(angle, 1)}°` : t(`state.${markOf(state, summary)}`);
 }

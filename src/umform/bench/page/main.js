@@ -6,15 +6,16 @@ import { compare } from "./compare.js";
 import { Deck } from "./deck.js";
 import { element, make } from "./dom.js";
 import { Drawing } from "./drawing.js";
-import { known, setFields } from "./fields.js";
+import { fields, known, setFields } from "./fields.js";
 import { Form, VIEWS_OF_WORK } from "./form.js";
 import { Jobs } from "./jobs.js";
 import { Result } from "./result.js";
-import { askTable, seriesTable } from "./table.js";
+import { placeOf, showSeries } from "./series.js";
+import { askTable } from "./table.js";
 import { loadTexts, number, problemText, t } from "./texts.js";
 import { showAgain, tour } from "./tour.js";
 
-const VIEWS = ["bend", "compare", "deck"];
+const VIEWS = ["bend", "compare", "all", "deck"];
 /** The view of a kind of work. @param {string} work */
 const viewOf = (work) => (VIEWS_OF_WORK.includes(work) ? work : "bend");
 
@@ -23,8 +24,8 @@ async function start() {
   const [, library] = await Promise.all([loadTexts(), get("/api/library")]);
   setFields(library.fields);
   const drawing = new Drawing(element("drawing"));
-  const comparing = () => location.hash.startsWith("#compare");
-  const jobs = new Jobs((name) => go(`bend/${name}`), (chosen) => chosen.length && comparing() && go(`compare/${chosen.join(",")}`),
+  const comparing = () => location.hash.startsWith("#compare") || location.hash.startsWith("#all");
+  const jobs = new Jobs((name) => go(`bend/${name}`), (chosen) => chosen.length && location.hash.startsWith("#compare") && go(`compare/${chosen.join(",")}`),
     () => comparing() && show());
   const result = new Result(library, drawing, {
     gone: () => go(viewOf(form.values.work)),
@@ -43,6 +44,13 @@ async function start() {
     },
     sketch,
     tables: () => tables(),
+    angles: (/** @type {any} */ job) => askTable({ values: taken(job) }, library, ordered),
+    table: (/** @type {any} */ job) => {
+      const { material, thickness, opening, angle } = job.parameters;
+      Object.assign(form.values, taken(job), { metals: [material], thicknesses: [thickness], openings: [opening] }, angle === null ? {} : { angles: [angle] });
+      form.setWork("table");
+      go("table");
+    },
   });
   const form = new Form(library, (found, values) => {
     if (!result.name) sketch(found, values.work);
@@ -52,6 +60,12 @@ async function start() {
   });
   const tables = () => jobs.rows.filter((row) => row.state === "done" && row.parameters.work === "table");
   form.tables = tables;
+  /** The form of a job. @param {any} job */
+  const taken = (job) => ({ ...form.values, ...structuredClone(known(job.parameters)) });
+  const ordered = async (/** @type {string} */ series) => {
+    await jobs.refresh();
+    go(placeOf(series));
+  };
   const deck = new Deck((name) => go(`bend/${name}`));
 
   element("form").addEventListener("submit", async (/** @type {Event} */ event) => {
@@ -66,7 +80,7 @@ async function start() {
     }
   });
   element("fields").addEventListener("input", () => result.name && go(viewOf(form.values.work)));
-  element("table").addEventListener("click", () => askTable(form, library, () => jobs.refresh()));
+  element("table").addEventListener("click", () => askTable(form, library, ordered));
   element("tour").addEventListener("click", () => {
     go("bend");
     tour();
@@ -109,8 +123,10 @@ async function start() {
     if (view === "compare") {
       const names = rest ? rest.split(",") : [...jobs.chosen];
       await compare(names.filter((name) => /^[0-9a-f]{12}$/.test(name)).slice(0, 6));
-      series(jobs.rows);
+      const series = [...new Set(jobs.rows.map((row) => row.series).filter(Boolean))].slice(0, 5);
+      element("compare").append(...series.map((name) => make("p", {}, make("a", { href: `#${placeOf(name)}` }, t("table.of", { name })))));
     }
+    if (view === "all") showSeries(jobs.rows, decodeURIComponent(rest));
   }
 
   addEventListener("hashchange", show);
@@ -137,24 +153,16 @@ function sketch(found, work) {
   place.replaceChildren(...(seen ? [make("iframe", { class: "alone", title: t("shape.title"), sandbox: "allow-scripts", src: `/files/parts/${encodeURIComponent(found.part.name)}` })] : []));
 }
 
-/** Tables by angle and opening below the jobs that are compared. @param {any[]} rows */
-function series(rows) {
-  const names = [...new Set(rows.map((row) => row.series).filter(Boolean))];
-  for (const name of names.slice(0, 5)) {
-    const table = seriesTable(rows.filter((row) => row.series === name));
-    if (!table) continue;
-    const ids = rows.filter((row) => row.series === name).map((row) => row.id);
-    element("compare").append(make("h2", {}, t("table.of", { name })), table, make("p", {}, make("a", { class: "button", href: `/api/jobs.csv?ids=${ids.join(",")}` }, t("file.table"))));
-  }
-}
-
 /**
  * Values by workshop rules, and the force of the press, which is computed after the run.
  * @param {any} found @param {any} values @param {any} [needed]
  */
 function expected(found, values, needed) {
   const facts = found.expected;
-  element("drawing-text").textContent = found.drawing ? t("drawing.text", { opening: values.opening, thickness: values.thickness, ...found.shown }) : t("drawing.old");
+  const drawn = found.drawing?.kind === "draw";
+  element("drawing-text").textContent = drawn ? t(`drawing.${values.work}`, { thickness: found.drawing.thickness })
+    : found.drawing ? t("drawing.text", { opening: values.opening, thickness: values.thickness, ...found.shown }) : t(toolsFit(found.problems ?? []) ? "drawing.old" : "drawing.unfit");
+  if (facts?.draw) return show(drawFacts(facts.draw));
   const press = needed ?? facts?.press;
   const range = (/** @type {any} */ { force: [low, high], beyond }) =>
     `${low === high ? number(low, 0) : `${number(low, 0)}–${number(high, 0)}`}${beyond ? ` ${t("rule.beyond")}` : ""} kN/m`;
@@ -165,8 +173,28 @@ function expected(found, values, needed) {
     ...facts.forces.filter((/** @type {any} */ one) => one.operation !== "bend").map((/** @type {any} */ one) => [one.operation, t(`rule.${one.operation}`), range(one)]),
     ["radius", t("rule.radius"), `${number(facts.radius, 1)} mm`],
   ];
+  if (facts?.flat && !needed) { // outside dimensions: what the shop wants first
+    const { length, lines, computed } = facts.flat;
+    const about = computed ? "" : `${t("rule.about")} `;
+    const how = t(computed ? "rule.flat.computed" : "rule.flat.about");
+    rows.unshift(["flat", t("rule.flat"), `${about}${number(length, 2)} mm`, how], ["lines", t("rule.lines"), `${about}${lines.map((/** @type {number} */ one) => number(one, 2)).join(" · ")} mm`, how]);
+  }
+  show(rows);
+}
+
+/** Whether no error is one of the tools. @param {{where: string}[]} problems */
+const toolsFit = (problems) => !problems.some(({ where }) => where === "opening" || fields.some((one) => one.tool && one.name === where));
+
+/** Numbers with their labels below the drawing. @param {any[][]} rows */
+function show(rows) {
   element("expected").replaceChildren(...rows.map(([name, label, value, title]) =>
     make("div", { "data-rule": name, title: title ?? t(`rule.${name}.title`) }, make("dt", {}, label), make("dd", {}, value))));
 }
+
+/** What a toolmaker looks at before a part is drawn. @param {any} facts */
+const drawFacts = ({ ratio, gap, pressure, stroke, height }) => [
+  ["draw_ratio", t("rule.draw_ratio"), ratio, "", 2], ["draw_gap", t("rule.draw_gap"), gap, "mm", 2], ["draw_pressure", t("rule.draw_pressure"), pressure, "MPa", 2],
+  ["draw_stroke", t("rule.draw_stroke"), stroke, "mm", 1], ["draw_height", t("rule.draw_height"), height, "mm", 1],
+].filter(([, , value]) => value !== null).map(([name, label, value, unit, decimals]) => [name, label, `${number(value, decimals)} ${unit}`]);
 
 start();

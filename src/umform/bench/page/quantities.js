@@ -1,11 +1,11 @@
 // @ts-check
 // Quantities of a job as the server declares them: label, unit, decimals, error, limit; all tables use them.
 
-import { make } from "./dom.js";
+import { make, wide } from "./dom.js";
 import { language, number, t } from "./texts.js";
 
 /**
- * @typedef {{name: string, label: string, unit: string, decimals: number | null, digits: number, value: number | null, missed: boolean,
+ * @typedef {{name: string, label: string, unit: string, decimals: number | null, digits: number, value: number | null, missed: boolean, of_mesh?: boolean,
  *   band: {error: number | null, middle: number | null, source: string} | null}} Quantity
  */
 
@@ -34,7 +34,10 @@ function labelOf({ name, label }, words) {
 export const heading = (one, words = "measure") => [labelOf(one, words), unitOf(one)].filter(Boolean).join(", ");
 
 /** @param {Quantity} one */
-export const errorText = (one) => (one.band && one.band.error !== null ? `± ${shown(one, one.band.error)}` : "");
+export const errorText = (one) => [one.band && one.band.error !== null ? bandText(one, one.band) : "", one.of_mesh ? t("of.mesh") : ""].filter(Boolean).join(", ");
+
+/** @param {Quantity} one @param {{error: number | null, source: string}} band */
+const bandText = (one, band) => (band.source === "given" ? t("given") : `± ${shown(one, band.error)}`);
 
 /** The number, marked beyond its limit. @param {Quantity} one */
 export const numberText = (one) => `${shown(one, best(one))}${one.missed ? ` ${t("missed")}` : ""}`;
@@ -48,7 +51,7 @@ export const row = (one, words = "measure") =>
 
 /** All rows as a table. @param {Quantity[]} quantities @param {string} [words] */
 export const table = (quantities, words) =>
-  make("div", { class: "wide" }, make("table", {}, make("tbody", {}, ...quantities.map((one) => row(one, words)))));
+  wide(make("table", {}, make("tbody", {}, ...quantities.map((one) => row(one, words)))));
 
 /** A number and its error in large letters, what it means below. @param {Quantity} one @param {string} words @param {string} [means] */
 export const tile = (one, words, means) =>

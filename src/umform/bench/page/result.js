@@ -2,21 +2,22 @@
 // One job: its progress, then its numbers with their meaning.
 
 import { get, post } from "./api.js";
-import { element, make } from "./dom.js";
+import { element, make, wide } from "./dom.js";
 import { known } from "./fields.js";
-import { message } from "./messages.js";
-import { howRead, numberField, taking, unclear } from "./number_field.js";
+import { announce, goTo, narrow } from "./announce.js";
+import { bendNumbers } from "./numbers.js";
 import { plot } from "./plot.js";
-import { forShop, table, tile } from "./quantities.js";
+import { table, tile } from "./quantities.js";
+import { placeOf } from "./series.js";
 import { corrected, measuredForm } from "./correct.js";
+import { drawnNumbers } from "./draws.js";
 import { flatNumbers } from "./flat.js";
 import { stripNumbers } from "./strips.js";
 import { tableNumbers, tableRows } from "./bend_table.js";
 import { language, number, problemText, t } from "./texts.js";
+import { titleOf } from "./titles.js";
 
 const OFTEN = 200;
-/** The numbers for the machine, in the order of the page. */
-const HEROES = ["stroke", "largest_force", "angle", "springback", "radius", "k_factor", "bend_deduction", "outer_strain", "thinning"];
 
 export class Result {
   /** @param {any} library @param {import("./drawing.js").Drawing} drawing @param {any} actions */
@@ -62,7 +63,10 @@ export class Result {
       const job = await get(`/api/jobs/${name}`);
       if (name !== this.name) return;
       const seen = JSON.stringify([job.state, job.reason, job.live, job.ended]);
-      if (seen !== this.seen || !this.job) await this.show(job);
+      const before = this.job;
+      if (seen !== this.seen || !before) await this.show(job);
+      if (before?.state !== job.state) this.tell(job);
+      if (!before && narrow()) goTo("result");
       this.seen = seen;
       this.job = job;
     } catch (problem) {
@@ -93,9 +97,9 @@ export class Result {
     if (job.state === "running" || job.state === "waiting") parts.push(this.progress(job));
     if (job.state === "failed" || job.reason) parts.push(this.failure(job));
     if (job.state === "stopped") parts.push(make("p", { class: "soft" }, t(`stopped.${job.kind}`)));
-    if (job.state === "done" && job.summary.measures) parts.push(...this.numbers(job));
+    if (job.state === "done" && job.summary.measures) parts.push(...bendNumbers(job, () => (this.measured ??= measuredForm(job, this.actions))));
     if (job.state === "running" && job.live.table?.length) parts.push(tableRows(job.live.table));
-    const results = { flat: flatNumbers, table: tableNumbers, correct: corrected }[/** @type {string} */ (job.parameters.work)];
+    const results = { flat: flatNumbers, table: tableNumbers, correct: corrected, cup: drawnNumbers, u: drawnNumbers }[/** @type {string} */ (job.parameters.work)];
     if (job.state === "done" && results) parts.push(...results(job));
     if (job.state === "done" && job.summary.profile) parts.push(...stripNumbers(job));
     if (job.state === "done" && job.summary.last) parts.push(this.last(job));
@@ -116,7 +120,30 @@ export class Result {
       make("button", { type: "button", id: `do-${what}`, class: name, onclick: () => this.act(job, what) }, t(`do.${what}`));
     const actions = job.state === "running" || job.state === "waiting" ? [button("stop")]
       : [...(job.state === "done" ? [] : [button("resume", "main")]), ...(job.kind === "bend" ? [button("again")] : []), button("remove")];
-    return make("header", {}, make("h2", {}, `${job.number} · ${job.title}`), make("div", { class: "bar" }, ...actions));
+    const others = job.series ? [make("a", { class: "button", href: `#${placeOf(job.series)}` }, t("series.open"))] : [];
+    const form = make("button", { type: "button", class: "narrow", onclick: () => goTo("form") }, t("to.form"));
+    return make("header", {}, make("h2", {}, `${job.number} · ${titleOf(job)}`), make("div", { class: "bar" }, form, ...others, ...actions, ...this.next(job)));
+  }
+
+  /** Work that goes on from a finished bend, one click away. @param {any} job */
+  next(job) {
+    if (job.state !== "done" || job.parameters.work !== "bend") return [];
+    const button = (/** @type {string} */ name, /** @type {() => void} */ act) => make("button", { type: "button", id: `next-${name}`, onclick: act }, t(`next.${name}`));
+    return [
+      button("measured", () => {
+        element("measured").open = true;
+        goTo("measured");
+        element("m-measured_angle").focus({ preventScroll: true });
+      }),
+      button("angles", () => this.actions.angles(job)),
+      button("table", () => this.actions.table(job)),
+    ];
+  }
+
+  /** Say what has become of the job, and on a small screen go there. @param {any} job */
+  tell(job) {
+    const state = job.state === "done" ? t("told.done") : t(`state.${job.state}`);
+    announce(t(narrow() ? "told.above" : "told", { number: job.number, title: titleOf(job), state }));
   }
 
   /** @param {any} job @param {string} what */
@@ -143,53 +170,14 @@ export class Result {
     return make("div", { class: "progress" }, make("progress", { max: 100, value: percent, "aria-label": t("progress") }), make("p", { role: "status" }, text));
   }
 
-  /** @param {any} job */
-  numbers(job) {
-    const { measures, quantities = [], checks = [], shop_forces: shop, warnings = [], coarse_mesh: coarse = [], length, press } = job.summary;
-    const heroes = HEROES.flatMap((name) => quantities.filter((/** @type {any} */ one) => one.name === name))
-      .map((one) => {
-        const shown = forShop(one, length);
-        return tile(shown, "hero", t(`means.${shown.name}`, { length, each: number(one.value, 1) }));
-      });
-    const notes = press ? [t("note.press", { press: number(press.force, 1), low: number(shop[0], 0), high: number(shop[1], 0) })] : [];
-    const ratio = measures.largest_force / (0.5 * (shop[0] + shop[1]));
-    if (ratio < 0.93) notes.push(t("note.below", { percent: Math.round(100 * (1 - ratio)) }));
-    if (measures.k_factor !== null && measures.k_factor < 0.33) notes.push(t("note.k"));
-    if (!job.parameters.budget && !coarse.length && job.parameters.work !== "bottom") notes.push(t("note.nobudget"));
-    return [
-      ...[...warnings, ...coarse].map((/** @type {string} */ text) => make("p", { class: "note warn" }, message(text))),
-      make("dl", { class: "heroes" }, ...heroes),
-      ...notes.map((text) => make("p", { class: "note" }, text)),
-      this.flat(measures),
-      ...(job.parameters.work === "bend" ? [this.measured ??= measuredForm(job, this.actions)] : []),
-      make("details", {}, make("summary", {}, t("all")), table([...quantities, ...checks])),
-    ];
-  }
-
-  /** The flat length of a part from its outer dimensions. @param {any} measures */
-  flat(measures) {
-    if (measures.bend_deduction === null) return make("span");
-    const output = make("output", { class: "value" });
-    /** @type {any[]} */
-    const fields = ["a", "b"].map((name) => numberField({ id: `flat-${name}`, "aria-label": t(`flat.${name}`) }, 100, () => reckon()));
-    const reckon = () => {
-      const texts = fields.map((field) => field.value);
-      const legs = texts.map(taking);
-      const wrong = legs.findIndex((leg) => typeof leg === "string");
-      const sum = Number(legs[0]) + Number(legs[1]) - measures.bend_deduction;
-      output.textContent = wrong >= 0 ? unclear(texts[wrong]) : [`${number(sum, 2)} mm`, ...texts.map(howRead).filter(Boolean)].join(", ");
-    };
-    reckon();
-    return make("p", { class: "flat" }, `${t("flat")}: `, fields[0], " + ", fields[1], ` − ${number(measures.bend_deduction, 2)} = `, output);
-  }
-
   /** The end of the run of a deck. @param {any} job */
   last(job) {
     const rows = Object.entries(job.summary.last).map(([name, value]) => make("tr", {}, make("th", { scope: "row" }, name), make("td", {}, number(/** @type {number} */ (value)))));
     const notes = [...job.summary.warnings.map((/** @type {string} */ text) => make("p", { class: "note warn" }, text)),
       ...job.summary.events.map((/** @type {string} */ text) => make("p", { class: "note" }, text))];
-    const { quantities = [], checks = [] } = job.summary;
-    return make("div", {}, ...notes, table([...quantities, ...checks]), make("details", { open: true }, make("summary", {}, t("deck.end")), make("div", { class: "wide" }, make("table", {}, make("tbody", {}, ...rows)))));
+    const { quantities = [], checks = [], key = [] } = job.summary;
+    const tiles = key.map((/** @type {import("./quantities.js").Quantity} */ one) => tile(one, "hero"));
+    return make("div", { class: "last" }, ...notes, make("dl", { class: "heroes first" }, ...tiles), table([...quantities, ...checks]), make("details", {}, make("summary", {}, t("deck.end")), wide(make("table", {}, make("tbody", {}, ...rows)))));
   }
 
   /** @param {any} job */
@@ -197,8 +185,9 @@ export class Result {
     const { curve } = job.live;
     if (job.parameters.work === "correct" || !curve?.x.length) return null;
     const bend = job.kind === "bend";
-    const words = { x: bend ? t("axis.stroke") : curve.names[0], y: bend ? t("axis.force") : curve.names[1], label: t("curve.label"), band: bend ? job.summary.shop_forces : undefined };
-    const caption = make("figcaption", {}, bend && words.band ? t("curve.band") : t("curve.live"));
+    const words = { x: bend ? t("axis.stroke") : curve.names[0], y: bend ? t(curve.of ? "axis.punch" : "axis.force") : curve.names[1], label: t("curve.label"), band: bend ? job.summary.shop_forces : undefined };
+    const ended = !["running", "waiting"].includes(job.state);
+    const caption = make("figcaption", {}, bend && words.band ? t("curve.band") : t(ended ? "curve.ended" : "curve.live"));
     const width = Math.max(280, Math.min(560, element("result").clientWidth - 60)); // letters as large as all others on a phone
     return make("figure", { class: "card" }, plot([{ name: "", ...curve }], words, width), caption);
   }
@@ -234,7 +223,7 @@ export class Result {
   files(job) {
     const named = { "report.html": "file.report", "curve.csv": "file.csv", "history.csv": "file.history", "bend.toml": "file.deck", "as-run.toml": "file.deck", "bend.json": "file.json", "sequence.json": "file.json", "hem.json": "file.json", "curves.csv": "file.csv", "profile.csv": "file.profile",
       "flat.dxf": "file.dxf", "flat.svg": "file.svg", "flat.json": "file.json", "sheet.html": "file.sheet", "bends.csv": "file.table", "bends.json": "file.json", "metal.toml": "file.metal" };
-    const link = (/** @type {string} */ file, /** @type {string} */ text) => make("a", { class: "button", href: `/files/${job.id}/${file}`, target: file.endsWith(".html") ? "_blank" : null, rel: "noopener" }, text);
+    const link = (/** @type {string} */ file, /** @type {string} */ text) => make("a", { class: "button", href: `/files/${job.id}/${file}${file.endsWith(".csv") && language === "de" ? "?language=de" : ""}`, target: file.endsWith(".html") ? "_blank" : null, rel: "noopener" }, text);
     const first = Object.entries(named).filter(([file]) => job.files.includes(file)).map(([file, key]) => link(file, t(key)));
     const formats = Object.entries({ ".FCStd": "FreeCAD", ".inventor.txt": "Inventor", ".bnd": "Creo", ".solidworks.txt": "SolidWorks" });
     for (const [ending, name] of formats) {

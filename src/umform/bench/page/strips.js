@@ -3,12 +3,13 @@
 
 import { make } from "./dom.js";
 import { message } from "./messages.js";
+import { pressTile } from "./numbers.js";
 import { cell, forShop, heading, table, tile } from "./quantities.js";
 import { number, t } from "./texts.js";
 
 /** The numbers of a bend for the machine, and those of a hem. */
 const OF_BEND = ["stroke", "largest_force", "angle", "final_angle", "springback", "radius", "k_factor", "bend_deduction", "outer_strain"];
-const OF_HEM = ["height", "springback", "largest_force", "tip_gap", "loop_gap", "angle", "outer_strain", "thinning"];
+const OF_HEM = ["height", "springback", "largest_force", "left", "tip_gap", "loop_gap", "roll_in", "angle", "outer_strain", "thinning"];
 
 /** @param {any} job @returns {Node[]} */
 export function stripNumbers({ summary }) {
@@ -20,7 +21,8 @@ export function stripNumbers({ summary }) {
 /** @typedef {import("./quantities.js").Quantity} Quantity */
 
 /** @param {any} summary */
-function part({ bends, columns = [], sizes = [], quantities = [], checks = [], flat_length: flat, length }) {
+function part(summary) {
+  const { bends, columns = [], sizes = [], quantities = [], checks = [], flat_length: flat, length } = summary;
   const named = (/** @type {Quantity[]} */ column, /** @type {string} */ name) => forShop(/** @type {Quantity} */ (column.find((one) => one.name === name)), length);
   const rows = columns.length ? OF_BEND.map((name) => make("tr", {}, make("th", { scope: "row" }, heading(named(columns[0], name), "strip")),
     ...columns.map((/** @type {Quantity[]} */ column) => cell(named(column, name))))) : [];
@@ -29,7 +31,7 @@ function part({ bends, columns = [], sizes = [], quantities = [], checks = [], f
   const head = make("tr", {}, make("td"), ...bends.map((/** @type {any} */ _, /** @type {number} */ i) => make("th", { scope: "col" }, t("bend.number", { number: i + 1 }))));
   const whole = { name: "flat", label: "", unit: "mm", decimals: 2, digits: 4, value: flat, missed: false, band: null };
   return [
-    make("dl", { class: "heroes" }, ...[whole, ...sizes].map((one) => tile(one, "strip"))),
+    make("dl", { class: "heroes" }, ...pressTile(summary), ...[whole, ...sizes].map((one) => tile(one, "strip"))),
     make("div", { class: "wide" }, make("table", { class: "columns", id: "strip-table" }, make("thead", {}, head), make("tbody", {},
       given("position", (bend) => `${number(bend.position, 1)} mm`), given("way", (bend) => t(bend.over ? "bends.down" : "bends.up")),
       given("wanted", (bend) => `${number(bend.wanted, 1)}°`), ...rows))),
@@ -39,9 +41,10 @@ function part({ bends, columns = [], sizes = [], quantities = [], checks = [], f
 }
 
 /** @param {any} summary */
-function hem({ quantities = [], checks = [], length, first }) {
+function hem(summary) {
+  const { quantities = [], checks = [], length, first } = summary;
   const tiles = OF_HEM.flatMap((name) => quantities.filter((/** @type {Quantity} */ one) => one.name === name)).map((one) => tile(forShop(one, length), "hem"));
-  return [make("dl", { class: "heroes" }, ...tiles), all([...quantities, ...checks], "hem"), make("p", { class: "note" }, t("hem.first", { angle: first.angle.toFixed(1), stroke: first.stroke.toFixed(2) }))];
+  return [make("dl", { class: "heroes" }, ...pressTile(summary), ...tiles), all([...quantities, ...checks], "hem"), make("p", { class: "note" }, t("hem.first", { angle: first.angle.toFixed(1), stroke: first.stroke.toFixed(2) }))];
 }
 
 /** @param {Quantity[]} quantities @param {string} words */

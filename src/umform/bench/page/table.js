@@ -3,9 +3,9 @@
 
 import { post } from "./api.js";
 import { element, make } from "./dom.js";
-import { label } from "./fields.js";
+import { label, sizeField } from "./fields.js";
 import { takingList, unclearList } from "./lists.js";
-import { number, problemText, t } from "./texts.js";
+import { problemText, t } from "./texts.js";
 
 /** Numbers of a list; an unclear one is an error. @param {string} text @returns {number[]} */
 function listed(text) {
@@ -14,11 +14,13 @@ function listed(text) {
   return numbers.slice(0, 12).filter((value) => value > 0);
 }
 
-/** @param {any} form @param {any} library @param {(names: string[]) => void} ordered */
+/** @param {any} form @param {any} library @param {(series: string) => void} ordered */
 export function askTable(form, library, ordered) {
   const dialog = element("table-dialog");
   const values = { ...form.values };
-  const near = library.tools.dies.map((/** @type {any} */ die) => die.opening).filter((/** @type {number} */ one) => one >= 6 * values.thickness && one <= 12 * values.thickness);
+  const [opening, radius] = [sizeField("die", "opening"), sizeField("die", "radius")];
+  const dies = new Map(library.tools.die.map((/** @type {any} */ { sizes }) => [sizes[opening], sizes[radius]]));
+  const near = [...dies.keys()].filter((/** @type {number} */ one) => one >= 6 * values.thickness && one <= 12 * values.thickness);
   const angles = make("input", { id: "table-angles", value: `90 105 120 135` });
   const openings = make("input", { id: "table-openings", value: (near.length ? near : [values.opening]).join(" ") });
   const said = make("p", { class: "note", role: "status" });
@@ -28,18 +30,17 @@ export function askTable(form, library, ordered) {
   form2.addEventListener("submit", async (/** @type {Event} */ event) => {
     event.preventDefault();
     try {
-      const forms = listed(openings.value).flatMap((opening) => {
-        const die = library.tools.dies.find((/** @type {any} */ one) => one.opening === opening);
-        return listed(angles.value).map((angle) => ({ ...values, opening, angle, stroke: null, die: null, die_radius: die?.radius ?? values.die_radius }));
-      });
-      const answer = await post("/api/jobs", { forms, series: `${values.material} ${values.thickness} mm` });
+      const forms = listed(openings.value).flatMap((wide) => listed(angles.value).map((angle) =>
+        ({ ...values, [opening]: wide, angle, stroke: null, die: null, [radius]: dies.get(wide) ?? values[radius] })));
+      const series = `${values.material} ${values.thickness} mm`;
+      const answer = await post("/api/jobs", { forms, series });
+      ordered(series);
       if (answer.refused.length) {
         said.textContent = t("table.refused", { count: answer.refused.length, titles: answer.refused.map((/** @type {any} */ one) => one.title).join(", ") });
         said.className = "note warn";
       } else {
         dialog.close();
       }
-      ordered(answer.jobs);
     } catch (problem) {
       const { answer } = /** @type {any} */ (problem);
       said.textContent = (answer?.problems ?? [{ what: /** @type {Error} */ (problem).message }]).map(problemText).join("; ");
@@ -48,23 +49,4 @@ export function askTable(form, library, ordered) {
   });
   dialog.replaceChildren(form2);
   dialog.showModal();
-}
-
-/**
- * Angles in rows, openings in columns, of the finished jobs of a series.
- * @param {any[]} rows
- */
-export function seriesTable(rows) {
-  const done = rows.filter((row) => row.summary.measures?.angle);
-  const angles = [...new Set(done.map((row) => row.parameters.angle))].sort((a, b) => a - b);
-  const openings = [...new Set(done.map((row) => row.parameters.opening))].sort((a, b) => a - b);
-  if (angles.length * openings.length < 2) return null;
-  const cell = (/** @type {number} */ angle, /** @type {number} */ opening) => {
-    const found = done.find((row) => row.parameters.angle === angle && row.parameters.opening === opening)?.summary.measures;
-    return found ? make("td", {}, `${number(found.stroke, 2)} / ${number(found.largest_force, 0)} / ${number(found.bend_deduction, 2)}`) : make("td", {}, "–");
-  };
-  const head = make("tr", {}, make("th", {}, label("angle")), ...openings.map((opening) => make("th", { scope: "col" }, `V ${number(opening)}`)));
-  const body = angles.map((angle) => make("tr", {}, make("th", { scope: "row" }, `${number(angle)}°`), ...openings.map((opening) => cell(angle, opening))));
-  return make("figure", { class: "card" }, make("div", { class: "wide" }, make("table", { class: "columns" }, make("thead", {}, head), make("tbody", {}, ...body))),
-    make("figcaption", {}, t("table.caption")));
 }

@@ -3,7 +3,7 @@
 
 import { get, post } from "./api.js";
 import { element, make } from "./dom.js";
-import { label } from "./fields.js";
+import { label, sizesIn } from "./fields.js";
 import { coded } from "./files.js";
 import { number, problemText, t } from "./texts.js";
 
@@ -23,11 +23,13 @@ export class Tools {
     this.rows = (await get("/api/tools")).tools;
   }
 
-  /** @param {"punch" | "die"} kind @param {string | null} value */
-  options(kind, value) {
+  /** By numbers, usual ones by name, those of drawings. @param {"punch" | "die"} kind @param {string | null} value @param {{name: string, sizes: Record<string, number>}[]} usual */
+  options(kind, value, usual) {
     const names = this.rows.filter((one) => one.kind === kind).map(({ name }) => name);
     const all = value && !names.includes(value) ? [...names, value] : names;
-    return [make("option", { value: "" }, t("tool.numbers")), ...all.map((name) => make("option", { value: name }, name))];
+    const drawn = all.map((name) => make("option", { value: name }, name));
+    return [make("option", { value: "" }, t("tool.numbers")), ...(drawn.length ? [make("optgroup", { label: t("tool.drawn") }, ...drawn)] : []),
+      make("optgroup", { label: t("tool.usual") }, ...usual.map(({ name, sizes }) => make("option", { value: `usual:${name}` }, sizesText(sizesIn(kind, sizes)))))];
   }
 
   ask() {
@@ -103,5 +105,6 @@ export class Tools {
 
 /** Sizes of a tool in short. @param {{opening?: number, angle?: number, radius?: number}} one */
 export function sizesText({ opening, angle, radius }) {
-  return [opening === undefined ? "" : `V ${number(opening, 1)}`, angle === undefined ? "?" : `${number(angle, 1)}°`, radius === undefined ? "" : `R ${number(radius, 2)}`].filter(Boolean).join(" ");
+  const short = (/** @type {number} */ value, /** @type {number} */ decimals) => number(Number(value.toFixed(decimals)));
+  return [opening === undefined ? "" : `V ${short(opening, 1)}`, angle === undefined ? "?" : `${short(angle, 1)}°`, radius === undefined ? "" : `R ${short(radius, 2)}`].filter(Boolean).join(" ");
 }

@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 
 from umform.errors import InvalidValue, ModelError
-from umform.mesh import Mesh
+from umform.mesh import Ids, Mesh
 from umform.model.bodies.body import Body
 
 
@@ -40,6 +40,10 @@ class Bodies(list[Body]):
                 remedy="choose the cells of the bodies so that they share none and leave none out",
             )
         return made
+
+    def of(self, cells: Ids) -> Body:
+        """Body that most of some cells belong to."""
+        return max(self, key=lambda body: int(np.isin(cells, body.cells).sum()))
 
     @property
     def only(self) -> Body:

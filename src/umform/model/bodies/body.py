@@ -38,9 +38,12 @@ class BodyFound(Found):
     ----------
     flows : ndarray of uint8, shape (points,)
         1 for each point whose history the evaluation has changed, else 0.
+    enhanced_change : float
+        Largest change of an enhanced parameter that a recovery without a displacement makes; 0 in equilibrium.
     """
 
     flows: NDArray[np.uint8] | None = None
+    enhanced_change: float = 0.0
 
     @property
     def flowing(self) -> NDArray[np.uint8]:
@@ -58,7 +61,8 @@ class Body(Term):
     material : Material
         SVK, NeoHooke, NeoHookePower, J2, Metal, or your own law.
     cells : array_like or callable, optional
-        Indices of the cells, a mask, or a predicate of the coordinates x, y, z of their centres; default all cells.
+        Indices of the cells, a mask, a predicate of the coordinates x, y, z of their centres, or the name of a set that
+        has all of their nodes; default all cells.
     name : str
         For messages and fields.
     rolling, **options
@@ -221,7 +225,8 @@ class Body(Term):
         failed, scale, failure = self.block.evaluate(at.u, scatter, into.residual, into.values, at.du, product)
         if failed >= 0:
             failed, failure = int(self.cells[failed]), failure + at_failing_point(self.block, failed, at.u)
-        return BodyFound(scale, failed=failed, failure=failure, flows=self.block.flowing)
+        change = self.block.enhanced_change
+        return BodyFound(scale, failed=failed, failure=failure, flows=self.block.flowing, enhanced_change=change)
 
     def recover(self, du: Floats, mixed: bool) -> None:
         """Update the enhanced parameters. eq. (2.19)"""

@@ -1,4 +1,4 @@
-"""Select cells of a body by indices, a mask, or a predicate."""
+"""Select cells of a body by indices, a mask, a predicate, or a set of nodes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from umform.mesh import Mesh
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 
-#: Cells: their indices, a mask, or a predicate of the coordinates x, y, z of their centres.
+#: Cells: their indices, a mask, a predicate of the coordinates x, y, z of their centres, or the name of a set that has
+#: all of their nodes, as a sheet of :func:`umform.mesh.together`.
 Cells = ArrayLike | Callable[[Floats, Floats, Floats], Any]
 
 
@@ -26,6 +27,10 @@ def cell_numbers(mesh: Mesh, cells: Cells | None, name: str) -> Numbers:
     if callable(cells):
         centres = mesh.points[mesh.connectivity].mean(axis=1)
         cells = cells(*centres.T)
+    if isinstance(cells, str):
+        inside = np.zeros(len(mesh.points), dtype=bool)
+        inside[mesh.nodes(cells)] = True
+        cells = inside[mesh.connectivity].all(axis=1)
     chosen = np.asarray(cells)
     if chosen.dtype == bool and chosen.shape != (count,):
         raise InvalidValue("a mask of cells has one entry for each cell", where=f"body {name}", value=chosen.shape)

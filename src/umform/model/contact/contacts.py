@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from itertools import count
 from typing import Any
 
-import numpy as np
-
 from umform.errors import InvalidValue
 from umform.mesh import Mesh, Selector
-from umform.model.bodies.body import Body
+from umform.model.bodies.bodies import Bodies
 from umform.model.contact.encounter import sheet_thickness
 from umform.model.contact.pair import Contact
 from umform.model.contact.settings import ContactOptions, contact_settings
@@ -35,7 +32,7 @@ class Contacts(list[Contact]):
         Tools of the model, to which those of single pairs are added.
     """
 
-    def __init__(self, mesh: Mesh, bodies: Sequence[Body], tools: Tools) -> None:
+    def __init__(self, mesh: Mesh, bodies: Bodies, tools: Tools) -> None:
         super().__init__()
         self.mesh, self.bodies, self.tools = mesh, bodies, tools
 
@@ -79,9 +76,9 @@ class Contacts(list[Contact]):
             )
         surface = tool.surface if isinstance(tool, Tool) else tool
         if isinstance(surface, UserSurface):
-            facets = self.mesh.facets(faces)[:, :4]
-            check_beside(surface, self.mesh.points[facets], sheet_thickness(self.mesh), f"contact {name}")
-        body = self._body_of(faces)
+            facets, rows = self.mesh.facets(faces)[:, :4], self.mesh.face_set(faces)
+            check_beside(surface, self.mesh.points[facets], sheet_thickness(self.mesh, rows), f"contact {name}")
+        body = self.bodies.of(self.mesh.face_set(faces)[:, 0])
         try:
             wanted = ContactOptions(**options)
         except InvalidValue as error:
@@ -110,8 +107,3 @@ class Contacts(list[Contact]):
     def _one_side(self, faces: Selector) -> bool:
         """Whether faces are all lower ones, or all upper ones."""
         return len(set(self.mesh.face_set(faces)[:, 1].tolist())) == 1
-
-    def _body_of(self, faces: Selector) -> Body:
-        """Body that most of the faces belong to."""
-        cells = self.mesh.face_set(faces)[:, 0]
-        return max(self.bodies, key=lambda body: int(np.isin(cells, body.cells).sum()))

@@ -16,6 +16,7 @@ from umform.errors import InvalidPenalty, UmformError
 from umform.materials import Material
 from umform.mesh import Ids, Mesh
 from umform.mesh.numbers import common, median, unique
+from umform.mesh.part import sheets_of
 
 Floats = NDArray[np.float64]
 
@@ -59,20 +60,29 @@ class Encounter:
         return self.radius >= _FLATTEST * self.thickness
 
     @classmethod
-    def of(cls, mesh: Mesh, facets: Ids, tool: _core.Surface, material: Material, where: str) -> Encounter:
+    def of(cls, mesh: Mesh, faces: Ids, tool: _core.Surface, material: Material, where: str) -> Encounter:
         """Evaluate mesh and tool in their present position, and the law."""
-        h = sheet_thickness(mesh)
-        radius, length = _sharpest(mesh.points[facets[:, :4]], tool, _FLATTEST * h)
+        h = sheet_thickness(mesh, faces)
+        radius, length = _sharpest(mesh.points[mesh.facets_of(faces)[:, :4]], tool, _FLATTEST * h)
         strain = min(h / (2.0 * radius + h), _LARGEST_STRAIN)
         stress, slope = (bending_stress(material, e, where) for e in (strain, 1e-7))
         return cls(h, radius, length, stress * h / (4.0 * _ARM), slope / 1e-7)
 
 
-def sheet_thickness(mesh: Mesh) -> float:
-    """Thickness of the sheet: the median over its cells, times the number of stacked layers."""
-    half = mesh.connectivity.shape[1] // 2
-    lower, upper = mesh.connectivity[:, :half], mesh.connectivity[:, half:]
-    cell = median(np.linalg.norm(mesh.points[upper] - mesh.points[lower], axis=-1))
+def sheet_thickness(mesh: Mesh, faces: Ids | None = None) -> float:
+    """Thickness of the sheet: the median over its cells, times the number of stacked layers; of several the smallest.
+
+    ``faces``, rows (cell, face): only the sheets that these belong to.
+    """
+    sheet = sheets_of(mesh)
+    of = unique(sheet if faces is None else sheet[faces[:, 0]])
+    return min(_thickness(mesh.points, mesh.connectivity[sheet == one]) for one in of.tolist())
+
+
+def _thickness(points: Floats, cells: Ids) -> float:
+    half = cells.shape[1] // 2
+    lower, upper = cells[:, :half], cells[:, half:]
+    cell = median(np.linalg.norm(points[upper] - points[lower], axis=-1))
     layers, above = 1, unique(upper)
     while len(above := common(above, lower)):  # nodes with another cell above
         layers += 1

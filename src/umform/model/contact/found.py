@@ -80,6 +80,8 @@ class ContactFound(Found):
         Whether there is friction.
     has_potential : bool
         Whether the energy follows from the pressures; that of cells is integrated along the path.
+    own : callable, optional
+        Energies per area (k,) of a contact law of the user at gaps (k,); None with a penalty.
     """
 
     held: Any = None
@@ -91,6 +93,7 @@ class ContactFound(Found):
     penalty: float = 0.0
     has_friction: bool = False
     has_potential: bool = True
+    own: Callable[[Floats], Floats] | None = field(default=None, repr=False)
 
     @cached_property
     def _measured(self) -> tuple[Floats, Floats, Floats]:
@@ -232,6 +235,8 @@ class ContactFound(Found):
 
     def energy_of_penetration(self) -> float:
         """(p^2 - lambda^2) / (2 penalty) over the reference area; for cells of their mean pressures. eq. (4.32)"""
+        if self.own is not None:
+            return float((self.held.share * self.held.area) @ self.own(self.held.gap))
         # (p - lambda)(p + lambda): exactly zero for a point that is held by its multiplier alone.
         difference, total = self.pressure - self.multiplier, self.pressure + self.multiplier
         return 0.5 / self.penalty * float((difference * self.area) @ total)
@@ -258,6 +263,8 @@ class ContactFound(Found):
 
     def _potential(self, points: NDArray[np.int64]) -> Floats:
         """Energy of penalty and multipliers per area at some points. eq. (4.32)"""
+        if self.own is not None:
+            return np.where(self.active[points], self.own(self.held_gap[points]), 0.0)
         p, multiplier = self.pressure[points], self.multiplier[points]
         return 0.5 / self.penalty * (p - multiplier) * (p + multiplier)
 

@@ -18,6 +18,7 @@ from umform.spec import About, Checked, check_fields, check_value
 
 #: (pressure, distance slid, position in the frame of the tool) -> largest tangential traction.
 FrictionFunction = Callable[[float, float, NDArray[np.float64]], float]
+_SIGNATURE = "friction(pressure, slip, place) -> largest tangential traction; place (3,) in the frame of the tool"
 
 
 def check_table(value: Any, where: str) -> None:
@@ -204,19 +205,19 @@ class FrictionByRegion:
     regions: Sequence[Region] = ()
     """Boxes in the frame of the tool, its initial position; the first one that contains a point applies."""
 
-    def kernel(self) -> _core.FrictionLaw:
-        """The law as the kernels take it."""
+    def kernel(self, where: str = "friction") -> _core.FrictionLaw:
+        """The law as the kernels take it; ``where`` is the contact, for messages of functions."""
         if not self.regions:
-            return friction_kernel(self.elsewhere)
+            return friction_kernel(self.elsewhere, where)
         boxes = [
             (
                 np.asarray(region.lower, dtype=float).tolist(),
                 np.asarray(region.upper, dtype=float).tolist(),
-                friction_kernel(region.friction),
+                friction_kernel(region.friction, where),
             )
             for region in self.regions
         ]
-        return _core.friction_by_region(boxes, friction_kernel(self.elsewhere))
+        return _core.friction_by_region(boxes, friction_kernel(self.elsewhere, where))
 
 
 #: A coefficient, a table, a law, or a function.
@@ -225,31 +226,39 @@ AnyFriction = Annotated[
 ]
 
 
-def friction_kernel(friction: AnyFriction) -> _core.FrictionLaw:
+def friction_kernel(friction: AnyFriction, where: str = "friction") -> _core.FrictionLaw:
     """A friction law in the form of the kernels.
 
     Parameters
     ----------
     friction : float, Friction, FrictionByRegion or callable
         A coefficient, a law, or a function (pressure, distance slid, place) -> largest tangential traction.
+    where : str
+        The contact, for messages of a function.
 
     Raises
     ------
     InvalidFriction
         If it is invalid.
     """
-    if isinstance(friction, Friction | FrictionByRegion):
+    if isinstance(friction, FrictionByRegion):
+        return friction.kernel(where)
+    if isinstance(friction, Friction):
         return friction.kernel()
     if callable(friction):
-        return _core.friction_from_function(_guarded(friction))
+        return _core.friction_from_function(_guarded(friction, where))
     return Friction(friction).kernel()
 
 
-def _guarded(function: FrictionFunction) -> Callable[[float, float, Sequence[float]], float]:
-    """The function with a clear error for invalid results."""
+def _guarded(function: FrictionFunction, where: str) -> Callable[[float, float, Sequence[float]], float]:
+    """The function with clear errors: for exceptions in it, and for invalid results."""
 
     def bound(pressure: float, slip: float, z: Sequence[float]) -> float:
-        answer = function(pressure, slip, np.array(z))
+        try:
+            answer = function(pressure, slip, np.array(z))
+        except Exception as error:
+            error.add_note(f"in the friction function of {where}, called as {_SIGNATURE}")
+            raise
         try:
             value = float(answer)
         except (TypeError, ValueError):
@@ -257,10 +266,10 @@ def _guarded(function: FrictionFunction) -> Callable[[float, float, Sequence[flo
         if not (math.isfinite(value) and value >= 0.0):
             raise NotFinite(
                 "a function of friction must give a finite number that is not negative",
-                where=f"pressure {pressure:g}, slip {slip:g}, place ({z[0]:g}, {z[1]:g}, {z[2]:g})",
+                where=f"{where}, pressure {pressure:g}, slip {slip:g}, place ({z[0]:g}, {z[1]:g}, {z[2]:g})",
                 value=answer,
                 cause="a division by zero, or an array instead of a number",
-                remedy="return the largest tangential traction, mu * pressure for instance",
+                remedy=f"return the largest tangential traction, mu * pressure for instance: {_SIGNATURE}",
             )
         return value
 

@@ -11,6 +11,7 @@ from umform.errors import InvalidValue
 from umform.history_variables import named
 from umform.mesh import Ids
 from umform.model.contact.pair import Contact
+from umform.model.contact.sheets import SheetContact
 from umform.model.tools.tool import Pose
 
 Floats = NDArray[np.float64]
@@ -19,6 +20,8 @@ Numbers = NDArray[np.int64]
 #: Parts of the history in the frame of the tool: places, and vectors.
 _PLACES = ("place",)
 _VECTORS = ("normal", "tangential traction", "tangential multiplier", "change of tangential multiplier")
+#: Parts of the history of sheets that add up over a run.
+_ADDED = ("slip", "friction work", "contact work")
 
 
 @dataclass(frozen=True)
@@ -35,20 +38,27 @@ class KeptContact:
         Its parts and their sizes.
     penalty : float
         The penalty, if it has grown; zero otherwise.
+    feet : ndarray of int, shape (faces, points, 2), optional
+        Of a contact of sheets: the faces that the points have met, -1 where they have met none.
     """
 
     faces: Ids
     history: Floats
     history_variables: dict[str, int]
     penalty: float = 0.0
+    feet: Ids | None = None
 
     @classmethod
-    def of(cls, contact: Contact) -> KeptContact:
+    def of(cls, contact: Contact | SheetContact) -> KeptContact:
         """The converged history of a pair with friction."""
-        history_variables = contact.block.history_variables
-        history = _turned(contact.state()["history"], history_variables, contact.pose)
-        grown = contact.adapts and contact.penalty > contact.initial_penalty
-        return cls(contact.faces.copy(), history, history_variables, contact.penalty if grown else 0.0)
+        grown = contact.penalty if contact.adapts and contact.penalty > contact.initial_penalty else 0.0
+        history, history_variables = _history(contact)
+        if isinstance(contact, SheetContact):  # its places and tractions go with the other sheet
+            facet = named(history, history_variables)["facet"][..., 0].astype(np.int64)
+            rows = np.where(facet > 0, contact.opposite[:, None] + facet - 1, 0)
+            feet = np.where(facet[..., None] > 0, contact.faces[rows], -1).astype(np.int32)
+            return cls(contact.faces, history, history_variables, grown, feet)
+        return cls(contact.faces.copy(), _turned(history, history_variables, contact.pose), history_variables, grown)
 
     def left(self, parents: Numbers, same: NDArray[np.bool_]) -> KeptContact:
         """What a part keeps of it.
@@ -64,9 +74,14 @@ class KeptContact:
         cell[parents[same]] = np.flatnonzero(same)
         kept = np.flatnonzero(cell[self.faces[:, 0]] >= 0)
         faces = np.stack([cell[self.faces[kept, 0]], self.faces[kept, 1]], axis=1).astype(np.int32)
-        return replace(self, faces=faces, history=self.history[kept])
+        if self.feet is None:
+            return replace(self, faces=faces, history=self.history[kept])
+        feet = self.feet[kept]
+        there = np.where(feet[..., 0] >= 0, cell[feet[..., 0]], -1)
+        feet = np.where(there[..., None] >= 0, np.stack([there, feet[..., 1]], axis=-1), -1).astype(np.int32)
+        return replace(self, faces=faces, history=self.history[kept], feet=feet)
 
-    def put(self, contact: Contact) -> int:
+    def put(self, contact: Contact | SheetContact) -> int:
         """Give a pair with a history of its own that of its points, and the penalty that the stage before has found.
 
         Returns the number of faces that have the history.
@@ -76,7 +91,7 @@ class KeptContact:
         InvalidValue
             If it has other points or another law.
         """
-        history_variables, history = contact.block.history_variables, contact.state()["history"]
+        history, history_variables = _history(contact)
         if history_variables != self.history_variables or history.shape[1:] != self.history.shape[1:]:
             raise InvalidValue(
                 "a contact that keeps its history has the points and the law of the one before",
@@ -85,14 +100,47 @@ class KeptContact:
                 cause="other points, nodes or cells, or a contact without friction",
                 remedy="the same points and friction as in the stage before",
             )
-        row = {(int(cell), int(face)): k for k, (cell, face) in enumerate(self.faces)}
-        rows = np.array([row.get((int(cell), int(face)), -1) for cell, face in contact.faces])
+        rows = _rows(self.faces, contact.faces)
         kept = np.flatnonzero(rows >= 0)
-        rotation, shift = contact.pose
-        history[kept] = _turned(self.history[rows[kept]], history_variables, (rotation.T, -shift @ rotation))
-        contact.restore({"history": history})
+        if isinstance(contact, SheetContact):
+            history[kept] = self._on(contact, kept, rows[kept])
+            contact.go_on_with(history.reshape(-1, history.shape[-1]))
+        else:
+            rotation, shift = contact.pose
+            history[kept] = _turned(self.history[rows[kept]], history_variables, (rotation.T, -shift @ rotation))
+            contact.restore({"history": history})
         contact.begin_with(self.penalty)
         return len(kept)
+
+    def _on(self, contact: SheetContact, faces: Numbers, rows: Numbers) -> Floats:
+        """The history of some faces of a contact of sheets; points whose foot is gone keep what has added up."""
+        assert self.feet is not None
+        history, feet = self.history[rows].copy(), self.feet[rows]
+        foot = _rows(contact.faces, feet.reshape(-1, 2)).reshape(feet.shape[:2])
+        foot = np.where(foot >= 0, foot - contact.opposite[faces][:, None] + 1, 0)
+        parts = named(history, self.history_variables)
+        lost = (foot <= 0) & (parts["facet"][..., 0] > 0)
+        parts["friction work"][lost] += parts["stored"][lost]
+        parts["contact work"][lost] -= parts["contact energy"][lost]
+        for name, values in parts.items():
+            if name not in _ADDED:
+                values[lost] = 0.0
+        parts["facet"][..., 0] = np.where(lost, 0, foot)
+        return history
+
+
+def _history(contact: Contact | SheetContact) -> tuple[Floats, dict[str, int]]:
+    """The converged history of a contact, shape (faces, points, size), and its parts."""
+    history = np.asarray(contact.state()["history"])
+    if isinstance(contact, SheetContact):
+        return history.reshape(len(contact.faces), -1, history.shape[-1]).copy(), contact.history_variables
+    return history, contact.block.history_variables
+
+
+def _rows(faces: Ids, wanted: Ids) -> Numbers:
+    """Row of each wanted face (cell, number of the face) among others, -1 if it is none of them."""
+    row = {(int(cell), int(face)): k for k, (cell, face) in enumerate(faces)}
+    return np.array([row.get((int(cell), int(face)), -1) for cell, face in wanted], dtype=np.int64)
 
 
 def _turned(history: Floats, history_variables: dict[str, int], pose: Pose) -> Floats:

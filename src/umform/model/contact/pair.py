@@ -12,9 +12,9 @@ from umform import _core
 from umform.errors import ModelError
 from umform.mesh import Mesh
 from umform.mesh.numbers import unique
-from umform.model.contact.face_basis import in_face_basis
+from umform.model.contact.face_basis import in_face_basis, mean_at_nodes
 from umform.model.contact.found import ContactFound, ContactPoints
-from umform.model.contact.points import PairPoints, hat_functions
+from umform.model.contact.points import PairPoints
 from umform.model.terms.control import Control
 from umform.model.terms.term import At, Energies, Found, Into, Tree
 from umform.model.tools.tool import Pose
@@ -273,7 +273,11 @@ class Contact(PairPoints):
         change : ndarray, shape (3 n,)
             Receives the residual for the first increment with the previous tangent. eq. (4.39)
         """
-        self._close(found, (1.0 - self.penalty / penalty) * found.held_gap, change)
+        rest = 1.0 - self.penalty / penalty
+        if self.law is None:
+            self._close(found, rest * found.held_gap, change)
+        else:  # to first order the same forces, whatever the law
+            self._spread((-rest * found.pressure * found.area)[:, None] * found.held_normal, change)
         self.use_penalty(penalty)
 
     def _close(self, found: ContactFound, way: Floats, change: Floats) -> None:
@@ -314,15 +318,4 @@ class Contact(PairPoints):
         return mean[:, :3], mean[:, 3]
 
     def _mean_at_nodes(self, values: Floats, areas: Floats, count: int, add: Callable[[Floats], Floats]) -> Floats:
-        """Averages (count, k) of values (points, k), weighted by areas and hat functions; zero outside the facets."""
-        hats = hat_functions(self.block.shape_values)
-        places = len(self.facets), self.block.per_facet
-        weight = hats * areas.reshape(*places, 1)  # [facet][point][node]
-        shares = np.zeros((count, values.shape[1] + 1))
-        for column, part in enumerate([*values.T, np.ones(len(values))]):
-            share = np.einsum("eqa,eq->ea", weight, part.reshape(places))
-            shares[:, column] = np.bincount(self.facets.ravel(), share.ravel(), count)
-        total = add(shares)
-        area = total[:, -1:]
-        mean: Floats = np.divide(total[:, :-1], area, out=np.zeros_like(total[:, :-1]), where=area > 0)
-        return mean
+        return mean_at_nodes(values, areas, self.block.shape_values, self.facets, count, add)

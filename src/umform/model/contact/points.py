@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from functools import cached_property, partial
 from typing import Any, ClassVar, Self
@@ -10,12 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import _core
-from umform.errors import ModelError
+from umform.errors import InvalidValue, ModelError
 from umform.history_variables import history_of, named
-from umform.mesh import FACE_NODES, Ids, Mesh, Selector
+from umform.mesh import Ids, Mesh, Selector
 from umform.mesh.numbers import unique
 from umform.model.contact.found import ContactFound
 from umform.model.contact.friction import AnyFriction, friction_kernel
+from umform.model.contact.own_law import AnyContactLaw
 from umform.model.contact.settings import ContactSettings
 from umform.model.terms.control import Twins
 from umform.model.terms.cut import Cut
@@ -84,7 +86,7 @@ class PairPoints(Term):
 
     @property
     def allowed(self) -> float | None:
-        """Allowed penetration; None if only a penalty was given."""
+        """Allowed penetration; None if only a penalty was given, infinite if any is allowed."""
         return self._settings.allowed
 
     @allowed.setter
@@ -99,7 +101,7 @@ class PairPoints(Term):
     @property
     def adapts(self) -> bool:
         """Whether the penalty grows in a run, so that no point exceeds the allowed penetration."""
-        return self._settings.largest > 0.0 and self.allowed is not None
+        return self._settings.largest > 0.0 and self.allowed not in (None, math.inf)
 
     @property
     def has_potential(self) -> bool:
@@ -128,6 +130,14 @@ class PairPoints(Term):
 
     @penalty.setter
     def penalty(self, value: float) -> None:
+        if self.law is not None:
+            raise InvalidValue(
+                "a contact with a law of its own has no penalty to be set",
+                where=f"contact {self.name}, penalty",
+                value=value,
+                cause="the law has the stiffness of the contact",
+                remedy="another law: model.contact(..., law=...)",
+            )
         self._settings = replace(self._settings, penalty=value, largest=0.0)
         self.use_penalty(value)
         self._standing_penalty = value
@@ -174,11 +184,20 @@ class PairPoints(Term):
         return _core.contact_block(*where, (across, along) if lower else (along, across), False, tool, law)
 
     def _law(self) -> _core.ContactLaw:
+        normal = None if self.law is None else self.law.called(f"contact {self.name}, {self.law.name}").kernel()
         if self.friction is None:
-            return _core.penalty_law(self.penalty)
+            return _core.penalty_law(self.penalty) if normal is None else _core.own_law(self.penalty, normal)
         # Multipliers remove the elastic slip, so the stiffness need not follow the pressure. eq. (4.174)
         slip = np.inf if self.augmented else self.slip
-        return _core.coulomb_law(self.penalty, self._settings.ratio, slip, friction_kernel(self.friction))
+        ratio, friction = self._settings.ratio, friction_kernel(self.friction, f"contact {self.name}")
+        if normal is not None:
+            return _core.own_coulomb_law(self.penalty, ratio, slip, friction, normal)
+        return _core.coulomb_law(self.penalty, ratio, slip, friction)
+
+    @property
+    def law(self) -> AnyContactLaw | None:
+        """Contact law of the user; None where the pressure follows from the penalty."""
+        return self._settings.law
 
     @property
     def friction(self) -> AnyFriction | None:
@@ -253,7 +272,13 @@ class PairPoints(Term):
             penalty=self.penalty,
             has_friction=self.has_friction,
             has_potential=self.has_potential,
+            own=None if self.law is None else self._own_energy,
         )
+
+    def _own_energy(self, gap: Floats) -> Floats:
+        """Energy per area of a law of the user at gaps (n,); ``penalty`` over its measure scales it. eq. (4.281)"""
+        assert self.law is not None
+        return self.law.kernel().energies(gap) * (self.penalty / self.initial_penalty)
 
     @cached_property
     def _areas(self) -> Floats:
@@ -313,23 +338,3 @@ class PairPoints(Term):
         self._meet(mesh, faces)
         if history is not None:
             self.restore(history)
-
-
-def hat_functions(N: Floats) -> Floats:
-    """Piecewise bilinear functions between the nodes of a face, evaluated at the points of N.
-
-    Parameters
-    ----------
-    N : ndarray, shape (..., nodes)
-        Shape functions of a face of 4 or 9 nodes.
-
-    Returns
-    -------
-    ndarray, shape (..., nodes)
-        N itself on 4-node faces; on 9-node faces the hats (1 - |r - r_a|)(1 - |s - s_a|) of their four quarters.
-    """
-    if N.shape[-1] == 4:
-        return N
-    distance = np.abs((N @ FACE_NODES)[..., None, :] - FACE_NODES)
-    hats: Floats = np.maximum(1.0 - distance, 0.0).prod(axis=-1)
-    return hats

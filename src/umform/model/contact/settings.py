@@ -18,6 +18,8 @@ from umform.mesh import Mesh, Selector
 from umform.model.contact.cells import MOST, RIPPLE, cells_for, ripple_of
 from umform.model.contact.encounter import Encounter, sheet_thickness
 from umform.model.contact.friction import AnyFriction, friction_kernel
+from umform.model.contact.own_law import AnyContactLaw
+from umform.model.contact.own_stiffness import measured, refuse_beside
 from umform.spec import About, check_fields
 from umform.spec.types import ContactPoints, Positive
 from umform.surfaces import Surface
@@ -79,9 +81,12 @@ class ContactOptions:
     )
     """Elastic slip that is allowed: displacement of a sticking point before it slips, at any pressure; by default 1/200
     of the thickness. Multipliers remove it."""
+    law: AnyContactLaw | None = None
+    """Contact law of your own, the pressure over the gap, in place of the penalty. docs/contact-laws.md"""
 
     def __post_init__(self) -> None:
         check_fields(self)
+        refuse_beside(self.law, self.penalty, self.augmented, self.points, self.cells)
         if self.penalty is not None and self.penetration is not None and not self.augmented:
             raise InvalidValue(
                 "give the penalty or the penetration that is allowed, and not both",
@@ -106,10 +111,10 @@ class ContactOptions:
                 cause="a number of cells, or points",
                 remedy="cells='auto'",
             )
-        _ = self.law
+        _ = self.friction_law
 
     @property
-    def law(self) -> _core.FrictionLaw | None:
+    def friction_law(self) -> _core.FrictionLaw | None:
         """The friction law; None without friction."""
         none = self.friction is None or (isinstance(self.friction, int | float) and self.friction == 0)
         return None if none else friction_kernel(self.friction)  # type: ignore[arg-type]
@@ -144,7 +149,9 @@ class ContactSettings:
         Gauss points across facets of a body in plane strain, where nothing varies; None elsewhere.
     largest : float
         Penalty up to which it grows in a run where it leaves more than the allowed penetration. An estimate does; a
-        given penalty and multipliers do not, and have 0.
+        given penalty, a law of one's own and multipliers do not, and have 0.
+    law : ContactLaw or CompiledContactLaw, optional
+        Pressure over the gap; ``penalty`` is then a measure of its stiffness. eq. (4.282)
     """
 
     penalty: float
@@ -158,6 +165,7 @@ class ContactSettings:
     ripple: float | None = None
     width_points: int | None = None
     largest: float = 0.0
+    law: AnyContactLaw | None = None
 
 
 def contact_settings(
@@ -177,15 +185,19 @@ def contact_settings(
             value=type(tool).__name__,
             remedy="a tool of umform.surfaces, VDie or Cylinder for instance, or UserSurface(function)",
         )
+    rows = mesh.face_set(faces)
+    thickness = sheet_thickness(mesh, rows)
     penalty, ripple, augmented, slip = options.penalty, options.ripple, options.augmented, options.slip
-    over_cells, law, allowed = options.cells is not None, options.law, options.penetration
+    over_cells, law, allowed = options.cells is not None, options.friction_law, options.penetration
     points: int | str = options.cells or options.points or _POINTS
+    if options.law is not None:
+        penalty = measured(options.law, ALLOWED * thickness if allowed is None else allowed, where)
     estimated, given = penalty is None or points == "auto", penalty is not None
     if allowed is None and (penalty is None or augmented):
-        allowed = ALLOWED * sheet_thickness(mesh)
+        allowed = ALLOWED * thickness
     met = None
     if estimated:
-        met = Encounter.of(mesh, mesh.facets(faces), tool.kernel(), material, where)
+        met = Encounter.of(mesh, rows, tool.kernel(), material, where)
         if points == "auto" and over_cells:
             points = _cells(met, penalty, allowed, ripple)
         elif points == "auto":
@@ -203,15 +215,22 @@ def contact_settings(
     number = int(points) if over_cells else None
     expected = None
     if number is not None:
-        meet = partial(Encounter.of, mesh, mesh.facets(faces), tool.kernel(), material, where)
+        meet = partial(Encounter.of, mesh, rows, tool.kernel(), material, where)
         expected = _ripple(met, meet, number, allowed)
     largest = 0.0 if given or augmented or met is None else _largest(met)
     plain = ContactSettings(
-        float(penalty), points, allowed, bool(augmented), cells=number, ripple=expected, largest=largest
+        float(penalty),
+        points,
+        allowed,
+        bool(augmented),
+        cells=number,
+        ripple=expected,
+        largest=largest,
+        law=options.law,
     )
     if law is None:
         return plain
-    slip = _SLIP * sheet_thickness(mesh) if slip is None else float(slip)
+    slip = _SLIP * thickness if slip is None else float(slip)
     if given or allowed is None:
         pressure = _pressure(mesh, faces, tool, material, penalty, points)
     else:
@@ -225,9 +244,9 @@ def _pressure(
 ) -> float:
     """Expected pressure for a penalty. eqs. (4.28), (4.15)"""
     try:
-        met = Encounter.of(mesh, mesh.facets(faces), tool.kernel(), material, "")
+        met = Encounter.of(mesh, mesh.face_set(faces), tool.kernel(), material, "")
     except InvalidPenalty:  # no estimate: assume the penalty of the default penetration
-        return penalty * ALLOWED * sheet_thickness(mesh)
+        return penalty * ALLOWED * sheet_thickness(mesh, mesh.face_set(faces))
     spacing = met.length if isinstance(points, str) else met.length / points
     length = max(contact_length(met.radius, met.line_force, penalty), spacing)
     return met.line_force / length

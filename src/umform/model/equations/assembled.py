@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,7 @@ from umform.model.contact.bead import Bead
 from umform.model.contact.contacts import Contacts
 from umform.model.contact.encounter import sheet_thickness
 from umform.model.contact.pair import Contact
+from umform.model.contact.sheets import SheetContact
 from umform.model.contact.tools import Tools
 from umform.model.equations.assembly import Assembly
 from umform.model.equations.whole import Whole
@@ -162,6 +163,26 @@ class Assembled:
         return [*self.contacts, *(term for term in self.others if isinstance(term, Bead))]
 
     @property
+    def sheet_contacts(self) -> list[SheetContact]:
+        """Contacts of sheets with each other and with themselves."""
+        return [term for term in self.others if isinstance(term, SheetContact)]
+
+    @property
+    def penalised(self) -> list[Contact | SheetContact]:
+        """All contacts with a penalty that may grow: with tools, and of sheets."""
+        return [*self.contacts, *self.sheet_contacts]
+
+    @property
+    def multiplied(self) -> list[Contact | SheetContact]:
+        """Those of them with multipliers."""
+        return [contact for contact in self.penalised if contact.augmented]
+
+    @property
+    def touching(self) -> list[Any]:
+        """All terms with contact points: contacts with tools, beads, and contacts of sheets."""
+        return [*self.pairs_of_tools(), *self.sheet_contacts]
+
+    @property
     def unknowns(self) -> tuple[Global, ...]:
         """Scalar unknowns of all terms."""
         return tuple(unknown for term in [*self.tools, *self.others] for unknown in term.unknowns)
@@ -239,7 +260,7 @@ class Assembled:
     @property
     def smooth(self) -> bool:
         """Whether there is neither contact nor a law with a history."""
-        return self.elastic and not self.pairs_of_tools()
+        return self.elastic and not self.pairs_of_tools() and all(term.smooth for term in self.others)
 
     def largest_entry(self, values: Floats) -> float:
         """Size of the largest entry of the tangent."""

@@ -51,7 +51,11 @@ class Assembly:
         couplings = {term: tuple(term.couples()) for term in terms}
         wide = [part for term, parts in couplings.items() if not term.within_bodies for part in parts]
         pattern = _core.Pattern(equation, wide, symmetric=all(term.symmetric for term in terms))
-        self.scatters = {term: [pattern.scatter(part) for part in parts] for term, parts in couplings.items()}
+        self.scatters = {
+            term: [] if term.by_pattern else [pattern.scatter(part) for part in parts]
+            for term, parts in couplings.items()
+        }
+        self.whole_pattern = pattern
         detailed = Pattern(len(equations), pattern.indptr.astype(np.int32), pattern.indices, pattern.symmetric)
         self.entries = detailed.nnz
         self.pattern, self._reduction = detailed, None

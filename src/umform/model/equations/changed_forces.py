@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.model.contact.pair import Contact
+from umform.model.contact.sheets import SheetContact
 from umform.model.equations.assembled import Assembled
 from umform.model.equations.evaluation import Evaluation
 from umform.model.terms.term import At
@@ -15,7 +16,9 @@ from umform.model.terms.term import At
 Floats = NDArray[np.float64]
 
 
-def changed_residual(model: Assembled, evaluation: Evaluation, parts: Mapping[Contact, Floats]) -> Floats:
+def changed_residual(
+    model: Assembled, evaluation: Evaluation, parts: Mapping[Contact, Floats] | Mapping[Contact | SheetContact, Floats]
+) -> Floats:
     """Change of the residual due to nodal forces of contacts. eqs. (4.35), (4.39), (4.61)
 
     Parameters

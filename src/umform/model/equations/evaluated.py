@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from umform.errors import UmformError
 from umform.model.contact.pair import Contact
+from umform.model.contact.sheets import SheetContact
 from umform.model.equations.assembled import Assembled, Parts
 from umform.model.equations.evaluation import Evaluation, first_failure
 from umform.model.terms.control import Control
@@ -31,11 +32,13 @@ class Evaluated(Assembled):
     def __init__(self, parts: Parts) -> None:
         super().__init__(parts)
         self._evaluations = 0
+        #: Whether enhanced parameters were recovered since the last evaluation.
+        self.recovered = False
 
-    def too_deep(self, evaluation: Evaluation) -> dict[Contact, float]:
+    def too_deep(self, evaluation: Evaluation) -> dict[Contact | SheetContact, float]:
         """Contacts beyond their allowed penetration that may become stiffer, and their share of it. eq. (4.200)"""
-        shares = {}
-        for contact in self.contacts:
+        shares: dict[Contact | SheetContact, float] = {}
+        for contact in self.penalised:
             if contact.adapts and contact.penalty < contact.largest_penalty:
                 assert contact.allowed is not None
                 shares[contact] = contact.deepest(evaluation.found[contact], self.ranks) / contact.allowed
@@ -96,8 +99,11 @@ class Evaluated(Assembled):
             Whether tools hold all points that they hold in the converged state, whatever the gap. eq. (4.230)
         """
         state = state if isinstance(state, State) else self.state_at(state)
-        assembly, unknowns, dofs, x = self._assembly(), self.unknowns, self.u.size, state.x
+        unknowns, dofs, x = self.unknowns, self.u.size, state.x
         u, rates = x[:dofs], rates or {}
+        if [term for term in self.others if not term.covers(u)]:  # all of them are asked
+            self.now.restructured()
+        assembly = self._assembly()
         if rates or until is not None:
             du = self.supports.displacement(rates)
         scalars, step = dict(zip(unknowns, x[dofs:].tolist(), strict=True)), state.time - state.since
@@ -106,6 +112,7 @@ class Evaluated(Assembled):
         values = np.zeros(assembly.entries) if tangent else None
         border = Border.of(unknowns, dofs)
         into = Into(np.zeros(dofs), values, np.zeros(dofs), assembly.scatters, self._positions, self.ranks, border)
+        into = replace(into, pattern=assembly.whole_pattern)
         if not unknowns:
             self._evaluate_terms(self.terms, at, into)
         else:
@@ -136,6 +143,7 @@ class Evaluated(Assembled):
     def _evaluation(self, state: State, at: At, into: Into, values: Floats | None) -> Evaluation:
         """Sums of the contributions and results of the terms."""
         self._evaluations += 1
+        self.recovered = False
         self.timing.attempts.evaluations += 1
         k, found = len(into.border.unknowns), into.found
         scale = round_off = 0.0
@@ -193,6 +201,7 @@ class Evaluated(Assembled):
         """Rate of the forces of one term with controls, shape (3 n,)."""
         part, forces = np.zeros(at.u.size), np.zeros(at.u.size)
         scratch = Into(forces, None, part, into.scatters, into.positions, into.ranks, into.border)
+        scratch = replace(scratch, pattern=into.pattern)
         term.evaluate(At(at.u, at.time, at.values, at.step, along, rates, scalars=at.scalars), scratch)
         return part
 
@@ -212,6 +221,7 @@ class Evaluated(Assembled):
         With ``mixed`` the tangent of the next evaluation has the geometric stiffness of the stress that ``du`` predicts
         instead of the present one. eq. (5.39)
         """
+        self.recovered = True
         with self.timing.recovery:
             for term in self.terms:
                 term.recover(du[: self.u.size], mixed)

@@ -149,6 +149,8 @@ class Into:
     moved : dict of (Term, Global) to ndarray, shape (3 n,)
         Rate of the forces of a term with a scalar unknown that moves it; with None as key, with the rates of the
         controls.
+    pattern : umform._core.Pattern
+        Pattern of ``values``, for terms without scatter maps.
     """
 
     residual: Floats
@@ -160,6 +162,7 @@ class Into:
     border: Border
     found: dict[Any, Any] = field(default_factory=dict)
     moved: dict[tuple[Any, Global | None], Floats] = field(default_factory=dict)
+    pattern: Any = None
 
     def add(self, term: Any, connectivity: Ids, forces: Floats, tangents: Floats | None, at: At, kind: int = 0) -> None:
         """Add the forces and tangents of the parts of a term written in Python.

@@ -109,6 +109,10 @@ class Term(Frozen):
         Part of the timing to which its evaluation counts.
     within_bodies : bool
         Whether it couples only degrees of freedom that bodies already couple.
+    by_pattern : bool
+        Whether it adds its tangent by the pattern itself, because its couplings change; else by scatter maps.
+    smooth : bool
+        Whether its forces are a smooth function of the displacement.
     unknowns : tuple of Global
         Scalar unknowns that it adds.
     elsewhere : bool
@@ -127,12 +131,17 @@ class Term(Frozen):
     symmetric: bool = True
     timed_as: str = "elements"
     within_bodies: bool = False
+    by_pattern: bool = False
+    smooth: bool = True
     unknowns: tuple[Global, ...] = ()
     elsewhere: bool = False
     rows: NDArray[np.int64] | None = None
     nodal: tuple[str, ...] = ()
     before: Floats = np.empty(0)
     memory: tuple[str, ...] = ("elsewhere", "rows")
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.name!r})"
 
     @property
     def key(self) -> str:
@@ -146,6 +155,10 @@ class Term(Frozen):
     def couples(self) -> Sequence[_core.Connectivity]:
         """Nodes that its tangent couples: one connectivity for each kind of its parts."""
         return ()
+
+    def covers(self, u: Floats) -> bool:
+        """Whether :meth:`couples` has all that the tangent at a displacement couples; else it is asked again."""
+        return True
 
     def evaluate(self, at: At, into: Into) -> Found:
         """Add residual and tangent; changes no converged history."""

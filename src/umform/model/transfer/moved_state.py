@@ -113,7 +113,7 @@ def _settle(model: Model, made: FittedMesh) -> None:
     alpha = [body.block.alpha for body in model.bodies]
     zero = np.zeros_like(model.u)
     for _ in range(_CORRECTIONS):
-        if model.evaluate(model.u).failed >= 0:
+        if model.system.evaluate(model.u).failed >= 0:
             raise MeshError("the state of the sheet cannot be carried by elements that end on the line")
         change = 0.0
         for k, body in enumerate(model.bodies):

@@ -15,6 +15,7 @@ from umform.mesh.part import MeshPart
 from umform.model.bodies.body import Body
 from umform.model.contact import Contact
 from umform.model.contact.kept import KeptContact
+from umform.model.contact.sheets import SheetContact
 from umform.model.model import Model
 from umform.model.terms.state import Snapshot
 from umform.model.terms.term import Energies, Found
@@ -132,12 +133,12 @@ class ModelPart:
             f"cut off had the elastic energy {lost.elastic:.4g} and the plastic work {lost.plastic:.4g}"
         )
 
-    def keep_friction(self, contact: Contact, before: str = "") -> int:
-        """Let a tool that stays through the cut keep the friction of its points.
+    def keep_friction(self, contact: Contact | SheetContact, before: str = "") -> int:
+        """Let a tool, or sheets that touch, keep the friction of their points through the cut.
 
         Elements that stay keep the tractions, the anchors of sticking points, and the distances slid of their points;
-        those that were fitted to the line begin without. A penalty that has grown stays. The tool must stand where it
-        stood.
+        those that were fitted to the line begin without, and so do points of a sheet whose facet of the other sheet is
+        gone. A penalty that has grown stays. The tool must stand where it stood.
 
         Parameters
         ----------
@@ -164,7 +165,7 @@ class ModelPart:
                 value=name,
                 remedy="one of " + (", ".join(self.contacts) or "none: the stage before had no friction"),
             )
-        self.model.evaluate(self.model.system.x)
+        self.model.system.evaluate(self.model.system.x)
         contact.begin()
         return self.contacts[name].put(contact)
 
@@ -194,11 +195,7 @@ def _model(whole: Model, mesh: Mesh, parents: Numbers, u: Floats) -> Model:
 
 def _contacts(whole: Model, parents: Numbers, same: NDArray[np.bool_]) -> dict[str, KeptContact]:
     """Histories of the contacts with friction."""
-    return {
-        pair.name: KeptContact.of(pair).left(parents, same)
-        for pair in whole.system.pairs_of_tools()
-        if pair.has_friction
-    }
+    return {pair.name: KeptContact.of(pair).left(parents, same) for pair in whole.system.touching if pair.has_friction}
 
 
 def _removed(whole: Model, model: Model) -> Energies:

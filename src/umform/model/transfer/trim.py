@@ -17,7 +17,7 @@ from umform.errors import EmptySet, InvalidValue, MeshError
 from umform.mesh import Mesh
 from umform.mesh.fitted.layer import fitted_layer
 from umform.mesh.fitted.sheet import Sheet
-from umform.mesh.part import joined_by_faces, part_of_mesh, stacks
+from umform.mesh.part import joined_by_faces, part_of_mesh, sheets_of, stacks
 from umform.model.model import Model
 from umform.model.transfer.moved_state import refuse_unknown
 from umform.model.transfer.part import ModelPart
@@ -129,13 +129,15 @@ class Trim:
         self._refuse(kept, sheet)
         part = part_of_mesh(mesh, kept)
         dropped = 0
-        if part.pieces == 1:
-            hanging = _hanging(mesh, kept)
+        number = sheets_of(mesh)
+        sheets = len(np.unique(number[kept]))
+        if part.pieces == sheets:
+            hanging = np.concatenate([_hanging(mesh, kept & (number == one)) for one in np.unique(number[kept])])
             dropped = len(hanging)
             if dropped:
                 kept[hanging] = False
                 part = part_of_mesh(mesh, kept)
-        if part.pieces > 1:
+        if part.pieces > sheets:
             raise MeshError(
                 "the line leaves the part in pieces that hang together nowhere",
                 where="Trim",
@@ -146,6 +148,8 @@ class Trim:
         edge = float(np.abs(self._met(sheet[part.nodes[part.mesh.nodes("cut")]])[0]).max())
         if self.edge == "elements" or edge <= _ON * float(np.ptp(sheet, axis=0).max()):
             return ModelPart.of(model, part, edge, dropped)
+        if number.any():
+            return ModelPart.of(model, part, edge, dropped, "there are several sheets")
         try:
             return self._fitted(model, sheet, kept, dropped)
         except MeshError as error:

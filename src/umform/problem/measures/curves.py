@@ -29,7 +29,7 @@ _AROUND = 40.0
 _Three = tuple[Positive, Positive, Positive]
 
 
-class _Cut(MeasurePart):
+class Cut(MeasurePart):
     """Plane of a section in the undeformed sheet."""
 
     point: Vector | None = None
@@ -54,7 +54,7 @@ class _Cut(MeasurePart):
         return {name: self._cut(part.model, u) for name, u in part.states.items()}
 
 
-class SectionCurve(_Cut):
+class SectionCurve(Cut):
     """A section of the part in the tools and released."""
 
     kind: Literal["section"]
@@ -66,13 +66,13 @@ class SectionCurve(_Cut):
         if RELEASED in cuts:
             moved = np.linalg.norm(cuts[RELEASED].middle - cuts[FORMED].middle, axis=1)
             rows.append(in_states("largest displacement by the release", unit, released=float(moved.max())))
-        return Measured(rows, columns(cuts), partial(_section_picture, cuts, self.normal, unit), _CAPTION)
+        return Measured(rows, columns(cuts), partial(section_drawn, cuts, self.normal, unit), _CAPTION)
 
 
 _CAPTION = "Section of the part at the end of forming and, if it is released, out of the tools."
 
 
-class Springback(_Cut):
+class Springback(Cut):
     """Angles and side-wall radius of a hat section as NUMISHEET 93 defines them."""
 
     kind: Literal["springback"]
@@ -104,7 +104,7 @@ class Springback(_Cut):
         rows = [row for side, states in found.items() for row in _angle_rows(states, side, part.units.length)]
         first = next(iter(found.values()))[part.last]
         title = f"{first} {part.units.length}".rstrip()
-        draw = partial(_section_picture, cuts, self.normal, part.units.length, np.array(wall), title)
+        draw = partial(section_drawn, cuts, self.normal, part.units.length, np.array(wall), title=title)
         caption = f"{_CAPTION} Heights of the points of the wall: {', '.join(f'{h:g}' for h in self.heights)}."
         return Measured(rows, columns(cuts), draw, caption)
 
@@ -179,7 +179,7 @@ class Ears(MeasurePart):
         profiles = {state: ear_profile(mesh, u, ids) for state, u in part.states.items()}
         numbers = {state: one.heights() | one.waves() for state, one in profiles.items()}
         rows = [in_states(what, unit, **{s: row[what] for s, row in numbers.items()}) for what in numbers[part.last]]
-        if getattr(part.model.bodies.only.material, "directional", False):
+        if any(getattr(body.material, "directional", False) for body in part.model.bodies):
             rows.append(in_states(NUMBER_OF_EARS, "", **{s: float(len(one.ears())) for s, one in profiles.items()}))
         last = profiles[part.last]
         curve, draw = {"angle": last.angle, "height": last.height}, partial(ears_picture, last, unit)
@@ -191,12 +191,13 @@ def _at(place: Floats) -> str:
     return f"({x:.4g}, {y:.4g})"
 
 
-def _section_picture(
-    cuts: dict[str, Section], normal: Vector, unit: str, points: Floats | None = None, title: str = ""
+def section_drawn(
+    cuts: dict[str, Section], normal: Vector, unit: str, points: Floats | None = None, **words: str
 ) -> Any:
+    """Picture of a section in its states, with measured points and words of :func:`section_picture`."""
     from umform.report.part_pictures import section_picture
 
-    return section_picture(cuts, horizontal(normal), unit, points=points, title=title)
+    return section_picture(cuts, horizontal(normal), unit, points=points, **words)
 
 
 def _angle_rows(states: dict[str, UBendAngles], side: str, unit: str) -> list[Row]:

@@ -16,14 +16,26 @@ if TYPE_CHECKING:
     from umform.processes.air_bending.measures import Measures
     from umform.processes.air_bending.search import Found, angle_table, bending_table, find_stroke
     from umform.processes.air_bending.spec import AirBending
+    from umform.processes.air_bending.stack import StackedSheet
 
-__all__ = ["AirBend", "AirBending", "Found", "Measures", "air_bending", "angle_table", "bending_table", "find_stroke"]
+__all__ = [
+    "AirBend",
+    "AirBending",
+    "Found",
+    "Measures",
+    "StackedSheet",
+    "air_bending",
+    "angle_table",
+    "bending_table",
+    "find_stroke",
+]
 
 _HOME = {
     "AirBend": "bend",
     "AirBending": "spec",
     "Found": "search",
     "Measures": "measures",
+    "StackedSheet": "stack",
     "air_bending": "case",
     "angle_table": "search",
     "bending_table": "search",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
@@ -11,19 +11,24 @@ from numpy.typing import NDArray
 
 from umform.analysis.run import Result
 from umform.processes.air_bending.brake import force_per_width, loading
-from umform.processes.air_bending.changes import Budget
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.measures import Measures, measure
-from umform.processes.air_bending.remarks import remarks, tools_text, total_force
+from umform.processes.air_bending.remarks import STROKES, depth_text, of_this_mesh, remarks, tools_text, total_force
 from umform.processes.air_bending.section import Section
+from umform.processes.air_bending.sheet import studied_mesh
 from umform.processes.air_bending.spec import AirBending
+from umform.processes.air_bending.stack import of_sheet
+from umform.processes.air_bending.stacked import SheetOfStack, quantities_of_stack, stack_of, table_of_stack
+from umform.results.budget import Budget
 from umform.results.outcome import Outcome
-from umform.results.quantity import Quantity, in_rows, quantities_of
+from umform.results.quantity import FORCE_PER_LENGTH, GIVEN, Band, Quantity, in_rows, quantities_of
+from umform.results.studies import StudiedMesh
 from umform.sheet_metals import sheet_text
 
 Floats = NDArray[np.float64]
 #: Penetration, relative to the thickness, that is reported.
 _DEEP = 0.02
+_STROKE = "of the stroke for the angle: that of the angle over its change with the stroke"
 #: Columns of a bending table.
 _TABLE = ("stroke", "loaded_angle", "angle", "springback", "force", "radius", "k_factor", "bend_deduction")
 
@@ -35,7 +40,7 @@ class Loaded:
     Attributes
     ----------
     stroke, force, largest_force : float
-        Stroke of the punch in mm, its force per length of bend in N/mm, and the largest force so far.
+        Stroke of the punch in mm, its force per length of bend in kN/m, and the largest force so far.
     section : Section
         The bent section.
     against : str
@@ -53,9 +58,9 @@ class Loaded:
         """Angle between the legs in degrees."""
         return self.section.angle
 
-    def measured(self, released: Section) -> Measures:
-        """Measures with the section after unloading."""
-        return measure(self.stroke, self.force, self.largest_force, self.section, released)
+    def measured(self, released: Section, height: float) -> Measures:
+        """Measures with the section after unloading, of sheets that are so thick together."""
+        return measure(self.stroke, self.force, self.largest_force, self.section, released, height)
 
 
 @dataclass(frozen=True, repr=False)
@@ -71,7 +76,7 @@ class AirBend(Outcome):
     step : ndarray of int, shape (n,)
         1 loading, 2 unloading; 0 the start.
     stroke, force : ndarray, shape (n,)
-        Stroke of the punch in mm and its force per length of bend in N/mm, all converged increments.
+        Stroke of the punch in mm and its force per length of bend in kN/m, all converged increments.
     loaded, released : Section
         The section under load and after unloading.
     path : ndarray, shape (m, 2)
@@ -86,6 +91,10 @@ class AirBend(Outcome):
         Error budget, if it was asked for.
     bend_length : float, optional
         Length of the bend in mm for the total force; the model does not know it.
+    searched : bool
+        Whether the stroke was found for an angle, not given.
+    stack : tuple of SheetOfStack
+        Each of several sheets, from the die upwards; measures and sections are those of the first.
     """
 
     case: AirBending
@@ -101,6 +110,8 @@ class AirBend(Outcome):
     table: tuple[Measures, ...] = ()
     budget: Budget | None = None
     bend_length: float | None = None
+    searched: bool = False
+    stack: tuple[SheetOfStack, ...] = ()
 
     @classmethod
     def of(cls, case: AirBending, result: Result, loaded: Loaded, measures: Measures) -> Self:
@@ -109,7 +120,8 @@ class AirBend(Outcome):
         step = np.where(number > len(loading(case, loaded.stroke)), 2, np.minimum(number, 1))
         stroke, model = result["stroke"], result.model
         under_load = [frame for frame in result.frames if step[frame.number] < 2]
-        sections = Section.each(model.mesh, (frame.points["displacement"] for frame in under_load))
+        edge = of_sheet(case, "y0")
+        sections = Section.each(model.mesh, (frame.points["displacement"] for frame in under_load), edge)
         angles = [section.angle for section in sections]
         return cls(
             case=case,
@@ -118,10 +130,11 @@ class AirBend(Outcome):
             stroke=stroke,
             force=force_per_width(case, result["stroke_force"]),
             loaded=loaded.section,
-            released=Section.of(model.mesh, model.u),
+            released=Section.of(model.mesh, model.u, edge),
             path=np.array([[stroke[frame.number], angle] for frame, angle in zip(under_load, angles, strict=True)]),
             against=loaded.against,
             result=result,
+            stack=stack_of(case, result, under_load[-1].points["displacement"]) if case.on_top else (),
         )
 
     @property
@@ -134,8 +147,9 @@ class AirBend(Outcome):
     def title(self) -> str:
         """Heading of tables and pages."""
         case = self.case
-        sheet = sheet_text(case.material, case.thickness)
-        return f"Air bending: {sheet}, {case.opening:g} mm opening, {self['angle'].full_text}"
+        sheet = " + ".join(sheet_text(one.material, one.thickness) for one in case.sheets)
+        long = "" if self.bend_length is None else f", {self.bend_length:g} mm long"
+        return f"Air bending: {sheet}{long}, {case.opening:g} mm opening, {self['angle'].full_text}"
 
     @property
     def quantities(self) -> list[Quantity]:
@@ -145,7 +159,25 @@ class AirBend(Outcome):
             wide = self.bend_length is None
             label, name = ("force on the width", "force_on_width") if wide else ("total force", "total_force")
             found.insert(3, Quantity(label, "kN", 2, name=name, value=self.total_force / 1e3, leading=True))
-        return found
+        found = self._with_strokes(self.banded(found))
+        return of_this_mesh(self.case, [*found, *quantities_of_stack(self.stack)])
+
+    def _with_strokes(self, found: list[Quantity]) -> list[Quantity]:
+        """The same with the error of a stroke found for an angle: that of the angle over its change with the stroke."""
+        if not self.searched:
+            given = self.case.stroke is not None
+            return [replace(one, band=GIVEN) if given and one.name in STROKES else one for one in found]
+        angle = next(one for one in found if one.name == "angle").band
+        way, turned = np.diff(self.path[-2:], axis=0)[0] if len(self.path) > 1 else (0.0, 0.0)
+        if angle is None or not way > 0.0 or not turned < 0.0:
+            return found
+        band = Band(-angle.error * way / turned, _STROKE)
+        return [replace(one, band=band) if one.name in STROKES and not one.band else one for one in found]
+
+    @property
+    def studied(self) -> StudiedMesh | None:
+        """Mesh beside those of the studies, which have one sheet and no bottoming."""
+        return None if self.case.bottoming or self.stack else studied_mesh(self.case, self.measures.outer_strain)
 
     @property
     def main(self) -> list[str]:
@@ -157,15 +189,17 @@ class AirBend(Outcome):
         """The measures, and the bending table."""
         found = [{one.name: one for one in quantities_of(row)} for row in self.table]
         rows = in_rows([[row[name] for name in _TABLE] for row in found])
-        return super().tables | ({"Bending table": rows} if rows else {})
+        sheets = table_of_stack(self.stack)
+        return super().tables | ({"Sheets": sheets} if sheets else {}) | ({"Bending table": rows} if rows else {})
 
     @property
     def notes(self) -> list[str]:
         """Tools, force by the rule of the shop, remarks."""
         low, high = shop_forces(self.case)
-        rule = f"the rule of the shop, 1.33 to 1.42 Rm t²/V, gives {low:.1f} to {high:.1f} N/mm"
+        rule = f"the rule of the shop, 1.33 to 1.42 Rm t²/V, gives {low:.1f} to {high:.1f} {FORCE_PER_LENGTH}"
         total = [] if self.bend_length is None else [total_force(self.measures.largest_force, self.bend_length)]
-        return [tools_text(self.case), rule, *remarks(self.case, self.measures), *total]
+        depth = depth_text(self.measures.below_die)
+        return [depth, tools_text(self.case), rule, *remarks(self.case, self.measures), *total]
 
     @property
     def stages(self) -> dict[str, Result]:

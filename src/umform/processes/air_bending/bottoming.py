@@ -36,7 +36,7 @@ def press_to_force(
     case : AirBending
         The parameters, with ``bottoming=True``; the stroke is not used.
     force_per_metre : float
-        Force of the punch in kN/m, which equals N/mm.
+        Force of the punch in kN/m.
     tolerance : float
         Largest relative deviation of the force.
     frames : int
@@ -94,7 +94,7 @@ def _bracket(brake: Brake, force: float, tick: Tick) -> tuple[tuple[float, float
                 "the force is that of air bending: the sheet does not lie on the flanks yet",
                 where="force_per_metre",
                 value=force,
-                cause=f"in the air the sheet needs up to {in_the_air:.4g} N for each mm",
+                cause=f"in the air the sheet needs up to {in_the_air:.4g} kN/m",
                 remedy="3 to 5 times that force, or a wider opening",
             )
         forces, strokes = brake.forces(), brake.run.result["stroke"]
@@ -106,7 +106,7 @@ def _bracket(brake: Brake, force: float, tick: Tick) -> tuple[tuple[float, float
                 "the force squeezes the sheet by more than half of its thickness",
                 where="force_per_metre",
                 value=force,
-                cause=f"half a thickness beyond the bottom the force is {state.force:.4g} N for each mm",
+                cause=f"half a thickness beyond the bottom the force is {state.force:.4g} kN/m",
                 remedy="a smaller force",
             )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,7 +61,7 @@ def unloading(case: AirBending, punch: Control) -> Release:
     return Release(punch, **unloading_keys(case))
 
 
-def unloading_keys(case: AirBending) -> dict[str, float]:
+def unloading_keys(case: AirBending) -> dict[str, Any]:
     """First increment and tolerance of unloading."""
     return {"increment": _FIRST_BACK * case.thickness, "tolerance": _ZERO_FORCE}
 

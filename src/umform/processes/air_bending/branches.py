@@ -25,6 +25,7 @@ from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.problem import build
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.spec import AirBending
+from umform.processes.air_bending.stack import of_sheet
 from umform.progress import Tick, silent
 
 Floats = NDArray[np.float64]
@@ -65,11 +66,11 @@ class Brake:
         return build(self.case)
 
     def section(self) -> Section:
-        """Section of the sheet as it is now."""
-        return Section.of(self.model.mesh, self.model.u)
+        """Section of the first sheet as it is now."""
+        return Section.of(self.model.mesh, self.model.u, of_sheet(self.case, "y0"))
 
     def forces(self) -> Floats:
-        """Force of the punch in N for each mm of the bend, all increments up to now."""
+        """Force of the punch per length of bend in kN/m, all increments up to now."""
         return force_per_width(self.case, self.run.result["stroke_force"])
 
     def load(self, stroke: float, tick: Tick = silent) -> Loaded:
@@ -112,7 +113,7 @@ class Brake:
         assert self._loaded is not None
         self._done = None
         self.run.take(unloading(self.case, self.punch))
-        return self._loaded.measured(self.section())
+        return self._loaded.measured(self.section(), self.case.height)
 
     def bend(self, stroke: float, tick: Tick = silent) -> AirBend:
         """Load to a stroke and unload; the run ends there."""

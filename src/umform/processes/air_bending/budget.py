@@ -9,16 +9,20 @@ from typing import Any
 from umform.elements import element
 from umform.pool import run_all
 from umform.processes.air_bending.branches import Brake
-from umform.processes.air_bending.changes import Budget
 from umform.processes.air_bending.goal import needed_stroke
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.problem import touching
 from umform.processes.air_bending.spec import AirBending
 from umform.progress import progress_bar
+from umform.results.budget import Budget
 from umform.spec import parameters
 
 #: Element of the reference stack for the layers, and its points through the thickness of each element.
 _STACK, _STACK_POINTS = element("EAS3DEAS", thickness_order=2, tie_E33=True), 4
+_RUNS = (
+    "refinements beside it: mesh, layers, points, penalty and increments. In the column stack, the sheet is eight "
+    "layers of 8-node elements"
+)
 
 
 def refinements(case: AirBending) -> dict[str, AirBending]:
@@ -117,7 +121,7 @@ def error_budget(
         }
         for name, answer in zip(cases, answers, strict=True)
     }
-    return Budget(changes, {n: a for n, a in zip(cases, answers, strict=True) if isinstance(a, str)})
+    return Budget(changes, {n: a for n, a in zip(cases, answers, strict=True) if isinstance(a, str)}, _RUNS)
 
 
 def _run(case: AirBending) -> Measures | str:

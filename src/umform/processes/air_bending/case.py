@@ -43,6 +43,14 @@ def air_bending(
         If the case has no stroke.
     NoConvergence
         If it does not converge; the attribute ``result`` holds the run up to the failure.
+
+    Examples
+    --------
+    >>> from umform.processes.air_bending import AirBending, air_bending
+    >>> bend = air_bending(AirBending(stroke=2.0, elements_per_thickness=1, layers=1, increment=0.05))  # a coarse mesh
+    >>> bend.measures.springback > 0.5
+    True
+    >>> bend.write("bend")  # doctest: +SKIP
     """
     stroke = needed_stroke(case)
     with progress_bar(progress) as tick:

@@ -19,9 +19,11 @@ from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.problem import problem_of
 from umform.processes.air_bending.remarks import coarse_mesh
 from umform.processes.air_bending.spec import AirBending
+from umform.processes.air_bending.stack import StackedSheet
+from umform.processes.air_bending.stacked import of_stack
 from umform.report.versions import versions
 from umform.results.outcome import QUANTITIES
-from umform.results.quantity import columns, quantities_of, values
+from umform.results.quantity import FORCE_PER_LENGTH, columns, quantities_of, values
 
 _DATA = ("curve.csv", "table.csv", QUANTITIES, "bend.json", "bend.vtkhdf", "bend.toml")
 _PAGE = ("curve.png", "curve.svg", "shape.png", "shape.svg", "drawing.png", "drawing.svg", "report.html")
@@ -58,7 +60,9 @@ def write_files(out: str | Path, bend: AirBend, note: str = "") -> list[Path]:
 
     with staging(out, FILES) as stage:
         here = stage.waiting
-        write_csv(here / "curve.csv", {"step": bend.step, "stroke mm": bend.stroke, "force N/mm": bend.force})
+        write_csv(
+            here / "curve.csv", {"step": bend.step, "stroke mm": bend.stroke, f"force {FORCE_PER_LENGTH}": bend.force}
+        )
         if bend.table:
             write_table(here / "table.csv", bend.table)
         bend.write(here)
@@ -90,6 +94,7 @@ def record(bend: AirBend) -> dict[str, Any]:
         **bend.record(),
         "parameters": parameters(bend.case),
         "measures": bend.values,
+        "bend_length": bend.bend_length,
         "total_force": bend.total_force,
         "shop_forces": shop_forces(bend.case),
         "tensile_strength": strength(bend.case),
@@ -97,6 +102,10 @@ def record(bend: AirBend) -> dict[str, Any]:
         "penetration": bend.penetration,
         "coarse_mesh": coarse_mesh(bend.case),
         "versions": versions(),
+        "sheets": [
+            {**_of_sheet(one), **values(numbers)}
+            for one, numbers in zip(bend.case.sheets, [of_stack(n, s) for n, s in enumerate(bend.stack)], strict=False)
+        ],
         "table": [values(quantities_of(row)) for row in bend.table],
     }
     if budget:
@@ -110,8 +119,18 @@ def _told(numbers: Mapping[str, float]) -> dict[str, float | None]:
     return {name: None if math.isnan(number) else number for name, number in numbers.items()}
 
 
+def _of_sheet(sheet: StackedSheet) -> dict[str, Any]:
+    return {"thickness": sheet.thickness, "material": full_text(sheet.material), "friction": sheet.friction}
+
+
 def parameters(case: AirBending) -> dict[str, Any]:
     """Parameters as JSON data; the material as text."""
     words = {"element": element(case.element).name, "material": full_text(case.material)}
     drawn = {"punch_section": case.punch_section, "die_section": case.die_section}
-    return case.record() | words | {name: None if tool is None else tool.words for name, tool in drawn.items()}
+    on_top = [_of_sheet(sheet) for sheet in case.on_top]
+    return (
+        case.record()
+        | {"on_top": on_top}
+        | words
+        | {name: None if tool is None else tool.words for name, tool in drawn.items()}
+    )

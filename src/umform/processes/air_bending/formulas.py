@@ -50,12 +50,15 @@ def _most(material: J2) -> tuple[float, float]:
     return float(strains[at]), float(nominal[at])
 
 
-def strength(case: AirBending) -> float:
-    """Tensile strength of a bar across the bend line."""
-    return tensile_strength(case.material, 0.0 if case.rolling is None else 90.0 - case.rolling)
+def strength(case: AirBending, material: J2 | Metal | None = None) -> float:
+    """Tensile strength of a bar across the bend line, of the first sheet or of another metal."""
+    return tensile_strength(material or case.material, 0.0 if case.rolling is None else 90.0 - case.rolling)
 
 
 def shop_forces(case: AirBending) -> tuple[float, float]:
-    """Largest force of air bending by the workshop formula F = 1.33 ... 1.42 Rm t² / V in N/mm, V the opening."""
-    base = strength(case) * case.thickness**2 / case.opening
+    """Largest force of air bending by the workshop formula F = 1.33 ... 1.42 Rm t² / V in kN/m, V the opening.
+
+    That of several sheets is the sum, without friction between them.
+    """
+    base = sum(strength(case, sheet.material) * sheet.thickness**2 for sheet in case.sheets) / case.opening
     return FORCE_FACTORS[0] * base, FORCE_FACTORS[1] * base

@@ -9,7 +9,7 @@ from typing import Annotated
 import numpy as np
 
 from umform.processes.air_bending.section import Floats, Section
-from umform.results.quantity import Quantity
+from umform.results.quantity import FORCE_PER_LENGTH, Quantity
 
 
 @dataclass(frozen=True)
@@ -23,9 +23,11 @@ class Measures:
     """Travel of the punch from first contact with the sheet."""
     below_die: Annotated[float, Quantity("punch below the top of the die", "mm", 3, hint="for the machine")]
     """Depth of the tip of the punch below the top of the die at the stroke: the stroke less the thickness."""
-    force: Annotated[float, Quantity("force at the stroke", "N/mm", 1)]
+    force: Annotated[float, Quantity("force at the stroke", FORCE_PER_LENGTH, 1)]
     """Force of the punch per length of bend at the stroke."""
-    largest_force: Annotated[float, Quantity("largest force", "N/mm", 1, hint="choose the press by it", leading=True)]
+    largest_force: Annotated[
+        float, Quantity("largest force", FORCE_PER_LENGTH, 1, hint="choose the press by it", leading=True)
+    ]
     """The largest force up to there."""
     loaded_angle: Annotated[float, Quantity("angle under load", "degrees", 2)]
     """Angle between the legs under load."""
@@ -73,7 +75,9 @@ _OF_BENDS = (
 )
 
 
-def measure(stroke: float, force: float, largest_force: float, loaded: Section, section: Section) -> Measures:
+def measure(
+    stroke: float, force: float, largest_force: float, loaded: Section, section: Section, height: float | None = None
+) -> Measures:
     """Measures of a bend.
 
     Parameters
@@ -84,10 +88,12 @@ def measure(stroke: float, force: float, largest_force: float, loaded: Section, 
         Section under load.
     section : Section
         Section after unloading.
+    height : float, optional
+        Thickness of all sheets that are bent at once; default: that of the section.
     """
     return Measures(
         stroke=stroke,
-        below_die=stroke - loaded.thickness,
+        below_die=stroke - (loaded.thickness if height is None else height),
         force=force,
         largest_force=largest_force,
         loaded_angle=loaded.angle,

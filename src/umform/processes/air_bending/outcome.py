@@ -10,6 +10,7 @@ from umform.processes.air_bending.brake import against_flank, force_per_width, l
 from umform.processes.air_bending.goal import needed_stroke
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.spec import AirBending
+from umform.processes.air_bending.stack import of_sheet
 
 
 def outcome_of(case: AirBending, result: Result) -> AirBend:
@@ -19,7 +20,8 @@ def outcome_of(case: AirBending, result: Result) -> AirBend:
     under_load = [frame for frame in result.frames if result.rows[frame.number]["step"] <= last]
     end, mesh = under_load[-1], result.model.mesh
     forces = force_per_width(case, result["stroke_force"])[: end.number + 1]
-    (section,) = Section.each(mesh, [end.points["displacement"]])
+    edge = of_sheet(case, "y0")
+    section = Section.of(mesh, end.points["displacement"], edge)
     against = against_flank(case, end.contacts)
     loaded = Loaded(stroke, float(forces[-1]), float(np.max(forces)), section, against)
-    return AirBend.of(case, result, loaded, loaded.measured(Section.of(mesh, result.model.u)))
+    return AirBend.of(case, result, loaded, loaded.measured(Section.of(mesh, result.model.u, edge), case.height))

@@ -12,12 +12,13 @@ from umform.processes.air_bending.bend import AirBend
 from umform.processes.air_bending.spec import AirBending
 from umform.report import parts
 from umform.report.live import Live, style
+from umform.report.looks import MILLIMETRES
 from umform.report.materials import material_text
 from umform.report.page import outcome_parts
-from umform.report.words import column_text
+from umform.results.quantity import FORCE_PER_LENGTH
 
 #: Column of the chart: the force of the table of measures.
-_FORCE = "force_per_mm"
+_FORCE = f"force {FORCE_PER_LENGTH}"
 
 
 def write_page(path: Path, bend: AirBend, figures: Mapping[str, Figure], deck: str = "", note: str = "") -> Path:
@@ -37,8 +38,8 @@ def write_page(path: Path, bend: AirBend, figures: Mapping[str, Figure], deck: s
         Where the material comes from; may be empty.
     """
     kind = "plane strain" if bend.case.width is None else f"{bend.case.width:g} mm wide"
-    lead = f"{kind}; {bend.iterations} Newton iterations in {bend.seconds:.1f} s"
-    live = Live.of(bend.result, stills=False, more={_FORCE: bend.force}, first=("stroke", _FORCE))
+    lead = f"{kind}; computed in {bend.seconds:.1f} s"
+    live = Live.of(bend.result, stills=False, more={_FORCE: bend.force}, first=("stroke", _FORCE), units=MILLIMETRES)
     given = parameters(bend.case)
     content = outcome_parts(bend, live.shape, _parts(live, figures, deck), given, note)
     return parts.write_html(path, bend.title, lead, content, style=style(), scripts=live.scripts)
@@ -55,8 +56,8 @@ def _parts(live: Live, figures: Mapping[str, Figure], deck: str) -> Iterator[str
     yield parts.heading("Curves")
     yield parts.figure(figures["curve"], "Force and angle over the stroke.")
     about = (
-        f"{column_text(_FORCE)}: force of the punch in N per mm of bend, that of the table of measures. Other forces "
-        "are those of the modelled part of the sheet."
+        f"{_FORCE}: force of the punch per length of bend, that of the measures. "
+        "Other forces are those of the computed part of the sheet."
     )
     yield parts.section("History", [live.curves, parts.paragraph(about), live.table])
     if deck:

@@ -12,12 +12,14 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from umform.model.equations.frame import Frame
-from umform.plotting import COLOURS, Picture, house_style
+from umform.plotting import COLOUR_MAP, COLOURS, Picture, house_style
 from umform.processes.air_bending.bend import AirBend
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.spec import AirBending
+from umform.report.part_pictures import shade
+from umform.results.quantity import FORCE_PER_LENGTH
 
 Floats = NDArray[np.float64]
 
@@ -43,17 +45,19 @@ def curves(bend: AirBend, table: Sequence[Measures] = ()) -> Figure:
 def shapes(bend: AirBend) -> Figure:
     """The sheet and its tools under load, and after unloading, coloured by the plastic strain."""
     last = max(n for n, frame in enumerate(bend.result.frames) if bend.step[frame.number] < 2)
+    each = bend.stack or (bend,)
     states = [
-        (f"under load: {bend['loaded_angle'].full_text}", bend.loaded, bend.result.frames[last]),
-        (f"released: {bend['angle'].full_text}", bend.released, bend.result.frames[-1]),
+        (f"under load: {bend['loaded_angle'].full_text}", [one.loaded for one in each], bend.result.frames[last]),
+        (f"released: {bend['angle'].full_text}", [one.released for one in each], bend.result.frames[-1]),
     ]
     largest = max(float(frame.cells[_FIELD].max()) for _, _, frame in states)
     with house_style():
         figure = Picture(figsize=(9.0, 4.2))
         grid = figure.subplots(1, 2, sharex=True, sharey=True, gridspec_kw=_SHAPES)
-        for axes, (title, section, frame) in zip(grid, states, strict=True):
-            drawn = _draw_sheet(axes, bend, section, frame)
-            drawn.set_clim(0.0, largest)
+        for axes, (title, sections, frame) in zip(grid, states, strict=True):
+            for number, section in enumerate(sections):
+                drawn = _draw_sheet(axes, bend, section, frame, number)
+                drawn.set_clim(0.0, largest)
             _draw_tools(axes, bend.case, bend.stroke[frame.number])
             axes.set_title(title)
             _frame(axes, bend)
@@ -68,9 +72,11 @@ def _draw_force(axes: Axes, bend: AirBend) -> None:
     axes.plot(bend.stroke[down], bend.force[down], color=_BLUE, label="loading")
     back = np.flatnonzero(down)[-1]
     axes.plot(bend.stroke[back:], bend.force[back:], color=_VERMILION, label="unloading")
+    error = bend["largest_force"].relative_error * np.abs(bend.force[down])
+    shade(axes, bend.stroke[down], bend.force[down], error, _BLUE)
     low, high = shop_forces(bend.case)
     axes.axhspan(low, high, color=_GREEN, alpha=0.25, linewidth=0, label="rule of the shop, 1.33 to 1.42 Rm t²/V")
-    axes.set(xlabel="stroke in mm", ylabel="force in N for each mm of the bend", title="Force")
+    axes.set(xlabel="stroke in mm", ylabel=f"force in {FORCE_PER_LENGTH}", title="Force")
     axes.set_ylim(0.0, 1.35 * max(high, float(bend.force.max())))
     axes.legend(loc="upper left")
 
@@ -84,17 +90,17 @@ def _draw_angle(axes: Axes, bend: AirBend, table: Sequence[Measures]) -> None:
     axes.legend(loc="upper right")  # free, as the angle falls: no search for a place
 
 
-def _draw_sheet(axes: Axes, bend: AirBend, section: Section, frame: Frame) -> PolyCollection:
-    """Elements of the middle of the sheet, and their mirror images."""
+def _draw_sheet(axes: Axes, bend: AirBend, section: Section, frame: Frame, number: int) -> PolyCollection:
+    """Elements of the middle of a sheet, counted from the die from 0, and their mirror images."""
     order, levels = section.order, section.current.shape[1] - 1
     elements = (len(section.current) - 1) // order
-    mesh = bend.result.model.mesh
-    values = frame.cells[_FIELD][: len(mesh.connectivity)].reshape(elements, -1, levels)[:, 0]
+    each = len(bend.result.model.mesh.connectivity) // len(bend.case.sheets)
+    values = frame.cells[_FIELD][number * each : (number + 1) * each].reshape(elements, -1, levels)[:, 0]
     lines = order * np.arange(elements)[:, None] + np.arange(order + 1)  # of each element
     x = section.current[lines]
     outlines = np.concatenate([x[:, :, :-1], x[:, ::-1, 1:]], axis=1).swapaxes(1, 2).reshape(-1, 2 * order + 2, 2)
     both: Any = np.concatenate([outlines, outlines * [-1.0, 1.0]])  # as a list it would take ten times as long
-    drawn = PolyCollection(both, edgecolors="face", linewidths=0.3, cmap="viridis", array=np.tile(values.ravel(), 2))
+    drawn = PolyCollection(both, edgecolors="face", linewidths=0.3, cmap=COLOUR_MAP, array=np.tile(values.ravel(), 2))
     axes.add_collection(drawn)
     return drawn
 
@@ -103,7 +109,7 @@ def _draw_tools(axes: Axes, case: AirBending, stroke: float) -> None:
     far = 4.0 * case.half_length
     die = case.die.profile.points(1e-3 * case.thickness, far)
     axes.fill(*np.concatenate([die, [[die[-1, 0], -far], [die[0, 0], -far]]]).T, zorder=0, **_TOOL)
-    punch = case.punch.profile.points(1e-3 * case.thickness, far) + np.array([0.0, case.thickness - stroke])
+    punch = case.punch.profile.points(1e-3 * case.thickness, far) + np.array([0.0, case.height - stroke])
     axes.fill(*punch.T, zorder=0, **_TOOL)
 
 
@@ -111,8 +117,6 @@ def _frame(axes: Axes, bend: AirBend) -> None:
     """Show the sheet and as much of the tools as lies about it, in true proportion."""
     across = 1.1 * float(bend.loaded.current[..., 0].max())
     bottom = min(-0.5 * bend.case.opening / np.tan(np.radians(0.5 * bend.case.die_angle)), -bend.measures.stroke)
-    axes.set(
-        xlim=(-across, across), ylim=(1.15 * bottom, float(bend.loaded.current[..., 1].max()) + bend.case.thickness)
-    )
+    axes.set(xlim=(-across, across), ylim=(1.15 * bottom, float(bend.loaded.current[..., 1].max()) + bend.case.height))
     axes.set_aspect("equal")
     axes.axis("off")

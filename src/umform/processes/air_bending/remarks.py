@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from collections.abc import Sequence
+from dataclasses import fields, replace
 
 from umform.processes.air_bending.formulas import shop_forces, uniform_strain
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.spec import AirBending
+from umform.results.quantity import Quantity
 
 #: Deviation of the computed force from the workshop formula that is explained.
 _APART = 0.15
 #: Standard gravity in m/s², for forces in tonnes.
 _GRAVITY = 9.80665
+#: Ways of the punch, which are no results of the mesh.
+STROKES = ("stroke", "below_die")
 _DEFAULT = {field.name: field.default for field in fields(AirBending)}
 
 
@@ -21,6 +25,12 @@ def tools_text(case: AirBending) -> str:
     v = f"V {die['opening']:g}, {die['angle']:g} degrees, shoulder {die['radius']:g}"
     tip = f"punch radius {punch['radius']:g}, {punch['angle']:g} degrees"
     return f"tools: {v}, {tip}; V/t {case.opening / case.thickness:.3g}"
+
+
+def depth_text(below_die: float) -> str:
+    """Where the machine holds the punch at the stroke: the depth of its tip below the top of the die, or its height."""
+    side = "below" if below_die >= 0.0 else "above"
+    return f"for the machine: the tip of the punch {abs(below_die):.3f} mm {side} the top of the die"
 
 
 def coarse_mesh(case: AirBending) -> list[str]:
@@ -36,14 +46,21 @@ def coarse_mesh(case: AirBending) -> list[str]:
     ]
 
 
+def of_this_mesh(case: AirBending, quantities: Sequence[Quantity]) -> list[Quantity]:
+    """Numbers of a bend; on a coarse mesh those without an error are marked, but for strokes."""
+    coarse = bool(coarse_mesh(case))
+    return [replace(one, of_mesh=coarse and one.band is None and one.name not in STROKES) for one in quantities]
+
+
 def extrapolated(case: AirBending, outer_strain: float) -> list[str]:
     """A remark if the outer strain exceeds the strain up to which the flow curve is known."""
     known = uniform_strain(case.material, 0.0 if case.rolling is None else 90.0 - case.rolling)
     if not 0.0 < known < outer_strain:
         return []
+    places = 2 if f"{known:.2f}" != f"{outer_strain:.2f}" else 4
     return [
-        f"the outer strain {outer_strain:.2f} exceeds the {known:.2f} up to which a tensile test supports the flow "
-        "curve: it is extrapolated there"
+        f"the outer strain {outer_strain:.{places}f} exceeds the {known:.{places}f} up to which a tensile test "
+        "supports the flow curve: it is extrapolated there"
     ]
 
 
@@ -66,6 +83,6 @@ def remarks(case: AirBending, measures: Measures) -> list[str]:
 
 
 def total_force(force: float, length: float) -> str:
-    """A force in N/mm on a bend length in mm, in kN and tonnes."""
+    """A force in kN/m on a bend length in mm, in kN and tonnes."""
     whole = force * length / 1e3
     return f"largest force on a bend length of {length:g} mm: {whole:.4g} kN ({whole / _GRAVITY:.3g} t)"

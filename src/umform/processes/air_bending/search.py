@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from umform.errors import InvalidValue, SolveError
+from umform.notebook import Display, InNotebook
 from umform.processes.air_bending.bend import AirBend, Loaded
 from umform.processes.air_bending.brake import INCREMENTS
 from umform.processes.air_bending.branches import FRAMES, Brake
@@ -20,7 +21,7 @@ _MOST_TRIALS = 10
 
 
 @dataclass(frozen=True)
-class Found:
+class Found(InNotebook):
     """The stroke that leaves the wanted angle.
 
     Attributes
@@ -36,6 +37,14 @@ class Found:
     bend: AirBend
     trials: tuple[tuple[float, float], ...]
     iterations: int
+
+    def __repr__(self) -> str:
+        return f"Found({self.bend!r}, {len(self.trials)} trials)"
+
+    def _display(self) -> Display:
+        trials = [[f"{stroke:.4f}", f"{angle:.3f}"] for stroke, angle in self.trials]
+        shown = self.bend._display()
+        return replace(shown, tables={**shown.tables, "Trials": [["stroke, mm", "angle, degrees"], *trials]})
 
     @property
     def case(self) -> AirBending:
@@ -88,13 +97,21 @@ def find_stroke(
         If the sheet lies against a flank before it has the angle, or angle or tolerance are none of a bend.
     NoConvergence
         If the sheet cannot be bent so far.
+
+    Examples
+    --------
+    >>> from umform.processes.air_bending import AirBending, find_stroke
+    >>> found = find_stroke(AirBending(elements_per_thickness=1, layers=1, increment=0.05), angle=150.0)
+    >>> abs(found.measures.angle - 150.0) < 0.1
+    True
     """
     check_angle(case, angle)
     check_value(Goal, "tolerance", tolerance)
     with progress_bar(progress) as tick:
         brake = brake or Brake(case, solver, max(1, frames))
         state, measures, trials = bent_to_angle(brake, angle, tolerance, tick)
-        return Found(brake.end(state, measures), trials, brake.run.iterations)
+        bend = replace(brake.end(state, measures), searched=True)
+        return Found(bend, trials, brake.run.iterations)
 
 
 def bent_to_angle(
@@ -156,6 +173,13 @@ def bending_table(
     Notes
     -----
     An exception that ends it early has the rows before as its attribute ``rows``.
+
+    Examples
+    --------
+    >>> from umform.processes.air_bending import AirBending, bending_table
+    >>> rows = bending_table(AirBending(elements_per_thickness=1, layers=1, increment=0.05), [1.0, 2.0])
+    >>> rows[0].angle > rows[1].angle
+    True
     """
     ordered = sorted(strokes)
     for stroke in ordered:
@@ -201,6 +225,13 @@ def angle_table(
     Notes
     -----
     An exception that ends it early has the rows before as its attribute ``rows``.
+
+    Examples
+    --------
+    >>> from umform.processes.air_bending import AirBending, angle_table
+    >>> rows = angle_table(AirBending(elements_per_thickness=1, layers=1, increment=0.05), [160.0, 150.0])
+    >>> rows[0].stroke < rows[1].stroke
+    True
     """
     ordered = sorted(angles, reverse=True)
     for angle in ordered:

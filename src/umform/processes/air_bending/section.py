@@ -42,14 +42,14 @@ class Section:
     order: int
 
     @classmethod
-    def of(cls, mesh: Mesh, u: Floats) -> Self:
-        """Section of a mesh of half of the sheet under displacements u, shape (n, 3) or (3 n,)."""
-        return next(cls.each(mesh, [u]))
+    def of(cls, mesh: Mesh, u: Floats, edge: str = "y0") -> Self:
+        """Section of a mesh of half of the sheet under displacements u, shape (n, 3) or (3 n,); edge: its set."""
+        return next(cls.each(mesh, [u], edge))
 
     @classmethod
-    def each(cls, mesh: Mesh, states: Iterable[Floats]) -> Iterator[Self]:
+    def each(cls, mesh: Mesh, states: Iterable[Floats], edge: str = "y0") -> Iterator[Self]:
         """Sections of a mesh of half of the sheet under several displacements, whose lines of nodes are found once."""
-        middle = mesh.nodes("y0")
+        middle = mesh.nodes(edge)
         X = mesh.points[middle][:, [0, 2]]
         lines = len(np.unique(X[:, 0]))
         order = np.lexsort((X[:, 1], X[:, 0]))

@@ -3,19 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from umform import mesh
 from umform.mesh.mesh import Floats
 from umform.processes.air_bending.spec import AirBending
+from umform.results.studies import StudiedMesh
+from umform.spec import parameters
+
+if TYPE_CHECKING:
+    from umform.materials import J2, Metal
 
 #: How fast elements grow outside of the fine zones: by this part of the way.
 _GROWTH = 0.3
+#: Size of the elements of the coarse mesh of the studies of errors over that of the default.
+_COARSE = 2.0
+#: Slope of the yield stress over the stress below which the studies have no bends.
+_LEAST_SLOPE = 0.01
 
 
 def lines_of(case: AirBending) -> tuple[Floats, Floats, Floats]:
-    """Element borders of half of the sheet on the die: x from the middle of the bend, z from 0 to the thickness.
+    """Element borders of half of the first sheet: x from the middle of the bend, z from 0 to the thickness.
 
     With a width, y goes from the middle of the sheet to its edge; in plane strain over one element.
     """
@@ -30,8 +40,8 @@ def lines_along(case: AirBending) -> Floats:
     """Element borders along the sheet, from the middle to the end."""
     fine = max(case.thickness, case.opening / 16.0) / case.elements_per_thickness
     coarse = max(case.thickness, case.opening / 8.0)
-    margin = 0.5 * case.thickness
-    zones = [(0.0, max(0.25 * case.opening, 2.0 * case.thickness)), (case.shoulder - margin, case.reach + margin)]
+    margin = 0.5 * case.height
+    zones = [(0.0, max(0.25 * case.opening, 2.0 * case.height)), (case.shoulder - margin, case.reach + margin)]
     return _march(case.half_length, fine, coarse, zones)
 
 
@@ -43,3 +53,30 @@ def _march(length: float, fine: float, coarse: float, zones: Sequence[tuple[floa
         away = min(max(first - x, x - last, 0.0) for first, last in zones)
         lines.append(x + min(fine + _GROWTH * away, max(coarse, fine)))
     return np.array(lines) * (length / lines[-1])
+
+
+def studied_mesh(case: AirBending, strain: float | None = None, process: str = "air bending") -> StudiedMesh:
+    """Mesh of a bend beside those of the studies of errors, by the elements along the sheet.
+
+    Parameters
+    ----------
+    case : AirBending
+        The parameters of the sheet.
+    strain : float, optional
+        Largest logarithmic strain of the outer face; None for numbers that belong to no bend.
+    process : str
+        Process of the studies.
+    """
+    usual = float(parameters(AirBending)["elements_per_thickness"].default)
+    soft = 1.0 if strain is None else softness(case.material, strain)
+    return StudiedMesh.nearest(process, usual / case.elements_per_thickness, _COARSE, soft)
+
+
+def softness(material: J2 | Metal, strain: float) -> float:
+    """Yield stress over its slope at a strain: where little hardening is left, a bend is sharper than its mesh.
+
+    The errors of the studies follow a power of it (docs/bands.md); sharpness, the thickness over the inside radius,
+    does not tell large errors from small ones.
+    """
+    stress, slope = material.hardening.curve()(max(strain, 0.0))
+    return stress / max(slope, _LEAST_SLOPE * stress)

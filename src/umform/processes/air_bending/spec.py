@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 from annotated_types import Ge, Gt, Le
 
 from umform.errors import InvalidValue
+from umform.processes.air_bending.stack import StackedSheet, check_stack
 from umform.processes.rules import PLASTIC, check_rolling
 from umform.spec import About, check_fields, note_of, parameters
 from umform.spec.types import ContactPoints, Degrees, Length, Positive, Rolling
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 
 #: Range of opening over thickness for air bending; press brakes use 5 to 16.
 _NARROWEST, _WIDEST = 1.0, 500.0
+#: Thickness and opening below which a sheet and its die are more likely measured in inches; mm of one.
+_INCHES, _MM = (0.3, 3.0), 25.4
 #: Penalty times thickness over E beyond which Newton's method converges slowly.
 _STIFFEST = 1e3
 
@@ -66,6 +69,13 @@ class AirBending:
              |<----->|  opening
 
     The sheet lies on the shoulders of a V-die, and is bent by a punch.
+
+    Examples
+    --------
+    >>> from umform.processes.air_bending import AirBending
+    >>> case = AirBending(thickness=1.5, opening=12.0, punch_radius=1.0, stroke=4.0)
+    >>> case.die_angle
+    85.0
     """
 
     groups: ClassVar = {
@@ -100,6 +110,8 @@ class AirBending:
     """Law of the sheet."""
     rolling: Rolling | None = None
     """Angle from the bend line to the rolling direction; a law with directions needs it."""
+    on_top: tuple[StackedSheet, ...] = ()
+    """Further sheets, each on that before; the first lies on the die."""
     stroke: Length | None = None
     """Way of the punch from where it touches the sheet; a search or a table does not need it."""
     bottoming: bool = False
@@ -137,6 +149,7 @@ class AirBending:
             check_drawn(self.punch_section, self.die_section)
             for name, value in self.drawn_sizes.items():
                 object.__setattr__(self, name, value)
+        object.__setattr__(self, "on_top", tuple(self.on_top))
         check_fields(self)
         _check_consistency(self)
         if self.punch_section is not None:
@@ -164,6 +177,16 @@ class AirBending:
         """Sizes of a tool, "punch" or "die"."""
         return {size: getattr(self, name) for size, name in sizes_of(tool).items()}
 
+    @property
+    def sheets(self) -> tuple[StackedSheet, ...]:
+        """All sheets, from the die upwards."""
+        return StackedSheet(self.thickness, self.material), *self.on_top
+
+    @property
+    def height(self) -> float:
+        """Thickness of all sheets together."""
+        return self.thickness + sum(sheet.thickness for sheet in self.on_top)
+
     @cached_property
     def die(self) -> VDie | Extruded:
         """The die; its top is z = 0."""
@@ -175,12 +198,12 @@ class AirBending:
 
     @cached_property
     def punch(self) -> Punch | Extruded:
-        """The punch, touching the sheet at z = thickness."""
+        """The punch, touching the sheet at z = height."""
         from umform.surfaces import Extruded, Punch
 
         if self.punch_section is not None:
-            return Extruded(self.punch_section.profile, origin=(0.0, 0.0, self.thickness))
-        return Punch(self.punch_radius, self.punch_angle, self.punch_width, origin=(0.0, 0.0, self.thickness))
+            return Extruded(self.punch_section.profile, origin=(0.0, 0.0, self.height))
+        return Punch(self.punch_radius, self.punch_angle, self.punch_width, origin=(0.0, 0.0, self.height))
 
     @property
     def rolling_direction(self) -> Vector | None:
@@ -257,17 +280,17 @@ class AirBending:
     def reach(self) -> float:
         """Length of half of the mid-surface from the middle to the shoulder, the largest that air bending needs."""
         a = math.radians(self.steepest)
-        return max(self.shoulder, (self.punch_radius + 0.5 * self.thickness) * a + self.free_length(self.steepest))
+        return max(self.shoulder, (self.punch_radius + 0.5 * self.height) * a + self.free_length(self.steepest))
 
     @property
     def half_length(self) -> float:
         """Half of the length of the sheet: it ends three thicknesses beyond the shoulder."""
-        return self.reach + 3.0 * self.thickness
+        return self.reach + 3.0 * self.height
 
     @property
     def radii(self) -> float:
         """Distance of the axes of tip and shoulder, measured across a leg."""
-        return self.punch_radius + self.thickness + self.die_radius
+        return self.punch_radius + self.height + self.die_radius
 
 
 @cache
@@ -290,6 +313,7 @@ def _check_consistency(case: AirBending) -> None:
     _check_room(case)
     _check_rolling(case)
     _check_bottoming(case)
+    check_stack(case)
     if case.stroke is not None and not case.bottoming and case.stroke > case.largest_stroke:
         raise _unfit(
             case,
@@ -355,12 +379,12 @@ def _unfit(case: AirBending, name: str, what: str, cause: str, remedy: str) -> I
 
 def _check_proportions(case: AirBending) -> None:
     """Refuse an opening and a penalty of an unlikely order of magnitude."""
-    if not _NARROWEST <= case.opening / case.thickness <= _WIDEST:
+    if not _NARROWEST <= case.opening / case.height <= _WIDEST:
         raise _unfit(
             case,
             "opening",
             "the opening of the die does not fit the thickness of the sheet",
-            f"it is {case.opening / case.thickness:.3g} thicknesses; another unit, or the two exchanged",
+            f"it is {case.opening / case.height:.3g} thicknesses; another unit, or the two exchanged",
             f"{_NARROWEST:g} to {_WIDEST:g} thicknesses; press brakes take 5 to 16",
         )
     if case.penalty is not None and case.penalty > _STIFFEST * case.material.E / case.thickness:
@@ -373,6 +397,11 @@ def _check_proportions(case: AirBending) -> None:
         )
 
 
+def _like_inches(case: AirBending) -> bool:
+    """Whether thickness and opening look like inches."""
+    return case.thickness < _INCHES[0] and case.opening < _INCHES[1]
+
+
 def _check_room(case: AirBending) -> None:
     """Refuse a tip that is wider than the die, shoulders without flanks, and a sheet that would be drawn in."""
     tip = 2.0 * case.punch_radius * math.cos(math.radians(0.5 * case.punch_angle))
@@ -382,7 +411,12 @@ def _check_room(case: AirBending) -> None:
             name := "punch_radius",
             "the tip of the punch is wider than the opening of the die",
             f"the tip is round on a width of {tip:.4g}, the opening is {case.opening:.4g}",
-            f"a smaller {name}, or a wider opening",
+            (
+                f"lengths in mm; if these are inches: thickness {_MM * case.thickness:.3f}, "
+                f"opening {_MM * case.opening:.2f}"
+            )
+            if _like_inches(case)
+            else f"a smaller {name}, or a wider opening",
         )
     flank = 0.5 * case.opening / math.sin(math.radians(0.5 * case.die_angle))  # from the top to the apex of the V
     setback = case.die_radius * math.tan(math.radians(0.25 * (180.0 - case.die_angle)))

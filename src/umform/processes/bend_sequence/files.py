@@ -18,7 +18,7 @@ from umform.processes.bend_sequence.part import BendDone, Part
 from umform.processes.bend_sequence.spec import MOST_BENDS
 from umform.report.versions import versions
 from umform.results.outcome import QUANTITIES
-from umform.results.quantity import quantities_of, values
+from umform.results.quantity import FORCE_PER_LENGTH, quantities_of, values
 
 _DATA = ("sequence.json", QUANTITIES, "profile.csv", "curves.csv", "part.vtkhdf")
 _PICTURES = ("part.png", "part.svg")
@@ -53,7 +53,7 @@ def write_files(out: str | Path, part: Part, note: str = "") -> list[Path]:
         write_csv(here / "profile.csv", {"x": part.profile[:, 0], "z": part.profile[:, 1]})
         number = np.concatenate([np.full(len(done.stroke), k) for k, done in enumerate(part.bends, start=1)])
         stroke, force = (np.concatenate([getattr(done, name) for done in part.bends]) for name in ("stroke", "force"))
-        write_csv(here / "curves.csv", {"bend": number, "stroke mm": stroke, "force N/mm": force})
+        write_csv(here / "curves.csv", {"bend": number, "stroke mm": stroke, f"force {FORCE_PER_LENGTH}": force})
         part.bends[-1].result.write(here / "part.vtkhdf")
         decks = part.decks()
         for name, text in decks.items():

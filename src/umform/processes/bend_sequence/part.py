@@ -11,12 +11,20 @@ from numpy.typing import NDArray
 from umform.analysis.run import Result
 from umform.problem.problem import Problem
 from umform.processes.air_bending.measures import Measures
-from umform.processes.air_bending.remarks import coarse_mesh, extrapolated, tools_text, total_force
+from umform.processes.air_bending.remarks import (
+    coarse_mesh,
+    extrapolated,
+    of_this_mesh,
+    tools_text,
+    total_force,
+)
+from umform.processes.air_bending.sheet import studied_mesh
 from umform.processes.bend_sequence.collisions import Collision
 from umform.processes.bend_sequence.sides import Sides, Strip
 from umform.processes.bend_sequence.spec import Bend, BendSequence
 from umform.results.outcome import Outcome
 from umform.results.quantity import Quantity, prefixed, quantities_of, side_by_side, table
+from umform.results.studies import StudiedMesh
 from umform.sheet_metals import sheet_text
 
 Floats = NDArray[np.float64]
@@ -49,7 +57,7 @@ class BendDone:
     measures : Measures
         Measures as of a single bend; means of both sides where they differ.
     stroke, force : ndarray, shape (n,)
-        Stroke of the punch in mm and its force per length of bend in N/mm, all converged increments.
+        Stroke of the punch in mm and its force per length of bend in kN/m, all converged increments.
     states : tuple of (float, Strip)
         Stroke, and the strip in the frame of the tools, for some states; the last one is after unloading.
     collisions : tuple of Collision
@@ -160,10 +168,25 @@ class Part(Outcome):
     def of_bends(self) -> dict[str, list[Quantity]]:
         """Measures of each bend by its number, and its angle after the last bend."""
         last = Quantity("angle after the last bend", "degrees", 2, name="final_angle", leading=True)
-        return {
+        found = {
             f"{number}": [*quantities_of(done.measures), replace(last, value=angle)]
             for number, (done, angle) in enumerate(zip(self.bends, self.angles, strict=True), start=1)
         }
+        return {number: self._banded_as(number, row) for number, row in found.items()}
+
+    def _banded_as(self, number: str, row: list[Quantity]) -> list[Quantity]:
+        """Measures of a bend with their bands, which belong to their names in the list of the part."""
+        before = f"bend {number}: "
+        strain = next((one.value for one in row if one.name == "outer_strain"), None)
+        at = studied_mesh(self.sequence.sheet, strain)
+        banded = self.banded([prefixed(one, before) for one in row], at)
+        own = [replace(one, band=other.band) for one, other in zip(row, banded, strict=True)]
+        return of_this_mesh(self.sequence.sheet, own)
+
+    @property
+    def studied(self) -> StudiedMesh:
+        """Mesh beside those of the studies, which are those of single bends."""
+        return studied_mesh(self.sequence.sheet)
 
     @property
     def of_part(self) -> list[Quantity]:
@@ -175,13 +198,23 @@ class Part(Outcome):
         balance = Quantity(
             "length balance", "mm", 4, name="length_balance", value=self.length_balance, hint="a check: near 0"
         )
-        return [*flanges, balance]
+        return self.banded([*flanges, balance], studied_mesh(self.sequence.sheet, process="bend sequence"))
 
     @property
     def quantities(self) -> list[Quantity]:
         """Those of the bends, and those of the part."""
         bends = [prefixed(one, f"bend {number}: ") for number, row in self.of_bends.items() for one in row]
         return [*bends, *self.of_part]
+
+    @property
+    def leading(self) -> list[Quantity]:
+        """What the machine needs of each bend, the largest force of all, and the flanges."""
+        found = {one.name: one for one in self.quantities}
+        names = [f"bend {number}: {name}" for number in self.of_bends for name in ("stroke", "final_angle")]
+        forces = [
+            row[0] for row in ([one for one in row if one.name == "largest_force"] for row in self.of_bends.values())
+        ]
+        return [*map(found.__getitem__, names), max(forces, key=lambda one: one.value or 0.0), *self.of_part[:-1]]
 
     @property
     def main(self) -> list[str]:

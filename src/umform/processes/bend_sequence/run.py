@@ -44,6 +44,13 @@ def bend_sequence(
         If an angle cannot be reached with its tools.
     NoConvergence
         If the strip cannot be bent so far. The exception has the previous bends as its attribute ``bends``.
+
+    Examples
+    --------
+    >>> from umform.processes.bend_sequence import Bend, BendSequence, bend_sequence
+    >>> case = BendSequence(length=60.0, bends=[Bend(20.0, angle=90.0), Bend(40.0, angle=90.0)])
+    >>> part = bend_sequence(case)  # doctest: +SKIP
+    >>> part.bends[1], part.quantities  # doctest: +SKIP
     """
     mesh, before, done = flat_strip(sequence), None, list[BendDone]()
     with progress_bar(progress) as tick:

@@ -32,9 +32,9 @@ class Strip:
     order: int
 
     @classmethod
-    def of(cls, mesh: Mesh, u: Floats) -> Strip:
-        """Section of a mesh of a flat strip under displacements u, shape (n, 3) or (3 n,)."""
-        section = Section.of(mesh, u)
+    def of(cls, mesh: Mesh, u: Floats, edge: str = "y0") -> Strip:
+        """Section of a mesh of a flat strip under displacements u, shape (n, 3) or (3 n,); edge: its set of nodes."""
+        section = Section.of(mesh, u, edge)
         return cls(section.reference, section.current, section.order)
 
     def at(self, position: float, *, over: bool) -> Strip:

@@ -9,6 +9,7 @@ from typing import Annotated, ClassVar, Literal
 from umform.errors import InvalidValue
 from umform.processes.air_bending.goal import check_angle
 from umform.processes.air_bending.spec import AirBending, sizes_of
+from umform.processes.air_bending.stack import refuse_stack
 from umform.spec import About, check_fields
 from umform.spec.types import Degrees, Length
 
@@ -20,7 +21,14 @@ MOST_BENDS = 50
 
 @dataclass(frozen=True)
 class Bend:
-    """One bend of a part, to an angle or to a stroke."""
+    """One bend of a part, to an angle or to a stroke.
+
+    Examples
+    --------
+    >>> from umform.processes.bend_sequence import Bend
+    >>> Bend(position=20.0, angle=90.0, direction="down").over
+    True
+    """
 
     position: Annotated[Length, About(remedy="in mm from the left end of the flat strip")]
     """Distance of the bend line from the left end of the flat strip."""
@@ -69,7 +77,15 @@ class Bodies:
 
 @dataclass(frozen=True)
 class BendSequence:
-    """A strip with several bends, in order."""
+    """A strip with several bends, in order.
+
+    Examples
+    --------
+    >>> from umform.processes.bend_sequence import Bend, BendSequence
+    >>> case = BendSequence(length=60.0, bends=[Bend(20.0, angle=90.0), Bend(40.0, angle=90.0)])
+    >>> len(case.bends)
+    2
+    """
 
     groups: ClassVar = {"length": "Part"}
     """Group of the parameters from each of these on."""
@@ -86,6 +102,7 @@ class BendSequence:
     def __post_init__(self) -> None:
         object.__setattr__(self, "bends", tuple(self.bends))
         check_fields(self)
+        refuse_stack(self.sheet, "sheet")
         _check_sequence(self)
 
     @property

@@ -59,7 +59,7 @@ class StripBrake(Brake):
         return self._sides.right
 
     def forces(self) -> Floats:
-        """Force of the punch per length of bend in N/mm, all increments so far."""
+        """Force of the punch per length of bend in kN/m, all increments so far."""
         found: Floats = self.run.result["stroke_force"] / self.case.thickness
         return found
 

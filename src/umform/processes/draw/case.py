@@ -48,6 +48,15 @@ def draw(
     Returns
     -------
     Drawn
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> from umform.processes.draw import Cup, draw
+    >>> steel = uf.sheet_metals.get("DC04").law
+    >>> case = Cup(material=steel, thickness=1.0, blank_radius=45.0, punch_radius=30.0, punch_edge=6.0, die_edge=8.0)
+    >>> cup = draw(case)  # doctest: +SKIP
+    >>> cup.quantities, cup.fields["limit_margin"].min()  # doctest: +SKIP
     """
     for warning in case.warnings:
         log.warning(warning)

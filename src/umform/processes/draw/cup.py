@@ -52,6 +52,15 @@ class Cup(Draw):
                  |<- die_radius
 
     A quarter of it is computed; the rolling direction is x.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> from umform.processes.draw import Cup
+    >>> steel = uf.sheet_metals.get("DC04").law
+    >>> cup = Cup(material=steel, thickness=1.0, blank_radius=45.0, punch_radius=30.0, punch_edge=6.0, die_edge=8.0)
+    >>> cup.throat
+    31.2
     """
 
     kind: ClassVar[str] = "cup"

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.analysis.run import Result
+from umform.elements import element
 from umform.errors import InvalidValue
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.endings import Ending, tears_from
@@ -25,11 +26,13 @@ from umform.results.forming import (
     Laid,
     LargestForce,
     Outline,
+    PathFields,
     Section,
     UBendAngles,
     distance_from,
     draw_in,
     ear_profile,
+    extremes,
     forming_fields,
     largest_force,
     lay_by_best_fit,
@@ -39,12 +42,15 @@ from umform.results.forming import (
 )
 from umform.results.outcome import Outcome
 from umform.results.quantity import Band, Quantity, in_rows
+from umform.results.studies import COARSE, DEFAULT, StudiedMesh
+from umform.spec import parameters
 
 Floats = NDArray[np.float64]
 
 #: Part of the height of a released wall up to which it is measured: beyond, the edge of the die has bent it.
 _HIGHEST = 0.85
-#: Names of the measures of the punch force: while the holder holds the sheet, and afterwards.
+#: Names of measures; of the punch force while the holder holds the sheet, and afterwards.
+HOLDER, DRAW_IN = "largest holder force", "draw-in, mean"
 FORCE, FORCE_OFF = "largest punch force", "off the holder: punch force"
 _RIPPLE = "half of the ripple of the force as elements pass the edge of the die"
 #: Force of a holder relative to its largest one below which it has let go of the sheet.
@@ -71,8 +77,8 @@ class Drawn(Outcome):
         What went wrong; None if nothing did.
     estimates : mapping of str to Limit
         Measures extrapolated to zero element size; empty for one mesh.
-    coarser : tuple of Drawn
-        The same part on coarser meshes, the coarsest first, that gave the estimates.
+    coarser : Drawn, optional
+        The same part on a coarser mesh, that gave the estimates.
     """
 
     case: Cup | UBend
@@ -82,7 +88,7 @@ class Drawn(Outcome):
     released: Result | None
     ending: Ending | None
     estimates: Mapping[str, Limit] = field(default_factory=dict)
-    coarser: tuple[Drawn, ...] = ()
+    coarser: Drawn | None = None
 
     @property
     def u_free(self) -> Floats:
@@ -104,7 +110,7 @@ class Drawn(Outcome):
     def punch_force(self) -> LargestForce:
         """Largest force of the punch on the whole part while the holder holds the sheet.
 
-        That of a cup is a mean over the passage of one element; that of a U-bend has its error from three meshes.
+        That of a cup is a mean over the passage of one element; that of a U-bend has its error from two meshes.
         """
         if isinstance(self.case, UBend):
             punch = self.forces["punch"]
@@ -129,7 +135,16 @@ class Drawn(Outcome):
     @cached_property
     def fields(self) -> dict[str, Floats]:
         """Fields of the cells of the part, see :func:`umform.results.forming.forming_fields`."""
-        return forming_fields(self.result.model.mesh, self.u_free, self.limit)
+        found = forming_fields(self.result.model.mesh, self.u_free, self.limit)
+        return found if self.paths is None else found | self.paths.fields
+
+    @cached_property
+    def paths(self) -> PathFields | None:
+        """Use of the path-dependent forming limit along the states of the drawing; None of a run without states."""
+        states = [frame.points["displacement"] for frame in self.result.frames]
+        if len(states) < 2:
+            return None
+        return PathFields.of(self.result.model.mesh, states, self.limit, self.case.material)
 
     @cached_property
     def outline(self) -> Outline:
@@ -230,6 +245,7 @@ class Drawn(Outcome):
         """Warnings."""
         own = [] if self.ending is None else [self.ending.text]
         own += self._about_the_force()
+        own += self._about_the_paths()
         if isinstance(self.case, UBend) and self.released is not None:
             own += self._about_the_wall()
         if not self.estimates:
@@ -251,6 +267,11 @@ class Drawn(Outcome):
             )
         return found
 
+    def _about_the_paths(self) -> list[str]:
+        """Note on paths that bend near a limit."""
+        text = None if self.paths is None else self.paths.warning(self.result.model.mesh)
+        return [] if text is None else [text]
+
     def _about_the_wall(self) -> list[str]:
         """Notes on the angles of a U-bend that are left out or measured elsewhere."""
         if self.angles is None or self.wall_heights is None:
@@ -268,7 +289,7 @@ class Drawn(Outcome):
     @property
     def quantities(self) -> list[Quantity]:
         """Measures of the part: those of forming, then those of a cup or of a U-bend."""
-        found, punch, after = self.fields, self.punch_force, self.punch_force_after
+        punch, after = self.punch_force, self.punch_force_after
         torn, bands = tears_from(self.result), self._bands
         rows = [
             Quantity(FORCE, "kN", value=punch.value / 1000.0, leading=True),
@@ -281,18 +302,9 @@ class Drawn(Outcome):
                     Quantity("off the holder: at a stroke of", "mm", value=after.stroke),
                 ]
             ),
-            Quantity("largest holder force", "kN", value=float(self.forces["holder"].max()) / 1000.0),
-            Quantity("draw-in, mean", "mm", value=float(self.outline.draw_in.mean()), leading=True),
-            Quantity("largest thinning", "%", value=float(found["thinning"].max()), leading=True),
-            Quantity("largest thickening", "%", value=float(-found["thinning"].min())),
-            Quantity("largest major strain", value=float(found["major_middle"].max())),
-            Quantity(
-                "margin to the forming limit",
-                value=float(found["limit_margin"].min()),
-                limit=0.0,
-                at_least=True,
-                leading=True,
-            ),
+            Quantity(HOLDER, "kN", value=float(self.forces["holder"].max()) / 1000.0),
+            Quantity(DRAW_IN, "mm", value=float(self.outline.draw_in.mean()), leading=True),
+            *extremes(self.fields),
             Quantity("work of friction", "% of the work", value=self.friction_share),
             *([Quantity("stroke at the forming limit", "mm", value=torn)] if math.isfinite(torn) else []),
             *(
@@ -302,7 +314,21 @@ class Drawn(Outcome):
             ),
             *(self._of_cup() if isinstance(self.case, Cup) else self._of_u_bend()),
         ]
-        return [replace(one, band=bands.get(one.name)) for one in rows]
+        banded = self.banded([replace(one, band=bands.get(one.name)) for one in rows])
+        return [replace(one, of_mesh=one.band is None) for one in banded]
+
+    @property
+    def studied(self) -> StudiedMesh:
+        """Mesh beside those of the studies, by the angle that an element turns; of a U-bend its element counts."""
+        case = self.case
+        coarse = type(case).meshes["coarse"]
+        if isinstance(case, UBend) and element(case.element).cell == "hex8":
+            return StudiedMesh(case.kind, COARSE, case.turn / coarse["turn"])
+        spec: type = type(case)
+        usual = parameters(spec)["turn"].default
+        if isinstance(case, UBend):
+            return StudiedMesh(case.kind, DEFAULT, case.turn / usual)
+        return StudiedMesh.nearest(case.kind, case.turn / usual, coarse["turn"] / usual)
 
     def _of_cup(self) -> list[Quantity]:
         heights = [
@@ -325,7 +351,7 @@ class Drawn(Outcome):
 
     @property
     def _bands(self) -> dict[str, Band]:
-        """Errors by name: those of three meshes, or the ripple of a force by one mesh."""
+        """Errors by name: those of two meshes, or the ripple of a force by one mesh."""
         ripples = {FORCE: self.punch_force, FORCE_OFF: self.punch_force_after} if isinstance(self.case, Cup) else {}
         known = {name: Band(force.ripple / 1000.0, _RIPPLE) for name, force in ripples.items() if force is not None}
         return known | {name: limit.band for name, limit in self.estimates.items()}
@@ -337,7 +363,7 @@ class Drawn(Outcome):
 
     @property
     def _meshes(self) -> tuple[Drawn, ...]:
-        return (*self.coarser, self)
+        return (self,) if self.coarser is None else (self.coarser, self)
 
     def _on(self, mesh: Drawn) -> list[Quantity]:
         elements = len(mesh.result.model.mesh.connectivity)
@@ -346,18 +372,18 @@ class Drawn(Outcome):
 
     @property
     def notes(self) -> list[str]:
-        """Which errors are unknown."""
+        """How errors of this part are found."""
         return list(filter(None, [self.about_errors]))
 
     @property
     def about_errors(self) -> str:
-        """Note on values without an error; empty if there are none."""
+        """Note on errors that are estimated from other parts; empty for two meshes."""
         if self.estimates:
             return ""
-        text = f"values of one mesh, whose elements turn up to {self.case.turn:g} degrees: most errors are unknown"
+        text = f"values of one mesh, whose elements turn up to {self.case.turn:g} degrees"
         if isinstance(self.case, UBend):
-            return f"{text}; three meshes (without --coarse, or --extrapolate) give it"
-        return f"{text}; repeat with half of --turn, and twice --around, to see it"
+            return f"{text}; two meshes (without --coarse, or --extrapolate) give errors of this part"
+        return f"{text}; repeat with half of --turn, and twice --around, to see errors of this part"
 
 
 def passage(case: Cup, cut: Section) -> float:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 _PICTURES = (
     "blank", "curve", "thinning", "major_middle", "limit_margin", "wrinkling", "punch_distance", "gauge", "limits",
-    "outline", "section", "ears",
+    "outline", "section", "thinning_section", "ears",
 )  # fmt: skip
 #: The mesh over the wanted sizes, drawn before the run.
 _BEFORE = "blank.png"

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from umform.processes.draw.cup import Cup
-from umform.processes.draw.drawn import Drawn
+from umform.processes.draw.drawn import DRAW_IN, FORCE, HOLDER, Drawn
 from umform.processes.draw.u_bend import UBend
 from umform.processes.draw.words import angles_text
 from umform.processes.sizes_picture import sizes_figure
@@ -21,8 +21,9 @@ from umform.report.part_pictures import (
     gauge_picture,
     outline_picture,
     section_picture,
+    thinning_picture,
 )
-from umform.results.forming import lay_by_best_fit, lay_on_three_points
+from umform.results.forming import BY_PATHS, MARGIN, THINNING, lay_by_best_fit, lay_on_three_points
 from umform.results.forming.gauge import far_apart
 from umform.results.forming.u_bend import crossing
 from umform.results.shape import Shape, outer_quads
@@ -45,7 +46,8 @@ def pictures(drawn: Drawn, before: Figure | None = None) -> dict[str, Figure]:
     made |= {name: coloured(shape, name, label) for name, label in FIELDS.items()}
     if drawn.released is not None:
         made["gauge"] = in_gauge(drawn, shape)
-    made |= {"limits": limit_diagram(drawn.fields, drawn.limit), "outline": outline(drawn), "section": sections(drawn)}
+    made |= {"limits": limits(drawn), "outline": outline(drawn), "section": sections(drawn)}
+    made["thinning_section"] = thinning(drawn)
     if isinstance(drawn.case, Cup):
         made["ears"] = ears(drawn)
     return made
@@ -72,7 +74,13 @@ def blank(case: Cup | UBend) -> Figure:
 def curve(drawn: Drawn) -> Figure:
     """Forces of the tools over the stroke."""
     forces = {name: force / 1000.0 for name, force in drawn.forces.items()}
-    return forces_picture(drawn.stroke, forces, "stroke in mm", "force in kN")
+    errors = {tool: drawn[name].relative_error for tool, name in (("punch", FORCE), ("holder", HOLDER))}
+    return forces_picture(drawn.stroke, forces, "stroke in mm", "force in kN", errors)
+
+
+def thinning(drawn: Drawn) -> Figure:
+    """Thinning along the section of the released part, with its band."""
+    return thinning_picture(drawn.sections["released"], drawn.case.thickness, drawn[THINNING].error)
 
 
 def part(drawn: Drawn) -> Shape:
@@ -106,8 +114,14 @@ def in_gauge(drawn: Drawn, free: Shape) -> Figure:
 
 
 def outline(drawn: Drawn) -> Figure:
-    """Edge of the blank before drawing and at the end of the stroke."""
-    return outline_picture(drawn.outline, equal=isinstance(drawn.case, Cup))
+    """Edge of the blank before drawing and at the end of the stroke, with the band of the draw-in."""
+    return outline_picture(drawn.outline, equal=isinstance(drawn.case, Cup), error=drawn[DRAW_IN].error)
+
+
+def limits(drawn: Drawn) -> Figure:
+    """Forming limit diagram of strains, with the band of the margin, and that of paths with the band of its use."""
+    used = 0.0 if drawn.paths is None else 0.01 * drawn[BY_PATHS].error
+    return limit_diagram(drawn.fields, drawn.limit, drawn.paths, drawn[MARGIN].error, used)
 
 
 def sections(drawn: Drawn) -> Figure:
@@ -121,5 +135,6 @@ def sections(drawn: Drawn) -> Figure:
 
 
 def ears(drawn: Drawn) -> Figure:
-    """Height of the cup over the angle to the rolling direction, which is the x-axis."""
-    return ears_picture(drawn.ears, zero="the rolling direction")
+    """Height of the cup over the angle to the rolling direction, which is the x-axis, with the widest of its bands."""
+    error = max(drawn[name].error for name in drawn.ears.heights())
+    return ears_picture(drawn.ears, zero="the rolling direction", error=error)

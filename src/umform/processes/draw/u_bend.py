@@ -58,6 +58,16 @@ class UBend(Draw):
            die    |            |         opening, die_edge
 
     Half of it is computed, in plane strain.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> from umform.processes.draw import UBend
+    >>> steel = uf.sheet_metals.get("DC04").law
+    >>> case = UBend(
+    ...     material=steel, thickness=0.8, length=150.0, width=35.0, punch_width=50.0, opening=52.0, punch_edge=5.0,
+    ...     die_edge=5.0, holder_force=2.5e3, stroke=40.0,
+    ... )
     """
 
     kind: ClassVar[str] = "u-bend"

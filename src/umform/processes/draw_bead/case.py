@@ -91,6 +91,13 @@ def drawn_through(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto",
     ------
     NoConvergence
         If it does not converge; the attribute ``result`` holds the run up to the failure.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> from umform.processes.draw_bead import DrawBead, drawn_through
+    >>> drawn = drawn_through(DrawBead(material=uf.sheet_metals.get("DC04").law))  # doctest: +SKIP
+    >>> drawn.quantities  # doctest: +SKIP
     """
     model, steps = build(case)
     return Drawn.of(case, solve(model, steps, frames=frames, solver=solver, progress=progress))

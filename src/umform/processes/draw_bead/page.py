@@ -29,7 +29,7 @@ def write_page(path: Path, drawn: Drawn, figures: Mapping[str, Figure], note: st
     note : str
         Source of the material data; may be empty.
     """
-    lead = f"plane strain; {drawn.iterations} Newton iterations in {drawn.seconds:.1f} s"
+    lead = f"plane strain; computed in {drawn.seconds:.1f} s"
     given = parameters(drawn) | {"material": material_text(drawn.case.material)}
     shape = parts.figure(figures["shape"], "The sheet in the bead at the end.")
     return parts.write_html(path, drawn.title, lead, outcome_parts(drawn, shape, _parts(drawn, figures), given, note))

@@ -10,7 +10,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from umform.plotting import COLOURS, Picture, house_style
+from umform.plotting import COLOUR_MAP, COLOURS, Picture, house_style
 from umform.processes.draw_bead.measures import Drawn
 
 Floats = NDArray[np.float64]
@@ -60,7 +60,7 @@ def _draw_sheet(axes: Axes, drawn: Drawn) -> PolyCollection:
     x = model.mesh.points + frame.points["displacement"]
     corners = model.mesh.connectivity[:, _front(model.mesh.connectivity.shape[1])]
     quads = x[corners][:, :, [0, 2]]
-    sheet = PolyCollection(list(quads), edgecolors="face", linewidths=0.3, cmap="viridis", array=frame.cells[_FIELD])
+    sheet = PolyCollection(list(quads), edgecolors="face", linewidths=0.3, cmap=COLOUR_MAP, array=frame.cells[_FIELD])
     axes.add_collection(sheet)
     return sheet
 

@@ -35,6 +35,14 @@ class DrawBead:
                   |<groove->|
 
     A strip of plane strain is drawn through it to the right.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> from umform.processes.draw_bead import DrawBead
+    >>> bead = DrawBead(material=uf.sheet_metals.get("DC04").law, thickness=0.8, height=4.0)
+    >>> bead.radius
+    5.5
     """
 
     groups: ClassVar = {"thickness": "Sheet", "radius": "Tools", "draw": "Solution", "rolling": "Sheet"}

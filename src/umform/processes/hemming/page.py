@@ -26,12 +26,10 @@ def write_page(path: Path, hem: Hem, picture: Figure, note: str = "") -> Path:
     note : str
         Source of the material data; may be empty.
     """
-    drawn = parts.figure(picture, "Force of the plate per mm of hem, and the hem after unloading.")
-    content = outcome_parts(hem, drawn, (), _given(hem), note, model="Model of the flattening")
-    return parts.write_html(path, hem.title, f"plane strain; {hem.seconds:.1f} s", content)
-
-
-def _given(hem: Hem) -> dict[str, object]:
-    case = hem.case
-    own = {name: getattr(case, name) for name in ("gap", "flange", "base", "insert", "angle")}
-    return own | parameters(case.sheet)
+    drawn = parts.figure(
+        picture, "Force of the plate per length of hem, the hem after unloading, and the gap of flange and base."
+    )
+    content = outcome_parts(
+        hem, drawn, (), hem.given | parameters(hem.case.sheet), note, model="Model of the flattening"
+    )
+    return parts.write_html(path, hem.title, f"plane strain; computed in {hem.seconds:.1f} s", content)

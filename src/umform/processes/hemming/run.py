@@ -1,19 +1,15 @@
-"""Bend acutely, place the base on a table, move a plate down, unload."""
+"""Bend acutely, place the base on a table, move or press a plate down, unload."""
 
 from __future__ import annotations
 
 from umform.analysis.run.open_run import OpenRun
-from umform.errors import InvalidValue
 from umform.processes.air_bending.brake import OPTIONS
 from umform.processes.bend_sequence.run import FRAMES, bend_sequence
 from umform.processes.bend_sequence.sides import Strip
-from umform.processes.hemming.measures import Hem, clearances, measured
-from umform.processes.hemming.problem import PARTS, problem_of_hem
+from umform.processes.hemming.measures import Hem, measured
+from umform.processes.hemming.problem import FORCE, edge_of, loading_steps, problem_of_hem, start_of, way_column
 from umform.processes.hemming.spec import Hemming
 from umform.progress import Show, parts, progress_bar
-
-#: Gap that counts as contact, relative to the thickness.
-_TOUCHES = -0.01
 
 
 def hemming(case: Hemming, *, tolerance: float = 0.1, frames: int = FRAMES, progress: Show = None) -> Hem:
@@ -33,37 +29,30 @@ def hemming(case: Hemming, *, tolerance: float = 0.1, frames: int = FRAMES, prog
     Raises
     ------
     InvalidValue
-        If the flange of an open hem would touch the base, or the first bend is out of reach.
+        If the first bend is out of reach.
     NoConvergence
         If the run does not converge.
+
+    Examples
+    --------
+    >>> from umform.processes.hemming import Hemming, hemming
+    >>> hem = hemming(Hemming(form="inner", gap=0.5))  # doctest: +SKIP
+    >>> hem.quantities  # doctest: +SKIP
     """
     first = bend_sequence(case.first, tolerance=tolerance, frames=frames, progress=progress)
-    problem, way = problem_of_hem(case, first)
+    problem = problem_of_hem(case, first)[0]
     made = problem.build()
-    model = made.model
-    run = OpenRun(model, options=OPTIONS, frames=max(1, frames // PARTS))
+    model, edge, count = made.model, edge_of(case), loading_steps(case)
+    run = OpenRun(model, options=OPTIONS, frames=max(1, frames // count))
     with progress_bar(progress) as tick:
         *moves, release = made.steps
-        for part, (move, show) in enumerate(zip(moves, parts(tick, "flattening", [1.0] * PARTS), strict=True), 1):
+        for move, show in zip(moves, parts(tick, "flattening", [1.0] * count), strict=True):
             run.take(move, tick=show)
-            strip = Strip.of(model.mesh, model.u)
-            if not case.insert:
-                _refuse_touch(case, strip, way * (1.0 - part / PARTS))
-        force = run.result["stroke_force"] / case.sheet.thickness
+        loaded = Strip.of(model.mesh, model.u, edge)
+        force = run.result[FORCE] / case.sheet.thickness
         run.take(release)
-    released = Strip.of(model.mesh, model.u)
+    released = Strip.of(model.mesh, model.u, edge)
     result = run.close()
-    whole = result["stroke_force"] / case.sheet.thickness
-    return Hem(case, first, measured(case, force, strip, released), result["stroke"], whole, released, result, problem)
-
-
-def _refuse_touch(case: Hemming, strip: Strip, left: float) -> None:
-    """Refuse a flange that has passed through the base."""
-    if clearances(case, strip).min() < _TOUCHES * case.sheet.thickness:
-        raise InvalidValue(
-            "the flange of an open hem touches the base, and the sheet has no contact with itself",
-            where="gap",
-            value=case.gap,
-            cause=f"it touches at a gap of about {case.gap + left:.3g}: the bend stands higher than the tip",
-            remedy="a larger gap, or insert=True: a plate of the thickness gap between flange and base",
-        )
+    measures = measured(case, force, Strip.of(*start_of(case, first)[:2]), loaded, released)
+    whole = result[FORCE] / case.sheet.thickness
+    return Hem(case, first, measures, result[way_column(case)], whole, loaded, released, result, problem)

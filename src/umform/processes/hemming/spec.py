@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Literal
 
 from annotated_types import Ge, Gt, Le
 
 from umform.errors import InvalidValue
 from umform.processes.air_bending.spec import AirBending
+from umform.processes.air_bending.stack import refuse_stack
 from umform.processes.bend_sequence.spec import Bend, BendSequence
 from umform.spec import About, check_fields, parameters
 from umform.spec.types import FOLLOWS, Length
@@ -22,6 +23,12 @@ ACUTE: dict[str, float] = {
     "punch_angle": 30.0,
     "punch_radius": 0.5,
 }
+#: Mesh and element of a hem: small 8-node elements stay valid in a closed fold, where those with 18 nodes invert.
+FOLDED: dict[str, Any] = {"element": "ANS3DEAS", "elements_per_thickness": 4.0}
+#: Forms of a hem, and the gap that each has over the thickness where none is given.
+GAPS: dict[str, float] = {"flat": 0.0, "inner": 1.0, "insert": 1.0, "open": 1.0, "rope": 0.0}
+#: Forms whose flange is closed on what it lies on.
+CLOSED = ("flat", "inner", "rope")
 
 
 def scaled(sizes: Mapping[str, float], factor: float) -> dict[str, float]:
@@ -40,45 +47,59 @@ def acute(thickness: float = 1.0, **given: Any) -> AirBending:
     **given : object
         Other parameters of `AirBending`.
     """
-    return AirBending(thickness=thickness, **scaled(ACUTE, thickness) | given)
+    return AirBending(thickness=thickness, **scaled(ACUTE, thickness) | FOLDED | given)
 
 
 @dataclass(frozen=True)
 class Hemming:
     """Hemming in mm, N and MPa. ::
 
-    ======================  plate, moved down
-     .-------------------   flange
-    (     [=============    insert: thickness gap, or nothing
-     '------------------------------  base
-    ======================  table
+        ======================  plate, moved down
+         .-------------------   flange
+        (     [=============    inner sheet or insert; nothing in a flat, an open or a rope hem
+         '------------------------------  base
+        ======================  table
 
+    The flange is bent to an acute angle in a V-die before.
+
+    Examples
+    --------
+    >>> from umform.processes.hemming import Hemming
+    >>> case = Hemming()
+    >>> case.flange / case.sheet.thickness, case.height
+    (12.0, 2.0)
     """
 
-    groups: ClassVar = {"gap": "Hem", "increments": "Solution"}
+    groups: ClassVar = {"form": "Hem", "increments": "Solution"}
     """Group of the parameters from each of these on."""
-    proportions: ClassVar = {"gap": 1.0, "flange": 12.0, "base": 30.0}
+    proportions: ClassVar = {"flange": 12.0, "base": 30.0}
     """Lengths over the thickness where none is given."""
 
+    form: Literal["flat", "inner", "insert", "open", "rope"] = "flat"
+    """Form of the hem: flat closes the flange on the base (2t); inner has an inner sheet of the same metal (3t),
+    insert a rigid plate; open has nothing, rope a flange that is closed at its tip only, with a loop at the fold."""
     gap: Annotated[
         float,
-        Gt(0.0),
-        About(
-            "mm",
-            cause="a closed hem, but the sheet has no contact with itself; or a sign",
-            remedy="a gap over an insert, such as half a thickness, in mm",
-        ),
+        Ge(0.0),
+        About("mm", cause="a sign", remedy="the thickness of the inner sheet or of the insert; 0 closes the hem"),
     ] = FOLLOWS
-    """Final distance of flange and base; the plate stops at two thicknesses and the gap above the table."""
+    """Distance of flange and base, and thickness of inner sheet or insert; the plate stops at two thicknesses and the
+    gap above the table. Without it, 0 in a flat and a rope hem, else one thickness."""
+    force: Annotated[
+        float | None,
+        Gt(0.0),
+        About("kN/m", cause="a sign", remedy="a force per length of hem; the table of the documentation has some"),
+    ] = None
+    """Force of the plate per length of hem, which it presses with wherever it stands then; without it, the plate moves
+    to its height."""
     flange: Length = FOLLOWS
     """Length of the flange, flat, from the bend line to its end."""
     base: Length = FOLLOWS
     """Length of the base, flat, from the bend line to its end."""
-    insert: bool = True
-    """Whether a rigid plate of the thickness gap lies on the base; without it the hem is open, and a flange that would
-    touch the base is an error, because the sheet has no contact with itself."""
     insert_from: Length | None = None
-    """Distance of the insert from the inner face at the bend line; without it, three thicknesses."""
+    """Distance of inner sheet or insert from the inner face at the bend line; without it, three thicknesses."""
+    loop: Length | None = None
+    """Distance of the plate of a rope hem from the bend line; without it, half of the flange."""
     angle: Annotated[
         float,
         Ge(20.0),
@@ -98,9 +119,11 @@ class Hemming:
 
     def __post_init__(self) -> None:
         check_fields(self)
-        for name, thicknesses in self.proportions.items():
+        refuse_stack(self.sheet, "sheet")
+        for name, thicknesses in (self.proportions | {"gap": GAPS[self.form]}).items():
             if getattr(self, name) is None:
                 object.__setattr__(self, name, thicknesses * self.sheet.thickness)
+        self._check_gap()
         if self.base < self.flange:
             raise InvalidValue(
                 "the base of a hem is longer than its flange",
@@ -115,6 +138,49 @@ class Hemming:
             error.where = error.where.removeprefix("bend 1, ")
             raise
 
+    def _check_gap(self) -> None:
+        """Refuse a gap and a loop that the form does not have."""
+        found = f"the form of the hem is {self.form}"
+        if self.form == "flat" and self.gap > 0.0:
+            raise InvalidValue(
+                "a flat hem has no gap",
+                where="gap",
+                value=self.gap,
+                cause=found,
+                remedy="the form open, inner or insert",
+            )
+        if self.gap == 0.0 and GAPS[self.form] > 0.0:
+            raise InvalidValue(
+                "an open hem has a gap, an inner sheet or an insert a thickness",
+                where="gap",
+                value=self.gap,
+                cause=found,
+                remedy="more than 0, or the form flat",
+            )
+        if self.loop is not None and (self.form != "rope" or self.loop >= self.flange):
+            raise InvalidValue(
+                "only a rope hem has a loop, which ends before its flange does",
+                where="loop",
+                value=self.loop,
+                cause=found,
+                remedy="a rope hem, and less than its flange",
+            )
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether the flange ends on the base or on the inner sheet."""
+        return self.form in CLOSED
+
+    @property
+    def touches_itself(self) -> bool:
+        """Whether sheets touch in the model: over a rigid insert, flange and base do not."""
+        return self.form != "insert"
+
+    @property
+    def loop_length(self) -> float:
+        """Distance of the plate from the bend line; 0 for a plate over the whole hem."""
+        return 0.0 if self.form != "rope" else 0.5 * self.flange if self.loop is None else self.loop
+
     @property
     def height(self) -> float:
         """Final distance of plate and table."""
@@ -122,7 +188,7 @@ class Hemming:
 
     @property
     def insert_edge(self) -> float:
-        """Distance of the insert from the inner face at the bend line."""
+        """Distance of inner sheet or insert from the inner face at the bend line."""
         return 3.0 * self.sheet.thickness if self.insert_from is None else self.insert_from
 
     @property

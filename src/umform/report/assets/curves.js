@@ -35,9 +35,9 @@ class Curves {
     return this.labels[name] ?? name;
   }
 
-  text(row) {
+  text(row, precision = 6) {
     const x = element("curves-x").value;
-    return `${this.label(x)} ${digits(this.table.columns[x][row])}`;
+    return `${this.label(x)} ${digits(Number(Number(this.table.columns[x][row]).toPrecision(precision)))}`;
   }
 
   // One unit of the picture is one pixel of the page, so that its letters are as large as all others.
@@ -56,9 +56,10 @@ class Curves {
     return node;
   }
 
-  // The same columns with more rows.
+  // The same columns with more rows; or fewer: of the next operation, or of an earlier state that comes late.
   renew(table) {
-    Object.assign(this, { table, row: null });
+    const last = table.length - 1;
+    Object.assign(this, { table, row: null, frame: this.frame === null || last < 0 ? null : Math.min(this.frame, last) });
     if (this.size) this.show();
   }
 

@@ -49,6 +49,7 @@ class ShapeView {
     this.frame = last ? this.count - 1 : Math.min(this.frame, this.count - 1);
     this.corners = this.cornersOfPath();
     if (this.side) this.look(this.side);
+    else this.before();
     this.show();
   }
 
@@ -89,6 +90,10 @@ class ShapeView {
     on("shape-frame", "input", (event) => {
       this.pause();
       this.goto(Number(event.target.value));
+    });
+    on("shape-options", "click", () => {
+      const open = element("shape-bar").classList.toggle("open"); // on a small screen only; else they are always open
+      element("shape-options").setAttribute("aria-expanded", String(open));
     });
     on("shape-play", "click", () => (this.playing ? this.pause() : this.play()));
     document.querySelectorAll("[data-view]").forEach((button) => {
@@ -139,10 +144,19 @@ class ShapeView {
     const far = 8 * arms[0].length();
     this.camera.position.copy(centre).addScaledVector(towards, 0.5 * far);
     Object.assign(this.camera, { zoom: 1, near: 0, far });
+    this.before();
     this.orbit.target.copy(centre);
     this.frustum();
     this.orbit.update();
     this.draw();
+  }
+
+  // Lines and tools are drawn before what they lie on, by parts of the size of the path.
+  before() {
+    const size = this.corners[0].distanceTo(this.corners[7]);
+    const nearer = (part) => (2 * part * size) / (this.camera.far - this.camera.near); // the depth is 2 in the picture
+    this.sheet.before(nearer(this.head.look.before.lines));
+    for (const tool of this.tools) tool.before(nearer(this.head.look.before.tools));
   }
 
   key(event) {
@@ -219,6 +233,7 @@ class ShapeView {
     this.sheet.lined(element("shape-lines").checked);
     this.sheet.rolled(this.head.rolling && element("shape-rolling").checked);
     this.images.visible = this.whole;
+    this.sheet.faces.whole(this.whole);
     for (const tool of this.tools) {
       tool.place(this.frame);
       tool.look(element("shape-tools").value);
@@ -226,14 +241,14 @@ class ShapeView {
     this.legend(range);
     const { row } = this.head.frames[this.frame];
     element("shape-frame").value = this.frame;
-    element("shape-time").textContent = `${window.umform.curves.text(row)} · ${this.frame} of ${this.count - 1}`;
+    element("shape-time").textContent = `${window.umform.curves.text(row, 4)} · state ${this.frame} of ${this.count - 1}`;
     element("shape-time").dataset.row = row;
     document.dispatchEvent(new CustomEvent("frame", { detail: row }));
     this.draw();
   }
 
   legend([bottom, top]) {
-    const hex = this.head.maps[this.field.map];
+    const hex = this.head.look.map;
     const colours = Array.from({ length: 16 }, (_, i) => `#${hex.substr(6 * Math.round((i * 63) / 15), 6)}`);
     element("legend-name").textContent = this.field.label;
     element("legend-bar").style.background = `linear-gradient(to top, ${colours.join(", ")})`;

@@ -1,27 +1,37 @@
 // Surfaces in space: the sheet, which deforms, and the tools, which move.
 
+// `nearer`: towards the observer, as a part of the depth of the picture, which a parallel projection does not show.
 const VERTEX = `
   in vec3 position; in vec3 normal; in float value;
-  uniform mat4 modelViewMatrix, projectionMatrix; uniform mat3 normalMatrix;
+  uniform mat4 modelViewMatrix, projectionMatrix; uniform mat3 normalMatrix; uniform float nearer;
   out vec3 vNormal; out float vValue;
   void main() {
     vNormal = normalMatrix * normal;
     vValue = value;
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+    gl_Position.z -= nearer;
   }`;
 
-// A lamp to the upper left of the observer, and light from everywhere.
+// Light without a direction and three lamps that go with the observer, as umform.report.looks has them.
 const FRAGMENT = `
   precision highp float;
   in vec3 vNormal; in float vValue;
-  uniform sampler2D map; uniform vec2 range; uniform vec3 colour; uniform float opacity; uniform bool mapped;
+  uniform sampler2D map; uniform vec2 range; uniform vec3 colour; uniform float opacity; uniform bool mapped, flat_;
+  uniform vec4 lamps[3]; uniform float ambient; uniform vec2 shine;
   out vec4 result;
   void main() {
-    vec3 n = normalize(gl_FrontFacing ? vNormal : -vNormal);
-    float lamp = max(dot(n, normalize(vec3(-0.35, 0.55, 0.8))), 0.0);
     float t = clamp((vValue - range.x) / (range.y - range.x), 0.0, 1.0);
     vec3 own = mapped ? texture(map, vec2(t * 63.0 / 64.0 + 0.5 / 64.0, 0.5)).rgb : colour;
-    result = vec4(own * (0.62 + 0.42 * lamp), opacity);
+    if (flat_) { result = vec4(own, opacity); return; }
+    vec3 n = normalize(gl_FrontFacing ? vNormal : -vNormal);
+    float light = ambient;
+    float gleam = 0.0;
+    for (int i = 0; i < 3; i += 1) {
+      float lit = max(dot(n, lamps[i].xyz), 0.0);
+      light += lamps[i].w * lit;
+      if (lit > 0.0) gleam += lamps[i].w * pow(max(reflect(-lamps[i].xyz, n).z, 0.0), shine.y);
+    }
+    result = vec4(own * light + shine.x * gleam, opacity);
   }`;
 
 // Products of mirrors at some planes, as groups that hold the images of a body; the body itself is not among them.
@@ -40,106 +50,36 @@ function images(mirrors, body) {
   });
 }
 
-function material(options, uniforms) {
+function material(look, options, uniforms) {
+  const lamps = look.light.lamps.flatMap(({ towards, strength }) => [...new THREE.Vector3(...towards).normalize().toArray(), strength]);
+  const values = {
+    map: null, range: new THREE.Vector2(0, 1), colour: new THREE.Color(), opacity: 1, mapped: false, flat_: false,
+    nearer: 0, lamps, ambient: look.light.ambient, shine: new THREE.Vector2(0, 1), ...uniforms,
+  };
   return new THREE.RawShaderMaterial({
     glslVersion: THREE.GLSL3, vertexShader: VERTEX, fragmentShader: FRAGMENT, side: THREE.DoubleSide, ...options,
-    uniforms: {
-      map: { value: null }, range: { value: new THREE.Vector2(0, 1) }, colour: { value: new THREE.Color() },
-      opacity: { value: 1 }, mapped: { value: false }, ...uniforms,
-    },
+    uniforms: Object.fromEntries(Object.entries(values).map(([name, value]) => [name, { value }])),
   });
 }
 
-// Faces with k corners each. Corners do not share their values, but corners of one group share their normal.
-class Faces {
-  constructor(faces, groups, k) {
-    Object.assign(this, { faces, groups, k, count: faces.length / k });
-    this.sums = new Float32Array(3 * (groups.reduce((a, b) => Math.max(a, b), -1) + 1));
-    this.geometry = new THREE.BufferGeometry();
-    for (const [name, size] of [["position", 3], ["normal", 3], ["value", 1]]) {
-      this.geometry.setAttribute(name, new THREE.BufferAttribute(new Float32Array(size * faces.length), size));
-    }
-    const index = [];
-    for (let f = 0; f < this.count; f += 1) {
-      for (let i = 2; i < k; i += 1) index.push(f * k, f * k + i - 1, f * k + i);
-    }
-    this.geometry.setIndex(index);
-  }
-
-  // Edges of the faces, each once, on the same positions.
-  lines() {
-    const seen = new Set();
-    const index = [];
-    for (let c = 0; c < this.faces.length; c += 1) {
-      const d = (c + 1) % this.k ? c + 1 : c + 1 - this.k;
-      const [a, b] = [this.faces[c], this.faces[d]];
-      const key = Math.min(a, b) * 4294967296 + Math.max(a, b);
-      if (!seen.has(key)) index.push(c, d);
-      seen.add(key);
-    }
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", this.geometry.getAttribute("position"));
-    geometry.setIndex(index);
-    return geometry;
-  }
-
-  move(points) {
-    const position = this.geometry.getAttribute("position");
-    this.faces.forEach((node, corner) => {
-      position.array.set(points.subarray(3 * node, 3 * node + 3), 3 * corner);
-    });
-    position.needsUpdate = true;
-    this.geometry.boundingSphere = null;
-    this.turnNormals(points);
-  }
-
-  // Normals: areas of the faces of each group, added up.
-  turnNormals(points) {
-    const { faces, groups, k, sums } = this;
-    const normal = this.geometry.getAttribute("normal");
-    sums.fill(0);
-    for (let f = 0; f < this.count; f += 1) {
-      const [a, b, c, d] = [0, 1, 2, k - 1].map((i) => 3 * faces[f * k + i]);
-      const u = [0, 1, 2].map((i) => points[c + i] - points[a + i]);
-      const v = [0, 1, 2].map((i) => points[d + i] - points[b + i]);
-      for (let i = 0; i < 3; i += 1) {
-        const [p, q] = [(i + 1) % 3, (i + 2) % 3];
-        const area = u[p] * v[q] - u[q] * v[p];
-        for (let corner = f * k; corner < f * k + k; corner += 1) sums[3 * groups[corner] + i] += area;
-      }
-    }
-    groups.forEach((group, corner) => {
-      normal.array.set(sums.subarray(3 * group, 3 * group + 3), 3 * corner);
-    });
-    normal.needsUpdate = true;
-  }
-
-  // Values at nodes, or of the cells that own the faces.
-  colour(values, owners) {
-    const value = this.geometry.getAttribute("value");
-    for (let corner = 0; corner < this.faces.length; corner += 1) {
-      value.array[corner] = values[owners ? owners[Math.floor(corner / this.k)] : this.faces[corner]];
-    }
-    value.needsUpdate = true;
-  }
-}
+// Lines without light.
+const ink = (look, colour, opacity) =>
+  material(look, { transparent: opacity < 1 }, { colour: new THREE.Color(colour), opacity, flat_: true });
 
 class Sheet {
-  constructor({ head, arrays }) {
+  constructor(scene) {
+    const { head, arrays } = scene;
     this.arrays = arrays;
-    this.fields = head.fields;
-    this.faces = new Faces(arrays.faces, arrays.groups, 4);
-    this.material = material(
-      { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }, { mapped: { value: true } },
-    );
+    this.look = head.look;
+    this.faces = head.patches ? new Patches(scene) : new Triangles(arrays.faces, arrays.groups, arrays.owners);
+    const { sheet } = this.look.light;
+    this.material = material(this.look, {}, { mapped: true, map: texture(this.look.map), shine: new THREE.Vector2(...sheet) });
     this.mesh = new THREE.Mesh(this.faces.geometry, this.material);
-    const ink = new THREE.LineBasicMaterial({ color: 0x87919b, transparent: true, opacity: 0.5 });
-    this.lines = new THREE.LineSegments(this.faces.lines(), ink);
+    this.lines = new THREE.LineSegments(this.faces.lines(), ink(this.look, this.look.colours.lines, this.look.opacity.lines));
     this.axes = this.rollingLines();
     this.mesh.frustumCulled = this.lines.frustumCulled = this.axes.frustumCulled = false;
     const all = [this.mesh, this.lines, this.axes];
     this.images = images(head.mirrors, () => new THREE.Group().add(...all.map((part) => part.clone())));
-    this.maps = Object.fromEntries(Object.entries(head.maps).map(([name, hex]) => [name, texture(hex)]));
   }
 
   // Whether edges are drawn.
@@ -154,30 +94,30 @@ class Sheet {
     for (const image of this.images) image.children[0].children[2].visible = visible;
   }
 
+  // How far lines are drawn before the faces, as a part of the depth of the picture.
+  before(nearer) {
+    this.lines.material.uniforms.nearer.value = this.axes.material.uniforms.nearer.value = nearer;
+  }
+
   // A line for each face.
   rollingLines() {
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(6 * this.faces.count), 3));
-    return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: 0xb3261e }));
+    return new THREE.LineSegments(emptyGeometry(2 * this.faces.count), ink(this.look, this.look.colours.rolling, 1));
   }
 
   // Lines along the rolling direction through the middles of the faces; none on faces that it stands on.
   turnAxes(frame, points) {
     if (!this.arrays.rolling) return;
     const directions = this.arrays.rolling.at(frame);
-    const { faces, count } = this.faces;
     const position = this.axes.geometry.getAttribute("position");
-    for (let f = 0; f < count; f += 1) {
-      const corners = [0, 1, 2, 3].map((i) => new THREE.Vector3().fromArray(points, 3 * faces[4 * f + i]));
-      const middle = corners.reduce((sum, x) => sum.add(x), new THREE.Vector3()).multiplyScalar(0.25);
-      const [u, v] = [corners[2].clone().sub(corners[0]), corners[3].clone().sub(corners[1])];
-      const normal = u.clone().cross(v).normalize();
-      const along = new THREE.Vector3().fromArray(directions, 3 * this.arrays.owners[f]);
-      const standing = Math.abs(along.dot(normal)) > 0.5;
-      along.addScaledVector(normal, -along.dot(normal)).setLength(standing ? 0 : 0.22 * Math.min(u.length(), v.length()));
-      middle.clone().sub(along).toArray(position.array, 6 * f);
-      middle.add(along).toArray(position.array, 6 * f + 3);
-    }
+    const { length, lying, before } = this.look.rolling;
+    this.faces.middles(points, (face, middle, normal, size, owner) => {
+      const along = new THREE.Vector3().fromArray(directions, 3 * owner);
+      along.addScaledVector(normal, -along.dot(normal));
+      along.setLength(along.length() > lying ? length * size : 0);
+      middle.addScaledVector(normal, before * size);
+      middle.clone().sub(along).toArray(position.array, 6 * face);
+      middle.clone().add(along).toArray(position.array, 6 * face + 3);
+    });
     position.needsUpdate = true;
   }
 
@@ -189,37 +129,36 @@ class Sheet {
     return this.arrays[`field ${field.name}`].at(frame);
   }
 
-  // Smallest and largest value in a frame, or in all of them without a frame; about zero if the field has two signs.
+  // Smallest and largest value in a frame, or in all of them without a frame.
   range(field, frame) {
     const { codes, size, low, step } = this.arrays[`field ${field.name}`];
     const part = frame === undefined ? codes : codes.subarray(frame * size, (frame + 1) * size);
     const ends = [part.reduce((a, b) => Math.min(a, b)), part.reduce((a, b) => Math.max(a, b))];
-    const [bottom, top] = ends.map((code) => low + step * code);
-    const size_ = Math.max(-bottom, top);
-    return field.symmetric ? [-size_, size_] : [bottom, top];
+    return ends.map((code) => low + step * code);
   }
 
   show(frame, field, [bottom, top]) {
     const points = this.points(frame);
     this.faces.move(points);
     this.turnAxes(frame, points);
-    this.faces.colour(this.values(field, frame), field.on === "cells" && this.arrays.owners);
-    const { map, range } = this.material.uniforms;
-    map.value = this.maps[field.map];
-    range.value.set(bottom, top > bottom ? top : bottom + 1);
+    this.faces.colour(this.values(field, frame), field);
+    this.material.uniforms.range.value.set(bottom, top > bottom ? top : bottom + 1);
   }
 }
 
 class ToolBody {
   constructor({ head, arrays }, number) {
+    const { look } = head;
     this.poses = arrays[`tool ${number} poses`];
-    const faces = new Faces(arrays[`tool ${number} faces`], arrays[`tool ${number} groups`], 3);
+    this.clear = look.opacity.tool;
+    const faces = new Triangles(arrays[`tool ${number} faces`], arrays[`tool ${number} groups`]);
     faces.move(arrays[`tool ${number} points`]);
-    this.material = material({ transparent: true }, { colour: { value: new THREE.Color(0xa9b4be) } });
-    const ink = new THREE.LineBasicMaterial({ color: 0x7f8a94 });
+    const shine = new THREE.Vector2(...look.light.tool);
+    this.material = material(look, { transparent: true }, { colour: new THREE.Color(look.colours.tool), shine });
+    this.edges = ink(look, look.colours.lines, look.opacity.edges);
     this.group = new THREE.Group();
     this.group.add(new THREE.Mesh(faces.geometry, this.material));
-    this.group.add(new THREE.LineSegments(new THREE.EdgesGeometry(faces.geometry, 25), ink));
+    this.group.add(new THREE.LineSegments(new THREE.EdgesGeometry(faces.geometry, look.edge), this.edges));
     this.group.matrixAutoUpdate = false;
     this.images = images(head.toolMirrors[number].map((plane) => head.mirrors[plane]), () => this.group.clone());
     this.bodies = [this.group, ...this.images.map((image) => image.children[0])];
@@ -233,11 +172,16 @@ class ToolBody {
     }
   }
 
+  // How far it is drawn before the sheet, as a part of the depth of the picture: chords of elements enter tools.
+  before(nearer) {
+    this.material.uniforms.nearer.value = this.edges.uniforms.nearer.value = nearer;
+  }
+
   // Seen through, a tool does not hide the sheet behind it.
   look(how) {
     const clear = how === "clear";
     for (const body of this.bodies) body.visible = how !== "hidden";
-    this.material.uniforms.opacity.value = clear ? 0.32 : 1;
+    this.material.uniforms.opacity.value = clear ? this.clear : 1;
     this.material.depthWrite = !clear;
   }
 }

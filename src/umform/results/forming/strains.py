@@ -51,18 +51,44 @@ def sheet_strains(mesh: Mesh, u: Floats) -> SheetStrains:
         Displacement of the nodes.
     """
     cells = mesh.connectivity
-    places = np.array([[0.0, 0.0, t] for t in SURFACES.values()])
-    _, dN = _core.shell_functions(cells.shape[1], places)
-    both = (mesh.points, mesh.points + u.reshape(-1, 3))
-    before, now = (np.einsum("qia,eak->eqik", dN[:, :2], x[cells]) for x in both)
-    logs = np.log(_principal_stretches(before, now))
+    logs = np.log(_principal_stretches(*_tangents(mesh, u, [[0.0, 0.0, t] for t in SURFACES.values()])))
     thickness = np.log(_heights(cells, mesh.points + u.reshape(-1, 3)) / _heights(cells, mesh.points))
     major, minor = ({name: logs[:, k, side] for k, name in enumerate(SURFACES)} for side in (1, 0))
     return SheetStrains(major, minor, thickness)
 
 
+def stretched(mesh: Mesh, u: Floats) -> Floats:
+    """Tensor F F^T in the middle of each cell, in axes of the undeformed cell, shape (cells, 2, 2). eq. (5.61)
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Undeformed mesh.
+    u : ndarray, shape (n, 3) or (3 n,)
+        Displacement of the nodes.
+    """
+    before, now = _tangents(mesh, u, [[0.0, 0.0, 0.0]])
+    return _stretch_tensors(before[:, 0], now[:, 0])
+
+
+def _tangents(mesh: Mesh, u: Floats, places: list[list[float]]) -> tuple[Floats, Floats]:
+    """Tangents of the sheet at places of each cell before and after, shape (cells, places, 2, 3)."""
+    cells = mesh.connectivity
+    _, dN = _core.shell_functions(cells.shape[1], np.array(places))
+    before, now = (
+        np.einsum("qia,eak->eqik", dN[:, :2], x[cells]) for x in (mesh.points, mesh.points + u.reshape(-1, 3))
+    )
+    return before, now
+
+
 def _principal_stretches(G: Floats, g: Floats) -> Floats:
     """Smaller and larger stretch (..., 2) of tangent vectors (..., 2, 3) before and after. eq. (5.61)"""
+    values: Floats = np.sqrt(np.linalg.eigvalsh(_stretch_tensors(G, g)))
+    return values
+
+
+def _stretch_tensors(G: Floats, g: Floats) -> Floats:
+    """Tensor F F^T (..., 2, 2) of tangent vectors (..., 2, 3) before and after. eq. (5.61)"""
     first = G[..., 0, :]
     first = first / np.linalg.norm(first, axis=-1, keepdims=True)
     normal = np.cross(G[..., 0, :], G[..., 1, :])
@@ -70,8 +96,8 @@ def _principal_stretches(G: Floats, g: Floats) -> Floats:
     local = np.stack([first, np.cross(normal, first)], axis=-2)
     to_local = np.linalg.inv(np.einsum("...ik,...jk->...ij", G, local))  # rows: G_i in the local axes
     F = np.einsum("...ij,...jk->...ik", to_local, g)
-    values: Floats = np.sqrt(np.linalg.eigvalsh(np.einsum("...ik,...jk->...ij", F, F)))
-    return values
+    tensors: Floats = np.einsum("...ik,...jk->...ij", F, F)
+    return tensors
 
 
 def _heights(cells: Ids, x: Floats) -> Floats:

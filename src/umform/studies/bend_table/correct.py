@@ -75,7 +75,7 @@ def correct(
     angle_deviation, force_deviation, radius_deviation : float
         Standard deviations; default: 0.1 degrees, 1 % of the force, 3 % of the radius.
     force : float, optional
-        Measured force at the stroke, in kN for each m of the bend, which is N/mm.
+        Measured force at the stroke, in kN/m.
     radius : float, optional
         Measured inside radius in mm.
     name : str

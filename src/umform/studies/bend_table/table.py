@@ -235,6 +235,13 @@ def setups(
     ------
     InvalidValue
         The library has no such metal, or tools do not fit a thickness.
+
+    Examples
+    --------
+    >>> from umform.processes.air_bending import AirBending
+    >>> from umform.studies.bend_table import setups
+    >>> [one.case.thickness for one in setups(["DC04"], AirBending(), thicknesses=[1.0, 2.0])]
+    [1.0, 2.0]
     """
     lists = {
         "thickness": thicknesses,
@@ -292,6 +299,14 @@ def bend_table(
         Angles that the tools cannot have; nothing is computed then.
     FileProblem
         The store cannot be written.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from umform.processes.air_bending import AirBending
+    >>> from umform.studies.bend_table import bend_table, setups, write_table
+    >>> table = bend_table(setups(["DC04"], AirBending()), [90.0, 120.0])  # doctest: +SKIP
+    >>> files = write_table(table, Path("bends"), ["csv", "freecad"])  # doctest: +SKIP
     """
     check_processes(processes)
     for setup in wanted:

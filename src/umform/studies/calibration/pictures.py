@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from umform.materials import J2, FallingModulus, Metal, YieldFunction, tension
-from umform.plotting import COLOURS
+from umform.plotting import COLOURS, Plot
 from umform.sheet_metals import Directions, uniaxial
 from umform.studies.calibration.calibrate import Calibration
 from umform.studies.calibration.measurements import Test, Unloading
@@ -38,7 +38,7 @@ def pictures(found: Calibration) -> Iterator[tuple[str, Figure]]:
 
 def over_the_angle(function: YieldFunction, measured: Directions | None) -> Figure:
     """Yield stress and r-value over the angle to the rolling direction."""
-    figure = Figure(figsize=(9, 3.8), layout="constrained")
+    figure = Plot(figsize=(9, 3.8), layout="constrained")
     angles = np.linspace(0.0, 90.0, 91)
     values = np.array([uniaxial(function, angle) for angle in angles])
     for axes, column, name in zip(figure.subplots(1, 2), (0, 1), ("stress", "r"), strict=True):
@@ -54,7 +54,7 @@ def over_the_angle(function: YieldFunction, measured: Directions | None) -> Figu
 
 def locus(function: YieldFunction, measured: Directions | None) -> Figure:
     """Yield locus in plane stress, for three shears, with what was measured of it."""
-    figure = Figure(figsize=(4.6, 4.6), layout="constrained")
+    figure = Plot(figsize=(4.6, 4.6), layout="constrained")
     axes = figure.subplots()
     kernel = function.function()
     shear = 1.0 / kernel(np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0]))[0]
@@ -91,7 +91,7 @@ def _contour(function: YieldFunction, shear: float) -> tuple[Floats, Floats]:
 
 def over_plastic_strain(law: FallingModulus, measured: Unloading, young: float) -> Figure:
     """Slopes of unloading over the plastic strain."""
-    figure = Figure(figsize=(6.2, 4.0), layout="constrained")
+    figure = Plot(figsize=(6.2, 4.0), layout="constrained")
     axes: Axes = figure.subplots()
     p = np.linspace(0.0, 1.05 * float(measured.eqps.max()), 101)
     axes.plot(measured.eqps, measured.modulus, "o", color=COLOURS[1], markersize=3, label="measured")
@@ -103,7 +103,7 @@ def over_plastic_strain(law: FallingModulus, measured: Unloading, young: float) 
 
 def along_a_test(law: J2 | Metal, test: Test, name: str) -> Figure:
     """Stress over strain of a test: measured, and the law along the same strains."""
-    figure = Figure(figsize=(6.2, 4.0), layout="constrained")
+    figure = Plot(figsize=(6.2, 4.0), layout="constrained")
     axes: Axes = figure.subplots()
     strain, stress = curve_of(law, test)
     axes.plot(test.strain, test.stress, "o", color=COLOURS[1], markersize=3, label="measured")

@@ -16,7 +16,7 @@ from umform.analysis.run import Result
 from umform.analysis.shadows import Shadowed, of_all
 from umform.errors import InvalidValue
 from umform.io.tables import write_csv
-from umform.results.outcome import Annex
+from umform.results.outcome import Annex, Study
 from umform.results.quantity import UNKNOWN, Quantity
 from umform.spec import Scalar
 from umform.studies.derivatives.derivative import Derivative
@@ -30,8 +30,8 @@ Floats = NDArray[np.float64]
 TABLE, HISTORY, PICTURE = "derivatives.csv", "derivatives-history.csv", "derivatives.png"
 
 
-@dataclass(frozen=True)
-class Derivatives:
+@dataclass(frozen=True, repr=False)
+class Derivatives(Study):
     """All derivatives of a run.
 
     Attributes

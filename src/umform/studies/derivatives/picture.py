@@ -7,7 +7,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from umform.plotting import house_style, save
+from umform.plotting import Plot, house_style, save
 from umform.studies.derivatives.derivative import Derivative
 
 
@@ -26,7 +26,7 @@ def tornado(derivatives: Sequence[Derivative], path: str | Path | None = None) -
     response = derivatives[0].response
     changes = [0.01 * (one.value or 0.0) * one.parameter.value for one in known]
     with house_style():
-        figure = Figure(figsize=(6.5, 0.9 + 0.32 * max(1, len(known))), layout="constrained")
+        figure = Plot(figsize=(6.5, 0.9 + 0.32 * max(1, len(known))), layout="constrained")
         axes = figure.add_subplot()
         colours = ["tab:red" if change < 0.0 else "tab:blue" for change in changes]
         axes.barh([one.parameter.path for one in known], changes, color=colours)

@@ -18,7 +18,7 @@ from umform.analysis.run import Result
 from umform.errors import InvalidValue, SolveError, UmformError
 from umform.io.tables import write_csv
 from umform.progress import Tick, progress_bar, silent
-from umform.results.outcome import Annex
+from umform.results.outcome import Annex, Study
 from umform.results.quantity import Quantity
 from umform.spec import Scalar
 from umform.studies.derivatives.derive import derivatives, known_parameter, subject_of
@@ -114,8 +114,8 @@ class Trial:
     shapes: Shapes | None = None
 
 
-@dataclass(frozen=True)
-class Compensated:
+@dataclass(frozen=True, repr=False)
+class Compensated(Study):
     """Parameters for wanted results.
 
     Attributes
@@ -206,6 +206,11 @@ class Compensated:
         shapes = self._pictured
         plot = None if shapes is None else (lambda: picture(*shapes))
         return Annex("Compensation", self.table, self._notes, self.warnings, plot, _CAPTION)
+
+    @property
+    def annexes(self) -> list[Annex]:
+        """Wanted results and runs."""
+        return [Annex("Wanted results", self.goals), self.annex]
 
     @property
     def _notes(self) -> list[str]:

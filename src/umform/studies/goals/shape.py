@@ -23,7 +23,7 @@ from umform.problem.unloading import loading_steps
 from umform.progress import Show, progress_bar
 from umform.report.symmetry import mirrors
 from umform.results.forming.tool_distance import pose_in
-from umform.results.outcome import Annex
+from umform.results.outcome import Annex, Study
 from umform.studies.goals.compensate import TABLE
 from umform.studies.goals.deviation import SmoothFace, deviations
 from umform.surfaces import OffsetByField, OffsetField, Placed
@@ -79,8 +79,8 @@ class ShapeTrial:
         return float(np.sqrt(np.mean(self.deviation**2)))
 
 
-@dataclass(frozen=True)
-class CompensatedShape:
+@dataclass(frozen=True, repr=False)
+class CompensatedShape(Study):
     """Offset fields for a wanted shape.
 
     Attributes

@@ -93,9 +93,7 @@ class Tools:
 
 def picture(first: Shapes, last: Shapes) -> Figure:
     """Both runs, each in its tools and out of them."""
-    from matplotlib.figure import Figure
-
-    from umform.plotting import COLOURS, house_style
+    from umform.plotting import COLOURS, Plot, house_style
 
     lines = (
         ("formed, first run", first.formed, COLOURS[0], "--"),
@@ -104,7 +102,7 @@ def picture(first: Shapes, last: Shapes) -> Figure:
         ("out of the compensated tools", last.sprung, COLOURS[1], "-"),
     )
     with house_style():
-        figure = Figure(figsize=(7.5, 4.5), layout="constrained")
+        figure = Plot(figsize=(7.5, 4.5), layout="constrained")
         axes = figure.add_subplot()
         for label, line, colour, style in lines:
             if line is None:

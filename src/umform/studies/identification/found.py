@@ -15,6 +15,7 @@ from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
 from umform.problem.before import TAKEN
 from umform.problem.written import deck_text
+from umform.results.outcome import Annex, Study
 from umform.results.quantity import UNKNOWN
 from umform.sheet_metals import Fit
 from umform.studies.calibration.words import vague
@@ -42,8 +43,8 @@ _FAR = 2.0
 _LITTLE = 0.8
 
 
-@dataclass(frozen=True)
-class Identified:
+@dataclass(frozen=True, repr=False)
+class Identified(Study):
     """Numbers of a problem from measurements.
 
     Attributes
@@ -126,6 +127,11 @@ class Identified:
             text = UNKNOWN if math.isinf(error) else f"{error:.2g}"
             rows.append([path, f"{self.start[path]:.6g}", f"{value:.6g}", text, units[path], sure])
         return rows
+
+    @property
+    def annex(self) -> Annex:
+        """The numbers and the remarks."""
+        return Annex("Numbers from measurements", self.table, list(self.remarks))
 
     @property
     def remarks(self) -> Iterator[str]:

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from umform.plotting import COLOURS, house_style, save
+from umform.plotting import COLOURS, Plot, house_style, save
 from umform.studies.derivatives import Derivatives
 from umform.studies.identification.data import Measured, MeasuredCurve
 
@@ -39,7 +39,7 @@ def picture(
     numbers = [n for n, one in enumerate(data) if not isinstance(one, MeasuredCurve)]
     count = len(curves) + bool(numbers)
     with house_style():
-        figure = Figure(figsize=(5.2 * count, 3.6), layout="constrained")
+        figure = Plot(figsize=(5.2 * count, 3.6), layout="constrained")
         places = list(np.atleast_1d(figure.subplots(1, count)))
         for axes, (n, curve) in zip(places, curves, strict=False):
             before = table["before"][ends[n] - len(curve.abscissae) : ends[n]]

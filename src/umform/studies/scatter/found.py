@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from umform.errors import InvalidValue
 from umform.io.tables import write_csv, write_json
 from umform.report.versions import versions
-from umform.results.outcome import Annex
+from umform.results.outcome import Annex, Study
 from umform.results.quantity import UNKNOWN, Bad, Quantity, list_columns
 from umform.studies.derivatives import Derivatives
 from umform.studies.scatter.second_run import ALLOWED, STEPS, SecondRun
@@ -32,8 +32,8 @@ SHARES = "Shares of the variance in %"
 CAPABLE = 1.33
 
 
-@dataclass(frozen=True)
-class Scattered:
+@dataclass(frozen=True, repr=False)
+class Scattered(Study):
     """Scatter of the results of a run.
 
     Attributes

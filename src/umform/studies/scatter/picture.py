@@ -9,7 +9,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from umform.plotting import COLOURS, house_style, save
+from umform.plotting import COLOURS, Plot, house_style, save
 from umform.studies.scatter.spread import Spread
 
 
@@ -26,7 +26,7 @@ def bars(spreads: Sequence[Spread], path: str | Path | None = None) -> Figure:
         Picture to write.
     """
     with house_style():
-        figure = Figure(figsize=(7.2, 1.4 + 0.34 * max(1, len(spreads))), layout="constrained")
+        figure = Plot(figsize=(7.2, 1.4 + 0.34 * max(1, len(spreads))), layout="constrained")
         axes = figure.add_subplot()
         ends = [[0.0, 0.0] for _ in spreads]  # of the bars so far: to the left, to the right
         for source, colour in zip(spreads[0].shares if spreads else (), cycle(COLOURS)):

@@ -10,7 +10,7 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from umform.plotting import COLOURS, house_style, save
+from umform.plotting import COLOURS, Plot, house_style, save
 from umform.studies.sweep.measures import heading
 
 #: Largest number of lines in a legend.
@@ -35,7 +35,7 @@ def plot(rows: Sequence[Row], varied: Sequence[str], measures: Sequence[str], pa
     x = _abscissa(rows, several or varied)
     lines = _lines([row for row in rows if row["outcome"] == "done"], [name for name in several if name != x], x)
     with house_style():
-        figure = Figure(figsize=(6.6, 1.2 + 2.6 * len(measures)), layout="constrained")
+        figure = Plot(figsize=(6.6, 1.2 + 2.6 * len(measures)), layout="constrained")
         panels = figure.subplots(len(measures), 1, squeeze=False, sharex=True)[:, 0]
         for axes, measure in zip(panels, measures, strict=True):
             _draw(axes, lines, x, measure)

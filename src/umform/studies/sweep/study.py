@@ -7,12 +7,15 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
+from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from umform.errors import InvalidValue
+from umform.notebook import Display, InNotebook
 from umform.pool import check_processes, run_all
 from umform.progress import Tick, progress_bar
+from umform.spec.display import value_text
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -26,8 +29,8 @@ log = logging.getLogger("umform")
 Row = dict[str, Any]
 
 
-@dataclass(frozen=True)
-class Sweep:
+@dataclass(frozen=True, repr=False)
+class Sweep(InNotebook):
     """All jobs of a sweep.
 
     Attributes
@@ -54,6 +57,14 @@ class Sweep:
     measures: list[str]
     rows: list[Row]
     files: list[Path]
+
+    def __repr__(self) -> str:
+        return f"Sweep({len(self.rows)} jobs over {', '.join(self.varied)}: {', '.join(self.measures)})"
+
+    def _display(self) -> Display:
+        columns = self.table()
+        rows = zip(*([value_text(one) for one in column] for column in columns.values()), strict=True)
+        return Display(f"Sweep of {len(self.rows)} jobs", {"": [list(columns), *map(list, rows)]})
 
     def __getitem__(self, column: str) -> list[Any]:
         """A column of the table."""
@@ -88,7 +99,7 @@ def sweep(
     deck: str | Path | Problem,
     vary: Mapping[str, Any] | None = None,
     *,
-    jobs: Sequence[Mapping[str, Any]] | None = None,
+    jobs: Sequence[Mapping[str, Any]] | str | PathLike[str] | None = None,
     changes: Mapping[str, Any] | None = None,
     measures: Sequence[str | Function] = (),
     out: str | Path | None = None,
@@ -114,8 +125,9 @@ def sweep(
         Values by key; all combinations are run. Keys are named as in ``--set``, or by their last parts if these are
         unambiguous. A text is a list with commas or a range with both ends: ``"0.8:1.2:0.1"``. The values of
         ``material`` are names of the library.
-    jobs : sequence of mapping, optional
-        Combined values, one mapping for each job; ``vary`` multiplies them.
+    jobs : sequence of mapping, str or path-like, optional
+        Combined values, one mapping for each job, or a CSV file of them with the keys in its first line; ``vary``
+        multiplies them.
     changes : mapping of str to object, optional
         Other values of keys for all jobs, as ``--set`` gives them.
     measures : sequence of str or callable, optional
@@ -161,6 +173,7 @@ def sweep(
     """
     from umform.io.staging import staging
     from umform.problem import Problem, load
+    from umform.studies.sweep.jobs_file import read_jobs
     from umform.studies.sweep.measures import Measure
     from umform.studies.sweep.plan import make_plan
     from umform.studies.sweep.table import FILES, JOBS, write
@@ -172,7 +185,8 @@ def sweep(
     functions = tuple(measure for measure in measures if not isinstance(measure, str))
     folder = Path(out) if out is not None else Path("results") / f"{Path(base.source.name).stem}-sweep"
     options = {"files": files, "functions": functions, "force": force}
-    plan = make_plan(base, vary or {}, jobs, changes or {}, folder.resolve() / JOBS, **options)
+    listed = read_jobs(jobs) if isinstance(jobs, str | PathLike) else jobs
+    plan = make_plan(base, vary or {}, listed, changes or {}, folder.resolve() / JOBS, **options)
     if staying := _tools_stay(plan):
         log.warning(staying)
     with staging(folder if out is None else out, FILES) as stage:

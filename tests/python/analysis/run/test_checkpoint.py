@@ -24,7 +24,7 @@ from umform.analysis.run.checkpoint import Checkpoints
 from umform.analysis.steps import Arc, Move, Release
 from umform.io.atomic import PendingFile
 from umform.io.trees import read_tree, write_tree
-from umform.mesh import strip
+from umform.mesh import strip, together
 from umform.model import Body, Model
 from umform.solvers import pardiso
 from umform.surfaces import Cylinder, Plane, Sphere
@@ -184,6 +184,46 @@ def metals():
     return model, [Move(tip, 0.8, steps=4, time=0.01), Move(tip, 0.2, steps=3, time=2.0)], {"frames": 3}
 
 
+def multiplied():
+    """The same with multipliers, over cells."""
+    return stacked(augmented=True, penetration=0.001, penalty=1e3, cells=3)
+
+
+def stacked(**rule):
+    """Two strips of other meshes, pressed on each other and bent together, which slip on each other back and forth."""
+    lower = strip(20.0, 2.0, 1.0, (10, 1))
+    upper = strip(20.0, 2.0, 0.8, (13, 1)).transformed(lambda X: X + np.array([0.0, 0.0, 0.9]))
+    material = mt.J2(kappa=175e3, mu=80.77e3, hardening=mt.Linear(160.0, 500.0))
+    model = Model(together(a=lower, b=upper), material=material)
+    model.sheet_contact("upper of a", "lower of b", name="stack", friction=0.15, **rule)
+    for sheet in "ab":
+        model.fix(f"x0 of {sheet}")
+    pressures = [model.pressure("lower of a", "below"), model.pressure("upper of b", "above")]
+    end = model.prescribe("x1 of b", "z", "end")
+    return (
+        model,
+        [Move(pressures, [2.0, 2.0], steps=1), Move(end, -3.0, steps=4), Move(end, -2.0, steps=4)],
+        {"frames": 3},
+    )
+
+
+def folded():
+    """A strip with half a turn, whose shorter flank is pushed onto the other one, and along it; over cells."""
+
+    def turned(X):
+        s, y, z = X[:, 0], X[:, 1], X[:, 2]
+        angle, beyond = np.clip((s - 5.0) / 0.9, 0.0, np.pi), np.maximum(s - 5.0 - 0.9 * np.pi, 0.0)
+        x = np.minimum(s, 5.0) - beyond + (0.9 - z) * np.sin(angle)
+        return np.column_stack([x, y, 0.9 - (0.9 - z) * np.cos(angle)])
+
+    material = mt.J2(kappa=175e3, mu=80.77e3, hardening=mt.Linear(160.0, 500.0))
+    model = Model(strip(8.0 + 0.9 * np.pi, 2.0, 1.0, (20, 1)).transformed(turned), material=material)
+    model.self_contact("upper", name="inside", friction=0.1, cells=3)
+    model.fix("x0")
+    end, along = model.prescribe("x1", "z", "end"), model.prescribe("x1", "x", "along")
+    return model, [Move(end, -1.2, steps=5), Move(along, 0.1, steps=3), Move(along, 0.05, steps=2)], {"frames": 3}
+
+
 @pytest.fixture
 def assert_the_same(same_state):
     """Bit by bit, but for the seconds."""
@@ -233,7 +273,8 @@ def copies(monkeypatch, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "build", [bending, moves, cut, bar, block, arch, pressed, rubbed, celled, beaded, metals, kept]
+    "build",
+    [bending, moves, cut, bar, block, arch, pressed, rubbed, celled, beaded, metals, kept, stacked, multiplied, folded],
 )
 def test_a_run_goes_on_from_any_place_to_the_same_bits(build, copies, tmp_path, assert_the_same):
     model, steps, options = build()
@@ -268,6 +309,13 @@ def test_the_cases_are_cut_touched_lifted_and_snap_through(caplog):
     model, steps, options = pressed()
     active = solve(model, steps, **options)["lid_active"]
     assert active[0] == 0 < active[-1]
+    model, steps, options = stacked()
+    slipping = solve(model, steps, **options)["stack_slipping"]
+    assert slipping.max() > slipping[6:].min() + 10  # there, and back again
+    model, steps, options = folded()
+    result = solve(model, steps, **options)
+    assert result["inside_active"][4] == 0 < result["inside_active"][-1]
+    assert model.system.penalised[0].penalty > model.system.penalised[0].initial_penalty
 
 
 @pytest.mark.parametrize("solver", ["multifrontal", "superlu", pytest.param("pardiso", marks=needs_mkl)])

@@ -144,11 +144,13 @@ def test_a_checkpoint_of_other_settings_is_refused(part, change, finished, build
 def test_another_version_supports_and_element_are_refused(finished, monkeypatch, build):
     model, steps, options = bending(build)
     model.fix("x0_upper", "z")
+    written = umform.__version__
     monkeypatch.setattr(umform, "__version__", "0.0.0")
     with pytest.raises(FileProblem) as caught:
         resume(finished, model, steps, **options)
     assert caught.value.value == "different: version of umform, supports and loads"
-    assert "0.1.0 in the file, 0.0.0 here" in caught.value.cause
+    assert f"{written} in the file, 0.0.0 here" in caught.value.cause
+    assert caught.value.remedy.startswith(f"resume with umform {written}, which wrote it")
 
 
 def test_a_pressure_on_other_faces_is_another_run(tmp_path):

@@ -8,7 +8,7 @@ import pytest
 import umform as uf
 from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.run.stages import Stage, continued, solve_stages
-from umform.analysis.shadows import Shadowed, solve_stages_with_shadows
+from umform.analysis.shadows import Shadowed, of_all, solve_stages_with_shadows
 from umform.analysis.shadows.shadow import Shadow
 from umform.errors import InvalidValue, NoConvergence
 from umform.results.records import Failed
@@ -73,6 +73,16 @@ def test_through_springback_and_a_trim_beside_differences(whole):
                 assert np.abs(derivative - slope).max() < 1e-3 * scale, (name, stage, column)
 
 
+def test_a_loose_run_has_the_same_derivatives(whole):
+    """The reference goes on from its own result, which is solved to round-off whatever the run is."""
+    loose = NewtonOptions(residual=1e-3, increment=0.1)
+    found = solve_stages_with_shadows(stages(), changed(3e-5), options=loose, frames=0)
+    assert np.abs(found["trim"].run.model.u - found["trim"].reference.model.u).max() > 1e-8
+    for name in VALUES:
+        own, wanted = (each["trim"].shadows[name].model.u - each["trim"].reference.model.u for each in (found, whole))
+        assert np.abs(own - wanted).max() < 1e-4 * np.abs(wanted).max(), name
+
+
 def test_the_run_is_that_of_stages_without_shadows(whole, same_state):
     alone = solve_stages(stages(), frames=0)
     for stage in alone:
@@ -91,14 +101,25 @@ def test_stages_go_on_from_their_checkpoints(whole, tmp_path, same_state):
     with pytest.raises(KeyboardInterrupt):
         solve_stages_with_shadows(stages(), changed(3e-5), frames=0, checkpoints=tmp_path, progress=stop)
     assert [path.name for path in sorted(tmp_path.iterdir())] == ["1-bend.h5", "2-unload.h5"]
-    for _ in range(2):
-        again = solve_stages_with_shadows(stages(), changed(3e-5), frames=0, checkpoints=tmp_path)
+    for increments in (2, 0):  # those of the trim, and none
+        left = []
+        again = solve_stages_with_shadows(
+            stages(), changed(3e-5), frames=0, checkpoints=tmp_path, on_increment=left.append
+        )
+        assert len(left) == increments
         for stage, found in whole.items():
             for one, other in zip(results(again[stage]), results(found), strict=True):
                 assert same_state(one.model.system.snapshot(), other.model.system.snapshot())
                 for column in other.columns():
                     np.testing.assert_array_equal(one[column], other[column])
             assert again[stage].kept == found.kept
+
+
+def test_what_was_kept_is_that_of_all_stages(whole):
+    each = [stage.kept["Y"] for stage in whole.values()]
+    kept = of_all(whole).kept["Y"]
+    assert kept.residual == max(one.residual for one in each)
+    assert len(kept.switched) == sum(len(stage.run) for stage in whole.values())
 
 
 def results(found: Shadowed):

@@ -222,3 +222,13 @@ def test_a_tool_that_loses_the_sheet_is_named():
     push = tip.press(ball, "z", "push")
     with pytest.raises(NoConvergence, match=r"tool ball, pressed with push = -\S+, holds the sheet"):
         solve(tip, [Close(push, force=-5.0), Move(push, -200.0, steps=5, cuts=4)])
+
+
+def test_increments_in_contact_are_not_longer_than_the_largest():
+    ways = {}
+    for largest in (None, 0.2):
+        model, punch = beam()
+        step = Close(model.press(punch, "z", "press"), force=-200.0, increment=largest)
+        ways[largest] = np.abs(np.diff(solve(model, step)["press_way"]))
+    assert ways[None][2:].max() > 0.25
+    assert ways[0.2][2:-1].max() <= 0.2 * (1.0 + 1e-9)

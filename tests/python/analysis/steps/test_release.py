@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
+
 import numpy as np
 import pytest
 
 from umform import NewtonOptions
 from umform import materials as mt
 from umform.analysis.run import solve
-from umform.analysis.steps import Move, Release, release
+from umform.analysis.steps import Arc, Close, Free, Move, Pace, Release, release
+from umform.errors import InvalidValue
 from umform.mesh import strip
 from umform.model import Model
 from umform.surfaces import Cylinder
@@ -67,3 +70,29 @@ def test_an_increment_that_went_too_far_is_not_tried_again_for_a_rounding_error(
     assert abs(size) < abs(bound - value)
     again = release._next_release(value, force=-715.0, before=None, bound=bound, size=size, resolution=2e-6)
     assert again == pytest.approx(value + 0.5 * size)
+
+
+def test_a_number_of_steps_bounds_the_increments():
+    strip_ = strip(20.0, 2.0, 1.0, (10, 1))
+    ends = []
+    for words in ({}, {"steps": 40}, {"increment": 0.01}):
+        model = Model(strip_, material=STEEL)
+        model.fix("x0")
+        tip = model.prescribe("x1_lower", "z", "tip")
+        result = solve(model, [Move(tip, -2.0, steps=6), Release(tip, **words)], progress=False)
+        back = np.abs(np.diff(result["tip"][7:]))
+        ends.append(result["tip"][-1])
+        if "steps" in words:
+            assert back.max() == pytest.approx(0.05)
+            assert len(back) < 8
+    assert np.ptp(ends) < 1e-5
+    with pytest.raises(InvalidValue, match="not both"):
+        Release(tip, increment=0.1, steps=4)
+
+
+@pytest.mark.parametrize("step", [Move, Release, Close, Free, Arc, Pace])
+def test_steps_say_their_words(step):
+    with pytest.raises(InvalidValue, match=f"{step.__name__} has no parameter duration") as refused:
+        step(duration=3.0)
+    words = refused.value.remedy.removeprefix("its parameters are ").split(", ")
+    assert words == [field.name for field in fields(step)]

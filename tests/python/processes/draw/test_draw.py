@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import h5py
 import numpy as np
 import pytest
+from matplotlib import pyplot as plt
 from typer.testing import CliRunner
 
 import umform as uf
@@ -19,12 +20,12 @@ from umform.processes.draw import Cup, Drawn, UBend, draw, write_files
 from umform.processes.draw.drawn import FORCE, FORCE_OFF
 from umform.processes.draw.endings import ending_of
 from umform.processes.draw.files import draw_blank
-from umform.processes.draw.pictures import pictures, sections
+from umform.processes.draw.pictures import limits, pictures, sections
 from umform.processes.draw.press import OPTIONS
 from umform.processes.draw.spec import coarse
 from umform.processes.draw.u_bend import NUMISHEET
 from umform.processes.draw.words import before_the_run
-from umform.results.forming import ear_profile, passage
+from umform.results.forming import BY_PATHS, ear_profile, passage
 
 STEEL = uf.J2(E=206e3, nu=0.3, hardening=uf.Swift(565.3, 0.0071, 0.259))
 CUP = Cup(
@@ -109,7 +110,8 @@ def test_measures_of_a_cup():
 def test_the_ripple_of_a_mesh_is_the_band_of_its_force(monkeypatch):
     drawn = replace(cup())
     own = float(drawn.forces["punch"].max()) / 1000.0
-    force, ripple = drawn[FORCE].value, drawn[FORCE].band.error
+    force, ripple, band = drawn[FORCE].value, drawn.punch_force.ripple / 1000.0, drawn[FORCE].band
+    assert band.error >= ripple and "ripple" in band.source and "studies" in band.source
     assert 0.0 < ripple < 0.2 * force and own == pytest.approx(force, abs=1.001 * ripple)
     assert drawn.punch_force_after is None and FORCE_OFF not in drawn.values
     monkeypatch.setattr(passage, "RIPPLE", 0.2)
@@ -129,7 +131,7 @@ def test_a_peak_off_the_holder_is_not_the_force_of_drawing():
     rows = drawn.values
     assert rows["largest punch force"] == pytest.approx(30.0, rel=0.05)
     assert rows["at a stroke of"] == pytest.approx(15.0, abs=0.5)
-    off, ripple = rows[FORCE_OFF], drawn[FORCE_OFF].band.error
+    off, ripple = rows[FORCE_OFF], drawn.punch_force_after.ripple / 1000.0
     assert off + ripple >= 49.9 and rows["off the holder: at a stroke of"] == pytest.approx(33.0, abs=0.5)
     assert any("the rim is ironed row by row" in text for text in drawn.warnings)
 
@@ -154,6 +156,21 @@ def test_files_of_a_cup(tmp_path):
     assert "Forming limit diagram" in page and "Height of the cup" in page
 
 
+def test_both_forming_limits_are_shaded_by_their_bands():
+    """The band of the margin below the limit of strains; that of the use by paths, a part of the radius."""
+    drawn = cup()
+    left, right = limits(drawn).axes
+    texts = [[text.get_text() for text in axes.get_legend().texts] for axes in (left, right)]
+    assert all("its band" in names for names in texts)
+    (shade,) = right.patches
+    radius = np.hypot(*shade.get_xy().T)
+    used = 0.01 * drawn[BY_PATHS].band.error
+    assert radius.min() == pytest.approx(
+        max(1.0 - used, 0.0) * min(drawn.paths.limit(np.radians(np.linspace(-44.0, 45.0, 200))))
+    )
+    plt.close("all")
+
+
 def test_values_of_one_coarse_mesh_are_marked_everywhere(tmp_path):
     """Terminal, report and JSON take warnings, errors and rows from the same place."""
     drawn = cup()
@@ -161,11 +178,15 @@ def test_values_of_one_coarse_mesh_are_marked_everywhere(tmp_path):
     assert "turns 45 degrees over a radius, 15 is usual" in said
     assert not coarse(replace(CUP, turn=15.0)) and not coarse(replace(U, turn=12.0))
     header, *rows = drawn.tables["Measures"]
-    assert header[2] == "error" and {row[2] for row in rows[1:]} == {"unknown"} and rows[0][2].startswith("± ")
+    counts = {"number of ears", "ears count from an amplitude of"}
+    assert header[2] == "error" and {row[0] for row in rows if not row[2].startswith("± ")} <= counts
     write_files(tmp_path, drawn)
     kept, page = json.loads((tmp_path / "part.json").read_text()), (tmp_path / "report.html").read_text()
-    assert said in kept["warnings"] and [name for name, error in kept["errors"].items() if error is not None] == [FORCE]
-    assert "most errors are unknown" in kept["about_errors"] and "most errors are unknown" in page and said in page
+    assert said in kept["warnings"] and kept["errors"]["largest thinning"] > 1.0
+    thinning = next(one for one in kept["quantities"] if one["name"] == "largest thinning")["band"]
+    assert {"mesh", "increments", "contact points", "penalty", "tolerance"} < set(thinning["sources"])
+    assert "not from this run" in thinning["source"] and thinning["source"] in page
+    assert "values of one mesh" in kept["about_errors"] and "values of one mesh" in page and said in page
 
 
 def test_a_short_u_bend():
@@ -193,7 +214,7 @@ def test_a_wall_that_springs_back_far_is_measured_lower():
     run = History(
         stroke=np.linspace(0.0, 70.0, 71), **{f"{tool}_fz": np.full(71, -50.0) for tool in ("punch", "holder", "die")}
     )
-    run.model, run.warnings = model, []
+    run.model, run.warnings, run.frames = model, [], []
     drawn = Drawn(case, lambda minor: minor, run, u.ravel(), run, None)
     assert drawn.wall_heights == pytest.approx([17.0 * part / 55.0 for part in (15.0, 35.0, 55.0)], rel=0.02)
     assert drawn.angles is not None and drawn.angles.radius == pytest.approx(20.0, rel=0.05)

@@ -13,6 +13,7 @@ import umform as uf
 from umform.errors import FileProblem, InvalidValue
 from umform.problem import Problem
 from umform.processes.air_bending import AirBending
+from umform.processes.draw.u_bend import NUMISHEET, UBend
 
 EXAMPLES = Path(__file__).resolve().parents[4] / "examples" / "umat"
 COMPILER = shutil.which("gcc") or shutil.which("cc")
@@ -276,3 +277,14 @@ def test_a_stopped_run_goes_on_to_the_same_bits(tmp_path):
         np.testing.assert_array_equal(again.values, whole.values)
     with pytest.raises(FileProblem):
         uf.derivatives(cantilever, {**by, "E": 211e3}, ["tip_force"], progress=False, checkpoint=tmp_path / "run.h5")
+
+
+def test_a_flange_that_lies_flat_between_planes():
+    """Its contact is settled element by element: the reference takes as many corrections as points come and go."""
+    steel = uf.sheet_metals.get("NUMISHEET93 mild steel").law
+    case = UBend(**NUMISHEET | UBend.meshes["coarse"] | {"material": steel, "stroke": 14.0})
+    found = uf.derivatives(case, ["thickness"], ["stroke_force:last"], progress=False)
+    (one,) = found
+    assert one.why == ""
+    assert one.residual < 1e-9
+    assert found.stages["run"].missing == ""

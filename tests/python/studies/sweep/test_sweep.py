@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import umform as uf
-from umform.errors import InvalidValue
+from umform.errors import FileProblem, InvalidValue
 from umform.problem import DeckError, load, running
 from umform.problem.templates import write_template
 from umform.results.history import History
@@ -188,6 +188,20 @@ def test_a_list_of_jobs_varies_keys_together(deck):
     rows = list(zip(*(found[name] for name in ("thickness", "E", "pull"))))
     assert rows == [(1.0, 1e5, 0.1), (1.0, 1e5, 0.2), (2.0, 2e5, 0.1), (2.0, 2e5, 0.2)]
     assert found["pull_force:max"][2] == pytest.approx(4 * found["pull_force:max"][0])
+
+
+def test_jobs_of_a_file(deck, tmp_path):
+    path = tmp_path / "jobs.csv"
+    path.write_text("thickness,E\n1.0,1e5\n2.0,2e5\n", encoding="utf-8")
+    found = sweep(deck, jobs=path, measures=["pull_force:max"])
+    assert list(zip(found["thickness"], found["E"])) == [(1.0, 1e5), (2.0, 2e5)]
+    assert found["pull_force:max"][1] == pytest.approx(4 * found["pull_force:max"][0])
+    assert sweep(deck, jobs=str(path), measures=["pull_force:max"]).rows == found.rows
+    with pytest.raises(FileProblem, match="cannot be read"):
+        sweep(deck, jobs=tmp_path / "other.csv")
+    path.write_text("thickness,E\n1.0\n", encoding="utf-8")
+    with pytest.raises(FileProblem, match="no table of jobs"):
+        sweep(deck, jobs=path)
 
 
 class Elsewhere(Executor):

@@ -23,12 +23,13 @@ from umform.errors import InvalidValue, NoConvergence
 from umform.model import Model
 from umform.model.terms.control import Control
 from umform.results.records import Cause, Failed
-from umform.spec import check_fields
+from umform.spec import check_fields, names_its_words
 from umform.spec.types import Count, Cuts, Duration, Growth, Increments, Share
 
 log = logging.getLogger("umform.arc")
 
 
+@names_its_words
 @dataclass(frozen=True)
 class Arc:
     """Follow the equilibrium path while controls move along straight lines, through maxima and minima of the load.

@@ -14,12 +14,11 @@ def refuse_on_an_arc(model: Model, where: str) -> None:
     InvalidValue
         If a contact has them.
     """
-    for contact in model.contacts:
-        if contact.augmented:
-            raise InvalidValue(
-                "an arc cannot be followed with multipliers of contact",
-                where=where,
-                value=f"contact {contact.name}",
-                cause="they are found at fixed loads, which a limit point does not have",
-                remedy="augmented=False and the penetration that you allow",
-            )
+    for contact in model.system.multiplied:
+        raise InvalidValue(
+            "an arc cannot be followed with multipliers of contact",
+            where=where,
+            value=f"contact {contact.name}",
+            cause="they are found at fixed loads, which a limit point does not have",
+            remedy="augmented=False and the penetration that you allow",
+        )

@@ -82,7 +82,7 @@ class Path:
         model, nothing = run.model, PathState(0.0, 0.0, np.empty(0), 0.0, None)
         path = cls(model, run.newton, ArcLength(line), increment, model.system.time, time, 0.0, nothing)
         with model.system.with_term(path.equation):
-            evaluation = path.newton.guarded(lambda: model.evaluate(model.system.x))
+            evaluation = path.newton.guarded(lambda: model.system.evaluate(model.system.x))
             tangent, found = path.newton.guarded(lambda: path._tangent(evaluation))
         rate = tangent / tangent[-1]
         if spherical:
@@ -135,7 +135,7 @@ class Path:
         ``yields``: whether it may exceed the allowed penetration rather than fail.
         """
         model = self.model
-        penalties = {contact: contact.penalty for contact in model.contacts}
+        penalties = {contact: contact.penalty for contact in model.system.penalised}
         try:
             with model.system.with_term(self.equation):
                 with self.newton.timing.attempts.trying("arc"):

@@ -1,0 +1,34 @@
+"""What the numbers of a finished job say: fit for the shop, to be read with care, beyond a limit, or in collision."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+#: Standard deviations from which a measured bend is not met by the corrected metal.
+_FAR = 2.0
+#: The verdicts, the worst first; a job without any of them is good.
+VERDICTS = ("collides", "missed", "warned")
+
+
+def verdict(summary: Mapping[str, Any]) -> str:
+    """One of `VERDICTS` for the summary of a finished job; empty if it is good."""
+    if summary.get("collisions"):
+        return "collides"
+    if any(_missed(summary)):
+        return "missed"
+    return "warned" if any(summary.get(name) for name in ("warnings", "coarse_mesh", "remarks")) else ""
+
+
+def _missed(summary: Mapping[str, Any]) -> Iterator[bool]:
+    """Numbers beyond their limits, and what the work was for but has not given."""
+    lists = [summary.get(name) or () for name in ("quantities", "checks", "sizes")]
+    for quantities in (*lists, *(summary.get("columns") or ())):
+        yield any(one.get("missed") for one in quantities)
+    yield bool(summary.get("failed"))  # bends of a table
+    if "flat" in summary:
+        flat = summary["flat"]
+        yield bool(flat.get("bends")) and not flat.get("order")
+    if "corrected" in summary:
+        misfit = summary.get("misfit")
+        yield misfit is None or misfit > _FAR or any(one["error"] is None for one in summary["corrected"])

@@ -1,0 +1,88 @@
+"""``umform blank``: the blank of a formed part, estimated in one step."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from umform.cli.metal import law_of
+from umform.cli.options import SHEET, All, Curve, FlowCurve, Material, Modulus, Poisson, Yield, Young, option
+from umform.cli.outcome_screen import show_outcome
+from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.warnings import print_warnings_once
+
+_HELD, _PART = "What holds the sheet", "Part"
+
+
+@app.command()
+def blank(
+    part: Annotated[
+        Path, typer.Argument(metavar="PART", help="Mid-surface of the part, drawn along z: STL, STEP, IGES, a mesh.")
+    ],
+    thickness: Annotated[float, option("Thickness of the sheet in mm.", SHEET)] = 1.0,
+    material: Material = None,
+    young: Young = None,
+    poisson: Poisson = None,
+    yield_stress: Yield = None,
+    hardening_modulus: Modulus = None,
+    curve: Curve = None,
+    flow_curve: FlowCurve = None,
+    rolling: Annotated[float, option("Angle of the rolling direction to x in degrees.", SHEET)] = 0.0,
+    holder_force: Annotated[float, option("Force of the blank holder in N.", _HELD)] = 0.0,
+    friction: Annotated[
+        float, option("Coefficient of friction under the holder, and of punch and die on radii.", _HELD)
+    ] = 0.1,
+    bead: Annotated[float, option("Restraining force of draw beads along the outer edge in N/mm.", _HELD)] = 0.0,
+    gap: Annotated[
+        float | None, option("Distance of punch and die in mm: walls are not thicker; default: no limit.", _HELD)
+    ] = None,
+    clamped: Annotated[
+        bool, typer.Option("--clamped", help="The outer edge is held as it lies.", rich_help_panel=_HELD)
+    ] = False,
+    scale: Annotated[float, option("Factor on the coordinates of the file: 25.4 for inches.", _PART)] = 1.0,
+    offset: Annotated[
+        float, option("Distance from the surface to the mid-surface along its normals in mm.", _PART)
+    ] = 0.0,
+    weld: Annotated[float, option("Corners nearer than this are one, in mm; default: 1e-6 of the size.", _PART)] = 0.0,
+    size: Annotated[
+        float | None,
+        option("Largest side of a triangle in mm; default: those of the file, of CAD files 1/20 of the part.", _PART),
+    ] = None,
+    coarse: Annotated[
+        bool, typer.Option("--coarse", help="Triangles of CAD files of 1/10 of the part.", rich_help_panel=_PART)
+    ] = False,
+    out: Annotated[
+        str | None, typer.Option(metavar="FOLDER", help="Folder for drawing, tables, page; default: results/blank.")
+    ] = None,
+    everything: All = False,
+    overwrite: Overwrite = False,
+    verbose: Verbose = 0,
+    debug: Debug = False,
+) -> None:
+    """Estimate the blank of a formed part in one step: outline as DXF, strains, thickness.
+
+    It is an estimate: the incremental run decides. See docs/blank.md.
+    """
+    from umform.flat_pattern.one_step import Blank
+    from umform.flat_pattern.one_step import blank as estimated
+    from umform.flat_pattern.one_step.files import FILES, write_files
+    from umform.flat_pattern.one_step.reading import coarse_size
+    from umform.io.folders import folder_for
+    from umform.io.staging import staging
+
+    print_warnings_once()
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, thickness)
+    case = Blank(law, thickness, rolling, holder_force, friction, bead, gap, clamped)
+    say = partial(typer.echo, err=True)
+    place = folder_for(out, Path("results/blank"), FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
+    if coarse and size is None:
+        size = coarse_size(part, scale)
+    found = estimated(part, case, scale=scale, weld=weld, size=size, offset=offset)
+    with staging(place, FILES):
+        with printing(f"the files of the blank are in {place}"):
+            show_outcome(found, note=note, everything=everything)
+        files = write_files(place, found, note)
+    console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)

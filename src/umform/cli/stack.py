@@ -1,0 +1,71 @@
+"""Further sheets of ``umform bend`` from options: a metal, a thickness, friction with the sheet below."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from typing import TYPE_CHECKING, Annotated
+
+from umform.cli.metal import by_name
+from umform.cli.options import SHEET, option
+from umform.errors import InvalidValue
+
+if TYPE_CHECKING:
+    from umform.processes.air_bending.stack import StackedSheet
+
+OnTop = Annotated[
+    list[str] | None,
+    option(
+        "A further sheet on those before, as METAL,THICKNESS or METAL,THICKNESS,FRICTION: a metal as in --material, "
+        "and its coefficient of friction with the sheet below; repeatable.",
+        SHEET,
+    ),
+]
+
+
+@by_name("--on-top", ", or a file with [material]")
+def stacked(texts: Sequence[str]) -> list[StackedSheet]:
+    """The sheets of the options, from the lowest upwards."""
+    from umform.problem.metal_file import metal_of
+    from umform.processes.air_bending.stack import StackedSheet
+
+    sheets = []
+    for text in texts:
+        name, *rest = text.split(",")
+        numbers: list[float] = []
+        with suppress(ValueError):
+            numbers = [float(part) for part in rest]
+        if len(numbers) not in (1, 2):
+            raise InvalidValue(
+                "a further sheet has a metal, a thickness and perhaps a coefficient of friction",
+                where="--on-top",
+                value=text,
+                cause="a number is missing, or a decimal comma",
+                remedy="--on-top DC04,0.8 or --on-top foil.toml,0.1,0.2",
+            )
+        try:
+            sheets.append(StackedSheet(numbers[0], metal_of(name.strip(), numbers[0]).law, *numbers[1:]))
+        except InvalidValue as error:
+            if error.where in ("thickness", "friction"):
+                error.where = f"--on-top, {error.where}"
+            raise
+    return sheets
+
+
+def check_single(budget: object, derive: object, identified: object, wanted: object, scatter: object) -> None:
+    """Refuse studies, whose parameters and errors of meshes are those of a single sheet."""
+    given = {
+        "--budget": budget,
+        "--derive": derive,
+        "--find, --quantity": identified,
+        "--want, --by": wanted,
+        "--scatter": scatter,
+    }
+    named = [name for name, value in given.items() if value]
+    if named:
+        raise InvalidValue(
+            "this study is one of a single sheet",
+            where=", ".join(named),
+            cause="--on-top beside it: parameters and errors of meshes are those of one sheet",
+            remedy="leave one of them out",
+        )

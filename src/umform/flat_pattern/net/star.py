@@ -1,0 +1,105 @@
+"""Outlines that each ray from a centre meets once, and meshes stretched to them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from umform.errors import InvalidValue
+from umform.mesh import Mesh
+
+Floats = NDArray[np.float64]
+
+_TURN = 2.0 * math.pi
+#: Angle below which a ray goes through a point, and length over the size below which points are one.
+_HAIR = 1e-9
+#: Part of the way from the centre to the edge on which a mesh stays as it is.
+KEPT = 0.5
+
+
+@dataclass(frozen=True, eq=False)
+class Star:
+    """An outline around a centre, closed, or the part of it in a sector.
+
+    Attributes
+    ----------
+    centre : ndarray, shape (2,)
+        In x and y.
+    points : ndarray, shape (n, 2) or (n, 3)
+        Corners, counter-clockwise about the centre.
+    """
+
+    centre: Floats
+    points: Floats
+
+    @classmethod
+    def of(cls, points: ArrayLike, centre: ArrayLike, where: str) -> Star:
+        """The outline with these corners, in their order, either way around; a repeated corner counts once.
+
+        Raises
+        ------
+        InvalidValue
+            If a ray from the centre meets it twice; ``where`` names it.
+        """
+        x, c = np.asarray(points, dtype=float), np.asarray(centre, dtype=float)
+        if x.ndim != 2 or x.shape[1] not in (2, 3) or len(x) < 3 or not np.isfinite(x).all():
+            raise InvalidValue(
+                "an outline has at least three corners with two or three coordinates",
+                where=where,
+                value=f"an array of shape {x.shape}",
+                cause="another table, or a missing number",
+                remedy="columns x, y or x, y, z in mm",
+            )
+        hair = _HAIR * float(np.ptp(x[:, :2], axis=0).max())
+        x = x[np.linalg.norm(x - np.roll(x, 1, axis=0), axis=1) > hair]
+        steps = np.diff(np.unwrap(np.arctan2(*(x[:, :2] - c).T[::-1])))
+        if steps.sum() < 0.0:
+            x, steps = x[::-1], -steps[::-1]
+        if steps.min() <= 0.0 or steps.sum() > _TURN + _HAIR:
+            worst = int(steps.argmin())
+            raise InvalidValue(
+                "a ray from the centre meets the outline more than once",
+                where=where,
+                value=f"at ({x[worst, 0]:.4g}, {x[worst, 1]:.4g}), centre ({c[0]:.4g}, {c[1]:.4g})",
+                cause="an outline of another shape or place, corners out of their order, or a hole",
+                remedy="an outline around the middle of the blank that each ray meets once",
+            )
+        return cls(c, x)
+
+    def at(self, angle: ArrayLike) -> Floats:
+        """Where rays at some angles meet it."""
+        corners = np.unwrap(np.arctan2(*(self.points[:, :2] - self.centre).T[::-1]))
+        turned = np.mod(np.asarray(angle, dtype=float) - corners[0], _TURN)
+        turned[turned > _TURN - _HAIR] = 0.0
+        place = np.searchsorted(corners - corners[0], turned + _HAIR, side="right") - 1
+        p, q = self.points[place], self.points[(place + 1) % len(corners)]
+        normal = np.stack([-np.sin(angle), np.cos(angle)], axis=-1)
+        a, b = (((end[:, :2] - self.centre) * normal).sum(axis=1) for end in (p, q))
+        return np.asarray(p + (a / np.where(a == b, 1.0, a - b))[:, None] * (q - p))
+
+    def radius(self, angle: ArrayLike) -> Floats:
+        """Distance of these places from the centre, in x and y."""
+        return np.asarray(np.hypot(*(self.at(angle)[:, :2] - self.centre).T))
+
+
+def stretched(mesh: Mesh, before: Star, after: Star) -> Mesh:
+    """A mesh moved along rays, so that its edge lies on another outline; its inner half stays as it is.
+
+    Raises
+    ------
+    InvertedElement, FoldedElement
+        If the outlines are too different.
+    """
+
+    def moved(x: Floats) -> Floats:
+        away = x[:, :2] - before.centre
+        angle = np.arctan2(*away.T[::-1])
+        edge = before.radius(angle)
+        share = np.clip((np.hypot(*away.T) / edge - KEPT) / (1.0 - KEPT), 0.0, 1.0)
+        factor = 1.0 + share * (after.radius(angle) / edge - 1.0)
+        return np.concatenate([before.centre + factor[:, None] * away, x[:, 2:]], axis=1)
+
+    return mesh.transformed(moved)

@@ -1,0 +1,124 @@
+"""Where the edge of a formed part is wanted: on an outline, or at a height of the part."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import FileProblem, InvalidValue
+from umform.flat_pattern.net.star import Star
+from umform.flat_pattern.one_step import distance_to_outline
+from umform.surfaces import Profile
+
+Floats = NDArray[np.float64]
+
+#: Distance of a polyline from arcs of a drawing, mm.
+_CHORD = 0.005
+
+
+class Wanted(Protocol):
+    """Where an edge is wanted."""
+
+    def places(self, edge: Floats, surface: Floats) -> Floats:
+        """The place wanted for each point of the formed edge, shape (k, 2) or (k, 3).
+
+        The points of the edge and of the whole mid-surface have the shapes (k, 3), (n, 3).
+        """
+
+    def distance(self, edge: Floats, surface: Floats) -> Floats:
+        """Distance of each point of the formed edge from where it is wanted, shape (k,)."""
+
+
+@dataclass(frozen=True, eq=False)
+class OnOutline:
+    """An outline, seen along z if it has no z: of a flange.
+
+    Attributes
+    ----------
+    star : Star
+        The outline: the whole, or that of the modelled part.
+    """
+
+    star: Star
+
+    def places(self, edge: Floats, surface: Floats) -> Floats:
+        """Where the ray through each point of the edge meets the outline."""
+        del surface
+        return self.star.at(np.arctan2(*(edge[:, :2] - self.star.centre).T[::-1]))
+
+    def distance(self, edge: Floats, surface: Floats) -> Floats:
+        """Distance from the outline."""
+        del surface
+        points = self.star.points
+        return distance_to_outline(edge[:, : points.shape[1]], np.concatenate([points, points[:1]]))
+
+
+@dataclass(frozen=True)
+class AtHeight:
+    """A height of the edge over the bottom of the part, along z: of a cup.
+
+    Attributes
+    ----------
+    height : float
+        From the mid-surface of the bottom.
+    """
+
+    height: float
+
+    def places(self, edge: Floats, surface: Floats) -> Floats:
+        """The points of the edge at the height."""
+        z = surface[:, 2]
+        below = edge[:, 2].mean() > 0.5 * (z.min() + z.max())
+        level = z.min() + self.height if below else z.max() - self.height
+        return np.concatenate([edge[:, :2], np.full((len(edge), 1), level)], axis=1)
+
+    def distance(self, edge: Floats, surface: Floats) -> Floats:
+        """Distance from the height."""
+        return np.asarray(abs(self.places(edge, surface)[:, 2] - edge[:, 2]))
+
+
+def outline_of(path: str | Path) -> Floats:
+    """Corners of an outline in a file, shape (n, 2) or (n, 3).
+
+    Parameters
+    ----------
+    path : str or Path
+        A DXF drawing of one closed curve, or a CSV table with the columns x, y or x, y, z; a heading is left out.
+
+    Raises
+    ------
+    FileProblem, OpenSection
+        If the file cannot be read.
+    """
+    if Path(path).suffix.lower() == ".dxf":
+        return Profile.from_dxf(path, tolerance=_CHORD).points(_CHORD)
+    try:
+        rows = np.genfromtxt(path, delimiter=",", comments="#")
+    except (OSError, ValueError) as error:
+        raise FileProblem(
+            "the outline cannot be read",
+            where=str(path),
+            cause=" ".join(str(error).split())[:200],
+            remedy="a DXF drawing with one closed curve, or a CSV file with columns x, y or x, y, z",
+        ) from error
+    rows = np.atleast_2d(rows)
+    return np.asarray(rows[np.isfinite(rows).all(axis=1)])
+
+
+def height(value: float) -> AtHeight:
+    """A wanted height.
+
+    Raises
+    ------
+    InvalidValue
+        If it is not positive.
+    """
+    if not value > 0.0:
+        raise InvalidValue(
+            "the height of a part is positive", where="height", value=value, remedy="in mm, from the bottom to the edge"
+        )
+    return AtHeight(value)

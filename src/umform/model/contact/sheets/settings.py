@@ -1,0 +1,181 @@
+"""Settings of a contact of sheets: penalty from both sides, contact points, depth of the search."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated
+
+import numpy as np
+from annotated_types import Ge, Gt, Le
+
+from umform.errors import InvalidPenalty, InvalidValue
+from umform.mesh import Ids, Mesh
+from umform.model.bodies.body import Body
+from umform.model.contact.cells import MOST
+from umform.model.contact.encounter import bending_stress
+from umform.model.contact.friction import AnyFriction, friction_kernel
+from umform.model.contact.settings import ALLOWED
+from umform.model.contact.sheets.faces import Depth, depth_of
+from umform.spec import About, check_fields
+from umform.spec.types import ContactPoints, Positive
+
+#: Share of a sheet in the softness 1/penalty, in its thickness over its stiffness; and of a solid body, in the
+#: thickness of its layer at the face over its stiffness: it deforms by more than a stiffer penalty would gain.
+#: With multipliers, whose passes close a part of the gap that is the greater the stiffer the penalty, it stays.
+_START, _LEAST, _MULTIPLIED, _SOLID = 50.0, 0.5, 5.0, 0.1
+#: Deepest penetration that is one, in thicknesses of the thinner sheet, or in the reach of a solid body.
+_DEEPEST = 0.5
+#: Default of the points per direction.
+_POINTS = 2
+_CELLS = About(cause="a number of cells in all", remedy="3 on 4-node and 5 on 9-node faces to begin with")
+
+
+@dataclass(frozen=True)
+class SheetContactOptions:
+    """Choices of a contact of sheets; the rest follows from their thickness and their laws."""
+
+    penalty: (
+        Annotated[
+            float,
+            Gt(0.0),
+            About(cause="a sign or a missing value", remedy="omit it", error=InvalidPenalty),
+        ]
+        | None
+    ) = None
+    """Penalty: contact pressure per penetration; by default a hundredth of the stiffness of both sheets across their
+    thickness, which grows where the penetration exceeds the allowed one, or a tenth with multipliers, and ten times
+    the stiffness of the layer at the face of a solid body, one of more than four layers. eq. (4.320)"""
+    penetration: Positive | None = None
+    """Allowed penetration; by default 1/200 of the thickness of the thinner sheet. A run that exceeds it warns."""
+    augmented: bool = False
+    """Remove excess penetration by multipliers, with a penalty that stays as it is. Costs a few iterations per
+    increment. Sticking friction stays elastic."""
+    points: ContactPoints | None = None
+    """Gauss points per direction of a face, by default 2. Use at least 2 on 4-node and 3 on 9-node faces."""
+    cells: Annotated[int, Ge(1), Le(MOST), _CELLS] | None = None
+    """Instead of points: cells per direction of a face, over which a linear gap is integrated up to the moving edge of
+    contact. The tangent is unsymmetric."""
+    friction: AnyFriction | None = None
+    """Coefficient of friction, or a law; by default none. The tangent is unsymmetric."""
+    slip: Positive | None = None
+    """Elastic slip of a sticking point at the allowed penetration before it slips; by default 1/200 of the thickness of
+    the thinner sheet."""
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        if self.points is not None and self.cells is not None:
+            raise InvalidValue(
+                "give points or cells, and not both",
+                where="cells",
+                value=f"points {self.points}, cells {self.cells}",
+                cause="cells take the place of points",
+                remedy="leave one of them away",
+            )
+
+
+@dataclass(frozen=True)
+class SheetContactSettings:
+    """Settings of a contact of sheets.
+
+    Attributes
+    ----------
+    penalty : float
+        Pressure per penetration.
+    allowed : float
+        Allowed penetration.
+    points : int
+        Gauss points, or cells, per direction and facet.
+    over_cells : bool
+        Whether these are cells.
+    thickness, reach : float
+        Those of the thinner sheet.
+    friction : float, Friction or callable, optional
+        Friction law; None without friction.
+    stiffness : float
+        Traction per elastic slip; zero without friction.
+    largest : float
+        Penalty up to which it grows in a run; 0 if it was given, or with multipliers.
+    augmented : bool
+        Whether multipliers reduce the penetration to the allowed one.
+    """
+
+    penalty: float
+    allowed: float
+    points: int
+    over_cells: bool
+    thickness: float
+    reach: float
+    friction: AnyFriction | None = None
+    stiffness: float = 0.0
+    largest: float = 0.0
+    augmented: bool = False
+
+    @property
+    def deepest(self) -> float:
+        """Penetration beyond which a place belongs to no contact."""
+        return _DEEPEST * self.reach
+
+
+def sheet_contact_settings(
+    mesh: Mesh, sides: Sequence[Ids], bodies: Sequence[Body], options: SheetContactOptions, where: str
+) -> SheetContactSettings:
+    """Settings from the given values, the rest from the sheets; the same whichever side comes first. eq. (4.320)
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The sheets.
+    sides : sequence of ndarray of int, shape (k, 2)
+        Faces of each side, rows (cell, face).
+    bodies : sequence of Body
+        Body of each side.
+    options : SheetContactOptions
+        The given values.
+    where : str
+        For messages.
+    """
+    depths = [depth_of(mesh, side) for side in sides]
+    thinner, reach = min(depth.thickness for depth in depths), min(depth.reach for depth in depths)
+    allowed = ALLOWED * thinner if options.penetration is None else float(options.penetration)
+    penalty, largest = options.penalty, 0.0
+    if penalty is None:
+        stiff = [bending_stress(body.material, 1e-7, where) / 1e-7 for body in bodies]
+        penalty, largest = (
+            0.5 * len(depths) / sum(_softness(depth, E, share) for depth, E in zip(depths, stiff, strict=True))
+            for share in ((_MULTIPLIED if options.augmented else _START), _LEAST)
+        )
+        largest = 0.0 if options.augmented else largest
+    over_cells = options.cells is not None
+    points = options.cells or options.points or _POINTS
+    stiffness, friction = 0.0, options.friction
+    if isinstance(friction, int | float) and friction == 0:
+        friction = None
+    if friction is not None:
+        slip = ALLOWED * thinner if options.slip is None else float(options.slip)
+        pressure = penalty * allowed
+        bound = friction_kernel(friction).bound(pressure)[0]
+        stiffness = (bound if bound > 0.0 else pressure) / slip
+    return SheetContactSettings(
+        float(penalty),
+        allowed,
+        int(points),
+        over_cells,
+        thinner,
+        reach,
+        friction,
+        float(stiffness),
+        float(largest),
+        bool(options.augmented),
+    )
+
+
+def _softness(depth: Depth, stiffness: float, of_sheet: float) -> float:
+    """Share of a body in 1/penalty. eq. (4.320)"""
+    return (_SOLID * depth.layer if depth.solid else of_sheet * depth.thickness) / stiffness
+
+
+def longest_side(mesh: Mesh, facets: Ids) -> float:
+    """Longest side of facets (k, 4 or 9)."""
+    corners = mesh.points[facets[:, :4]]
+    return float(np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=-1).max())

@@ -1,0 +1,161 @@
+"""Results on the page in Chromium: first numbers, marks, tables of an order, German files, a phone, the next work."""
+
+import csv
+import io
+
+import pytest
+from visits import Visit, quick
+
+PHONE = {"viewport": {"width": 390, "height": 844}, "color_scheme": "dark", "locale": "de-DE", "has_touch": True}
+
+
+def bent(page, stroke):
+    quick(page, stroke)
+    page.click("#run")
+    page.wait_for_selector("[data-measure=stroke]")
+
+
+def test_first_numbers_are_those_of_the_machine_and_the_others_are_folded(visit):
+    page = visit.page
+    bent(page, 1.1)
+    names = page.locator(".heroes.first > div").evaluate_all("(all) => all.map((one) => one.dataset.measure)")
+    assert names == ["stroke", "press", "springback", "bend_deduction"]
+    press = page.locator("[data-measure=press]").inner_text()
+    assert " kN" in press
+    assert " t;" in press
+    assert not page.locator("[data-measure=largest_force]").is_visible()
+    assert "N/mm" not in page.locator("main").inner_text()
+    page.click("#more-numbers summary")
+    assert page.locator("[data-measure=k_factor]").is_visible()
+
+
+def test_numbers_of_a_coarse_mesh_say_so_and_its_job_is_not_green(visit):
+    page = visit.page
+    bent(page, 1.2)
+    assert "±" in page.locator("[data-measure=springback]").inner_text()
+    assert "of this mesh" not in page.locator("[data-measure=stroke]").inner_text()  # it is given
+    page.wait_for_selector("#jobs li:first-child .dot.done")
+    dot = page.locator("#jobs .dot").first
+    assert dot.get_attribute("class").split()[:2] in (["dot", "done"], ["dot", "done warned"])
+    assert dot.get_attribute("aria-label") in ("done, with warnings", "limit missed")
+    assert "section (2D)" in page.locator("#jobs button").first.inner_text()
+    assert "section (2D)" in page.locator("#result h2").inner_text()
+
+
+def test_a_job_beyond_a_limit_is_red_in_words_and_colour(visit):
+    page = visit.page
+    bent(page, 1.3)
+
+    def answer(route):
+        found = route.fetch().json()
+        found["jobs"][0]["summary"]["verdict"] = "missed"
+        route.fulfill(json=found)
+
+    page.route("**/api/jobs", answer)
+    page.wait_for_selector("#jobs .dot.missed")
+    colour = page.locator("#jobs .dot.missed").first.evaluate("(one) => getComputedStyle(one).backgroundColor")
+    assert colour == "rgb(179, 64, 10)"
+    assert page.locator("#jobs li").first.locator("b").inner_text() == "limit missed"
+
+
+def test_all_bends_of_an_order_are_one_table_that_fills(visit):
+    page = visit.page
+    quick(page, 1)
+    page.fill("#f-angle", "150")
+    page.click("#table")
+    page.fill("#table-angles", "160 165")
+    page.fill("#table-openings", "16")
+    page.click("#table-go")
+    rows = page.locator("#series-table tbody tr")
+    rows.nth(1).wait_for()
+    assert page.evaluate("location.hash").startswith("#all/")
+    page.wait_for_function("() => !document.querySelector('#series-table .state')")
+    assert [row.locator("th").nth(1).inner_text() for row in rows.all()] == ["160°", "165°"]
+    assert rows.first.locator("td").count() == 9
+    href = page.locator("#all a.button").get_attribute("href")
+    assert len(page.request.get(f"http://{page.evaluate('location.host')}{href}").text().splitlines()) == 3
+    rows.first.locator("a").click()
+    page.wait_for_selector("[data-measure=stroke]")
+    page.locator("#result header a.button").click()
+    page.wait_for_selector("#series-table")
+    page.click("nav [data-view=compare]")
+    page.locator("#compare a", has_text="DC04 2 mm").click()
+    page.wait_for_selector("#series-table")
+
+
+def test_on_a_phone_the_page_goes_to_the_result_and_says_so(browser, link):
+    visit = Visit(browser, link, **PHONE)
+    page = visit.page
+    quick(page, 1.4)
+    page.click("#run")
+    page.wait_for_selector("[data-measure=stroke]")
+    page.wait_for_function("() => document.querySelector('#announced').textContent.includes('fertig')")
+    assert "über dem Formular" in page.locator("#announced").text_content()
+    page.wait_for_selector("iframe", state="attached")
+    page.wait_for_timeout(1000)
+    assert -5 < page.locator("#result").bounding_box()["y"] < 120  # it stays there as the result grows
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    for file in ("curve.csv",):
+        href = page.locator(f"a[href*='{file}']").get_attribute("href")
+        assert href.endswith("?language=de")
+    page.get_by_role("button", name="Zum Formular").click()
+    assert abs(page.locator("#form").bounding_box()["y"]) < 120
+    assert visit.complaints == []
+    visit.context.close()
+
+
+def test_german_table_opens_in_a_german_spreadsheet(browser, link):
+    visit = Visit(browser, link, locale="de-DE")
+    page = visit.page
+    bent(page, 1.5)
+    page.locator("#jobs input:enabled").first.check()
+    page.click("nav [data-view=compare]")
+    href = page.locator("#compare a.button").get_attribute("href")
+    body = page.request.get(f"http://{page.evaluate('location.host')}{href}").body().decode("utf-8-sig")
+    [row] = csv.DictReader(io.StringIO(body), delimiter=";")
+    assert row["stroke mm"] == "1,500"
+    visit.context.close()
+
+
+def test_a_measured_angle_an_angle_table_and_a_bend_table_are_one_click_away(visit):
+    page = visit.page
+    bent(page, 1.6)
+    page.click("#next-measured")
+    assert page.evaluate("document.activeElement.id") == "m-measured_angle"
+    page.click("#next-angles")
+    page.wait_for_selector("#table-dialog[open]")
+    page.keyboard.press("Escape")
+    page.click("#next-table")
+    page.wait_for_selector("#f-metals")
+    assert page.input_value("#f-openings") == "16"
+    assert page.input_value("#f-thicknesses") == "2"
+
+
+def test_a_finished_deck_shows_all_increments(visit):
+    page = visit.page
+    page.click("nav [data-view=deck]")
+    page.select_option("#deck-template", "cantilever")
+    page.wait_for_function("() => document.querySelector('#deck-text').value.includes('Cantilever')")
+    page.click("#deck-run")
+    page.locator("#result figcaption", has_text="All increments.").wait_for()
+    assert "Largest von Mises stress" in page.locator(".heroes.first").inner_text()
+    page.locator(".last summary").click()
+    assert "force_force" not in page.locator(".last").inner_text()  # columns in words
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width", [1440, 1024, 390])
+def test_results_fit_and_axe_finds_nothing_serious(browser, link, scheme, width):
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="no axe").Axe()
+    visit = Visit(browser, link, color_scheme=scheme, viewport={"width": width, "height": 900})
+    page = visit.page
+    page.locator("#jobs li button").first.click()
+    page.wait_for_selector("#result header")
+    for view in ("", "#all/DC04%202%20mm"):
+        if view:
+            page.evaluate(f"location.hash = '{view}'")
+            page.wait_for_selector("#view-all:not([hidden])")
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+        found = axe.run(page).response["violations"]
+        assert [(one["id"], one["nodes"][0]["html"]) for one in found if one["impact"] in ("serious", "critical")] == []
+    visit.context.close()

@@ -1,0 +1,35 @@
+"""A visit of the page of the bench in Chromium, for the browser tests."""
+
+import shutil
+
+BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+SOFTWARE_GL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+READY = "html[data-ready=yes]"
+
+
+class Visit:
+    """A page of the bench, what it asked the network for, and what it complained about."""
+
+    def __init__(self, browser, link, *, toured=True, **options):
+        self.context = browser.new_context(**{"viewport": {"width": 1400, "height": 900}, "locale": "en-GB", **options})
+        self.context.set_default_timeout(90_000)
+        self.complaints, self.requests = [], []
+        self.page = self.tab(link, toured)
+
+    def tab(self, link, toured=True):
+        page = self.context.new_page()
+        page.on("console", lambda message: self.complaints.append(message.text))
+        page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        page.on("request", lambda request: self.requests.append(request.url))
+        page.goto(link)
+        page.wait_for_selector(READY, state="attached")
+        if toured:
+            page.keyboard.press("Escape")
+        return page
+
+
+def quick(page, stroke):
+    """Fill in a bend that is done in a moment."""
+    page.locator("#fields details").last.locator("summary").click()
+    page.select_option("#f-mesh", "quick")
+    page.fill("#f-stroke", str(stroke))

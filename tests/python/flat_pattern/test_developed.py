@@ -1,0 +1,79 @@
+"""Flat length from outside dimensions: by hand with a K-factor, and by bending the part that was developed."""
+
+import math
+
+import pytest
+
+from umform.flat_pattern.allowance import KFactor
+from umform.flat_pattern.developed import developed, developed_at_once
+from umform.io.store import Store
+from umform.processes.air_bending import AirBending
+from umform.processes.bend_sequence import bend_sequence
+from umform.processes.bend_sequence.outside import OutsideBend, OutsidePart
+
+COARSE = AirBending(thickness=1.0, opening=8.0, elements_per_thickness=1.0, layers=1, increment=0.0125)
+U = OutsidePart((20.0, 30.0, 15.0), (OutsideBend(110.0, line=2), OutsideBend(130.0, direction="down", line=1)))
+
+
+def test_the_developed_part_has_its_outside_dimensions_when_it_is_bent(tmp_path):
+    """An independent run: the strip of this length, bent at these lines, is measured."""
+    found = developed(U, COARSE, store=Store(tmp_path))
+    part = bend_sequence(found.sequence(COARSE), progress=False)
+    assert part.flanges == pytest.approx(U.flanges, abs=0.005)
+    assert found.length < sum(U.flanges) - 1.0
+    assert "V 8" in found.deductions[0].source and found.deductions[0].notes
+
+
+def test_a_bend_has_tools_of_its_own(tmp_path):
+    wide = OutsidePart((30.0, 30.0), (OutsideBend(130.0, tools={"opening": 16.0}),))
+    (one,) = developed(wide, COARSE, allowance=KFactor(0.4)).deductions
+    assert one.radius == pytest.approx(0.16 * 16.0)
+
+
+def test_deductions_by_a_k_factor_are_those_of_the_hand():
+    """t = 2, V = 16, so R = 2.56; bent by 120 degrees to 60."""
+    allowance = math.radians(120.0) * (2.56 + 0.44 * 2.0)
+    for acute, setback in (("apex", 4.56 * math.tan(math.radians(60.0))), ("tangent", 4.56)):
+        part = OutsidePart((50.0, 40.0), (OutsideBend(60.0),), acute)
+        found = developed(part, AirBending(), allowance=KFactor(0.44))
+        assert found.length == pytest.approx(90.0 - 2.0 * setback + allowance)
+        assert found.positions == pytest.approx([50.0 - setback + 0.5 * allowance])
+    for angle in (90.0, 120.0):  # the tangent is meant below 90 degrees only
+        apex, tangent = (
+            developed(OutsidePart((50.0, 40.0), (OutsideBend(angle),), way), AirBending(), allowance=KFactor(0.44))
+            for way in ("apex", "tangent")
+        )
+        assert apex.length == tangent.length
+
+
+def test_stored_bends_are_known_at_once_and_others_follow_the_factor(tmp_path):
+    store = Store(tmp_path)
+    part = OutsidePart((20.0, 20.0), (OutsideBend(150.0),))
+    before = developed_at_once(part, COARSE, KFactor(0.44), store)
+    computed = developed(part, COARSE, store=store)
+    after = developed_at_once(part, COARSE, KFactor(0.44), store)
+    assert before.deductions[0].source == "K-factor 0.44"
+    assert after == computed and after.deductions[0].source.startswith("computed")
+
+
+def test_the_computed_deduction_to_the_tangent_is_smaller_below_90_degrees(tmp_path):
+    store = Store(tmp_path)
+    acute = AirBending(
+        thickness=1.0,
+        opening=8.0,
+        die_angle=60.0,
+        punch_angle=60.0,
+        die_radius=1.0,
+        punch_radius=1.0,
+        elements_per_thickness=1.0,
+        layers=1,
+        increment=0.0125,
+    )
+    apex, tangent = (
+        developed(OutsidePart((20.0, 20.0), (OutsideBend(80.0),), way), acute, store=store)
+        for way in ("apex", "tangent")
+    )
+    (one,) = apex.deductions
+    setback = (one.radius + 1.0) * math.tan(math.radians(50.0))
+    difference = one.value - tangent.deductions[0].value
+    assert difference == pytest.approx(2.0 * (setback - one.radius - 1.0), abs=5e-4)  # the angle is met within 0.005

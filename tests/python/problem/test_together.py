@@ -1,0 +1,93 @@
+"""Decks with several sheets."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from umform.problem import Problem
+from umform.problem.errors import DeckError
+
+DECK = """
+title = "Two strips"
+
+[mesh]
+generator = "together"
+
+[mesh.sheets.base]
+mesh = { generator = "strip", length = 10.0, width = 2.0, thickness = 1.0, cells = [5, 1] }
+
+[mesh.sheets.cover]
+mesh = { generator = "strip", length = 10.0, width = 2.0, thickness = 0.5, cells = [6, 1] }
+shift = [0.0, 0.0, 0.75]
+material = { library = "AA6016-T4", rolling = "x" }
+
+[material]
+law = "SVK"
+E = 210e3
+nu = 0.3
+
+[sheet_contacts.stack]
+faces = "upper of base"
+others = "lower of cover"
+
+[[supports]]
+kind = "fix"
+nodes = "x0 of base"
+
+[[supports]]
+kind = "fix"
+nodes = "x0 of cover"
+
+[controls.end]
+kind = "displacement"
+nodes = "x1 of cover"
+direction = "z"
+
+[[steps]]
+kind = "move"
+to = { end = -0.05 }
+increments = 2
+"""
+
+
+def test_sheets_of_a_deck_have_laws_of_their_own():
+    problem = Problem.read(DECK)
+    prepared = problem.build()
+    model = prepared.model
+    assert [body.name for body in model.bodies] == ["base", "cover"]
+    assert [type(body.material).__name__ for body in model.bodies] == ["SVK", "Metal"]
+    assert [len(body.cells) for body in model.bodies] == [5, 6]
+    assert model.bodies[1].rolling is not None
+    result = prepared.solve(progress=False)
+    assert result["stack_active"][-1] > 0
+    assert result["stack_fz"][-1] < 0.0
+
+
+def test_a_deck_of_one_law_has_one_body():
+    text = DECK.replace('material = { library = "AA6016-T4", rolling = "x" }', "")
+    model = Problem.read(text).build().model
+    assert len(model.bodies) == 1
+    assert np.ptp(model.mesh.points[model.mesh.nodes("cover"), 2]) == pytest.approx(0.5)
+
+
+def test_numbers_of_the_sheets_have_paths():
+    problem = Problem.read(DECK)
+    paths = {one.path for one in problem.paths()}
+    assert {"mesh.sheets.cover.mesh.thickness", "mesh.sheets.cover.shift.2"} <= paths
+    thicker = problem.with_({"mesh.sheets.cover.mesh.thickness": 0.6, "mesh.sheets.cover.shift.2": 0.8})
+    assert np.ptp(thicker.build().model.mesh.nodes("cover")) > 0
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "match"),
+    [
+        ('generator = "strip", length = 10.0, width = 2.0, thickness = 0.5', 'generator = "stripe"', "generator"),
+        ("shift = [0.0, 0.0, 0.75]", "shif = [0.0, 0.0, 0.75]", "did you mean shift"),
+        ('library = "AA6016-T4", rolling = "x"', 'library = "AA6016-T4"', "rolling"),
+        ('nodes = "x0 of cover"', 'nodes = "x0"', "x0"),
+    ],
+)
+def test_a_mistake_in_a_sheet_has_its_place(old, new, match):
+    with pytest.raises(DeckError, match=match):
+        Problem.read(DECK.replace(old, new)).build()

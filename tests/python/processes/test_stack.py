@@ -1,0 +1,109 @@
+"""Air bends of several sheets at once."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import umform as uf
+from umform.errors import InvalidValue
+from umform.processes.air_bending import AirBending, StackedSheet, air_bending
+from umform.processes.air_bending.files import record
+from umform.processes.air_bending.outcome import outcome_of
+from umform.processes.air_bending.problem import problem_of
+from umform.processes.air_bending.section import Section
+from umform.processes.air_bending.spec import dc04_like
+from umform.processes.air_bending.stacked import gaps_of
+from umform.processes.bend_sequence import Bend, BendSequence
+
+COARSE = {"elements_per_thickness": 1, "layers": 1, "increment": 0.02}
+
+
+def stack(friction=0.0, second=1.0, **given):
+    above = StackedSheet(second, dc04_like(), friction)
+    return AirBending(**COARSE | {"thickness": 1.0, "opening": 16.0, "stroke": 2.0, "on_top": [above]} | given)
+
+
+@pytest.fixture(scope="module")
+def free():
+    return air_bending(stack(), progress=False)
+
+
+def test_two_sheets_need_twice_the_force_of_one(free):
+    one = air_bending(replace(free.case, on_top=()), progress=False)
+    assert free.measures.largest_force == pytest.approx(2.0 * one.measures.largest_force, rel=0.04)
+    assert free.measures.springback == pytest.approx(one.measures.springback, rel=0.02)
+    assert free.case.largest_stroke < one.case.largest_stroke
+    assert free.measures.below_die == 0.0
+
+
+def test_friction_between_two_sheets_adds_the_moment_of_its_forces(free):
+    """With M = 2 M1 + mu N t at the punch, N the force of a shoulder and l its lever: F = 2 F1 / (1 - mu t / l)."""
+    rubbed = air_bending(stack(0.5), progress=False)
+    lever = free.case.shoulder - 0.5 * free.case.punch_radius
+    grown = rubbed.measures.largest_force / free.measures.largest_force
+    assert 1.0 + 0.5 * 0.5 / lever < grown < 1.0 / (1.0 - 0.5 / lever)
+
+
+def test_each_sheet_has_its_numbers(free):
+    assert [one.released.thickness for one in free.stack] == pytest.approx([1.0, 1.0])
+    assert free.stack[0].released.angle == free.measures.angle
+    assert free["sheet2_springback"].value == pytest.approx(free["sheet1_springback"].value, abs=0.2)
+    assert free.stack[1].gap is None
+    assert 0.0 < free["sheet1_gap"].value < 0.1
+    assert free["sheet2_radius"].value < free["sheet1_radius"].value
+    assert free["angle"].band is None
+    between = free.result["between1_fz"][np.flatnonzero(free.step == 1)[-1]]
+    assert between == pytest.approx(free.result["punch_fz"][np.flatnonzero(free.step == 1)[-1]] * -1.0, rel=1e-4)
+    rows = record(free)["sheets"]
+    assert json.dumps(rows)
+    assert [row["thickness"] for row in rows] == [1.0, 1.0]
+    assert len(free.tables["Sheets"]) == 3
+
+
+def test_the_problem_of_a_stack_is_a_deck(free):
+    text = problem_of(free.case).toml()
+    prepared = uf.problem.Problem.read(text).build()
+    assert [body.name for body in prepared.model.bodies] == ["sheet1", "sheet2"]
+    again = outcome_of(free.case, prepared.solve(progress=False))
+    assert again.measures.angle == free.measures.angle
+
+
+def test_the_distance_of_two_sections():
+    x = np.linspace(0.0, 10.0, 11)
+
+    def flat(low, thickness, length=10.0):
+        z = np.array([low, low + thickness])
+        X = np.stack(np.broadcast_arrays(x[:, None] * length / 10.0, z[None]), axis=-1)
+        return Section(X, X.copy(), 1)
+
+    assert gaps_of(flat(0.0, 1.0), flat(1.25, 0.5)) == pytest.approx((0.25, 0.25))
+    tilted = flat(1.0, 0.5, 14.0)
+    tilted.current[..., 1] += 0.1 * tilted.current[..., 0]
+    assert gaps_of(flat(0.0, 1.0), tilted) == pytest.approx((0.1 * 9.8, 0.0))
+
+
+def test_a_stack_is_refused_where_one_sheet_is_meant():
+    with pytest.raises(InvalidValue, match="not pressed onto the flanks"):
+        stack(bottoming=True, stroke=None, punch_angle=88.0, die_angle=88.0)
+    with pytest.raises(InvalidValue, match="this has one sheet"):
+        BendSequence(length=60.0, bends=[Bend(30.0, angle=90.0)], sheet=replace(stack(), stroke=None))
+    with pytest.raises(InvalidValue, match="friction"):
+        StackedSheet(1.0, dc04_like(), 20.0)
+    with pytest.raises(InvalidValue, match="does not fit the thickness"):
+        stack(second=20.0)
+
+
+def test_derivatives_of_a_stack_are_those_of_differences():
+    def angles(radius):
+        bend = air_bending(stack(0.1, die_radius=radius), progress=False)
+        return [one.value for one in bend.quantities if one.name in ("sheet1_angle", "sheet2_angle")]
+
+    found = uf.derivatives(stack(0.1), ["die_radius"], progress=False)
+    rates = [one.value for one in found if one.response.name in ("sheet1_angle", "sheet2_angle")]
+    step = 1e-3
+    expected = [(up - down) / (2.0 * step) for up, down in zip(angles(2.0 + step), angles(2.0 - step), strict=True)]
+    np.testing.assert_allclose(rates, expected, rtol=1e-3)
