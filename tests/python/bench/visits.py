@@ -2,6 +2,8 @@
 
 import shutil
 
+import pytest
+
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 SOFTWARE_GL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 READY = "html[data-ready=yes]"
@@ -26,6 +28,18 @@ class Visit:
         if toured:
             page.keyboard.press("Escape")
         return page
+
+
+def serious(page):
+    """Serious findings of axe in the light and the dark page."""
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="no axe").Axe()
+    found = []
+    for scheme in ("light", "dark"):
+        page.emulate_media(color_scheme=scheme)
+        for one in axe.run(page).response["violations"]:
+            if one["impact"] in ("serious", "critical"):
+                found.append((scheme, one["id"], one["nodes"][0]["html"]))
+    return found
 
 
 def quick(page, stroke):

@@ -4,6 +4,7 @@ import importlib.util
 import warnings
 from pathlib import Path
 
+import pytest
 from hypothesis import given, settings
 
 from umform.errors import UmformError
@@ -39,12 +40,13 @@ def try_to_run(text, folder):
         assert len({row.count(",") for row in rows}) == 1
 
 
-@settings(max_examples=12, **mutations.SETTINGS)
+@settings(max_examples=25, **mutations.SETTINGS)
 @given(mutations.changed_data(most=1))
 def test_running(tmp_path_factory, text):
     try_to_run(text, tmp_path_factory.mktemp("run"))
 
 
+@pytest.mark.long
 @settings(max_examples=200, derandomize=True, **mutations.SETTINGS)
 @given(mutations.changed_data(most=1))
 def test_two_hundred_runs(tmp_path_factory, text):

@@ -4,6 +4,7 @@ import importlib.util
 import time
 from pathlib import Path
 
+import pytest
 from hypothesis import given, settings
 
 _SPEC = importlib.util.spec_from_file_location("mutations", Path(__file__).with_name("mutations.py"))
@@ -25,12 +26,13 @@ def test_reading(text):
     mutations.read(text)
 
 
-@settings(max_examples=30, **mutations.SETTINGS)
+@settings(max_examples=100, **mutations.SETTINGS)
 @given(mutations.changed_data(most=1))
 def test_building(text):
     check(text)
 
 
+@pytest.mark.long
 @settings(max_examples=2000, derandomize=True, **mutations.SETTINGS)
 @given(mutations.decks)
 def test_two_thousand(text):
