@@ -3,25 +3,24 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 import umform as uf
+from umform.flat_pattern.net.edge import Edge
+from umform.flat_pattern.net.star import Star, stretched
 from umform.flat_pattern.one_step import distance_to_outline
 from umform.mesh import Mesh
 from umform.surfaces.stl import welded
 from umform.surfaces.triangles import Triangles
-from umform_book.drawing.square_cup import ALUMINIUM, BLANK, FRICTION, HOLDER, THICKNESS
+from umform_book.drawing.square_cup import ALUMINIUM, FRICTION, HOLDER, THICKNESS
 
 Floats = NDArray[np.float64]
 
 #: Half of the side and radius of the corners of the wanted outline of the flange, mm.
 HALF, CORNER = 66.0, 30.0
-#: Where the die begins: the mesh inside is kept.
-_KEPT = 52.0
 #: Points of the corner of the outline.
 _POINTS = 13
 
@@ -66,33 +65,9 @@ def estimate(mesh: Mesh, u: Floats) -> uf.BlankEstimate:
     return uf.blank(part, uf.Blank(ALUMINIUM, THICKNESS, holder_force=HOLDER, friction=FRICTION))
 
 
-@dataclass(frozen=True)
-class Star:
-    """A quarter of an outline as radius over the angle."""
-
-    angle: Floats
-    radius: Floats
-
-    @classmethod
-    def of(cls, outline: Floats) -> Star:
-        """The first quarter of an outline around the origin."""
-        angle = np.arctan2(outline[:, 1], outline[:, 0])
-        inside = (angle > -0.2) & (angle < 0.5 * math.pi + 0.2)
-        order = np.argsort(angle[inside])
-        return cls(angle[inside][order], np.hypot(*outline[inside].T)[order])
-
-    def mesh(self, square: Mesh) -> Mesh:
-        """The square mesh, stretched beyond the edge of the die to this outline."""
-
-        def move(x: Floats) -> Floats:
-            angle = np.arctan2(x[:, 1], x[:, 0])
-            side = np.maximum(x[:, 0], x[:, 1])
-            edge = np.hypot(x[:, 0], x[:, 1]) / np.maximum(side, 1e-9) * 0.5 * BLANK
-            share = np.clip((side - _KEPT) / (0.5 * BLANK - _KEPT), 0.0, 1.0)
-            factor = 1.0 + share * (np.interp(angle, self.angle, self.radius) / np.maximum(edge, 1e-9) - 1.0)
-            return x * np.stack([factor, factor, np.ones_like(factor)], axis=1)
-
-        return square.transformed(move)
+def cut(square: Mesh, edge: Edge, outline: Floats) -> Mesh:
+    """The square mesh, stretched to another outline of the blank."""
+    return stretched(square, edge.star, Star.of(outline, edge.star.centre, "outline"))
 
 
 def error(after: Floats) -> Floats:

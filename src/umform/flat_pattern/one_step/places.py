@@ -175,7 +175,7 @@ class Balance:
         The last step is shorter than `within` times the size of the part.
 
         The length of a step is chosen by the step that the same matrix gives behind it, which must be shorter,
-        eq. (6.14): norms of forces are those of the stiffest triangles.
+        eq. (6.14): norms of forces are those of the stiffest triangles. If that step is short enough, it is the last one.
 
         Raises
         ------
@@ -197,12 +197,15 @@ class Balance:
             for _ in range(_HALVINGS):
                 other = X + length * step
                 r, K = problem.residual(other)
-                if float(np.linalg.norm(self._step(other, equations.vector(r)))) <= (1.0 - 0.25 * length) * size:
+                behind = self._step(other, equations.vector(r))
+                if float(np.linalg.norm(behind)) <= (1.0 - 0.25 * length) * size:
                     break
                 length *= 0.5
             else:
                 break
             X = other
+            if abs(behind).max() < within * problem.size:
+                return X + min(first_fold(X, behind, problem.sheet.triangles), 1.0) * behind
         raise _not_found("no equilibrium of the formed sheet is found", problem.iterations)
 
     def _factor(self, K6: Floats) -> None:
