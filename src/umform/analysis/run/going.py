@@ -29,6 +29,7 @@ from umform.results.coarse import warn_of_volume
 from umform.results.drift import warn_of_drift
 from umform.results.penetration import warn_of_contact
 from umform.results.rest import tell_of_rest
+from umform.results.shared_faces import warn_of_shared_faces
 from umform.results.untouched import warn_of_untouched
 from umform.solvers.one_thread import one_thread
 
@@ -98,6 +99,7 @@ def taken(
             while run.number <= len(steps):
                 _finish(run, steps[run.number - 1])
                 warn_of_bottoming(run.model, result, run.number, run.evaluation.found)
+                warn_of_shared_faces(run.model, result, run.evaluation.found)
                 run.number, run.loop = run.number + 1, None
             if last:
                 warn_of_contact(run.model, result)
@@ -110,6 +112,7 @@ def taken(
             result.seconds = clock.perf_counter() - start
             if isinstance(error, NoConvergence):
                 warn_of_bottoming(run.model, result, run.number, run.evaluation.found)
+                warn_of_shared_faces(run.model, result, run.evaluation.found)
                 warn_of_contact(run.model, result)
                 warn_of_drift(run.model, result)
             ended_early(run, checkpoints, error)
