@@ -156,7 +156,7 @@ def page(
         check=_check(checks),
         missed=_missed(checks),
         coarse=_coarse(found),
-        errors="\n\n".join(_errors(process, rows, units.get(process, {})) for process, rows in data.items()),
+        errors="\n\n".join(_errors(process, studies, _units(rows, process)) for process, studies in data.items()),
     )
 
 
@@ -268,6 +268,11 @@ def _missed(checks: Mapping[tuple[str, str], tuple[Checked, Checked]]) -> str:
         for where, numbers in found.items()
     )
     return "Answers beyond their bands:\n\n" + "\n".join(lines)
+
+
+def _units(rows: _Rows, process: str) -> dict[str, str]:
+    """Unit of each number of a process, also of one whose parts have no stored studies here."""
+    return {name: unit for row in rows if row["process"] == process for name, unit in row["units"].items()}
 
 
 def _errors(process: str, studies: Mapping[str, Any], units: Mapping[str, str]) -> str:
