@@ -45,18 +45,19 @@ With `--scatter`, two standard deviations of the number by the parameters that s
 of squares.
 
 No band contains the error of the law of the metal, of an unknown friction, or of tools that are not rigid. These
-have no band, and are *of this mesh* in the tables: numbers of decks without `--budget`, those of hems other than open
-ones and ones over an insert with `--element BEND18 --elements-per-thickness 3`, the number of ears and the amplitude
-from which they count. `--no-extrapolate` leaves out the coarser mesh of a U-bend, and estimates its bands from studies.
+numbers have no band, and are *of this mesh* in the tables: those of decks without `--budget`; those of hems, except
+open ones and ones over an insert with `--element BEND18 --elements-per-thickness 3`; the number of ears and the
+amplitude from which they count. `--no-extrapolate` leaves out the coarser mesh of a U-bend, and estimates its bands
+from studies.
 
 ## Decks
 
 `umform run --budget deck.toml` repeats a deck with each of these changes, and prints what each measure, control and
-force at the end of a step changes by, and with `forming` thinning, strains and forming limits. The runs go in
-parallel. The error is the root of the sum of squares, times {safety:g}. If a number converges at least linearly with
-element size, increment and penetration, its true error is below that, unless a coarser mesh agrees by chance. Of 1,
-1.25, 1.5 and 2 the factor is the first with which 90 % of the answers of all decks below lie in their bands; there are
-too few decks to choose it on a half of them. The numbers of `forming` are not among these answers.
+force at the end of a step changes by, and with `forming` thinning, strains and forming limits. The runs go in parallel.
+The error is the root of the sum of squares, times {safety:g}. If a number converges at least linearly with element
+size, increment and penetration, its true error is below that, unless a coarser mesh agrees by chance. The factor is the
+smallest of 1, 1.25, 1.5 and 2 with which 90 % of the answers of the decks below lie in their bands: it is chosen and
+checked on the same decks. The numbers of `forming` are not among these answers.
 
 | name | change |
 |---|---|
@@ -68,9 +69,9 @@ too few decks to choose it on a half of them. The numbers of `forming` are not a
 | `tol*10` | tolerances ten times as large, unless that of the residual is below 1e-6 |
 
 The others run on the coarser mesh, where there is one. A mesh of a file, and that of an operation before, have none:
-the errors are then those by the other sources, and the table says *of this mesh*. So it is with arcs, the closing of
-tools and releases without a number of increments: their increments stay. A variant that does not converge leaves the
-error unknown, and a warning says why.
+the errors are then those by the other sources, and the table says *of this mesh*. Arcs, the closing of tools and
+releases without a number of increments keep their increments in the same way. A variant that does not converge leaves
+the error unknown, and a warning says why.
 
 ## Studies
 
@@ -79,17 +80,16 @@ together (hems without smaller increments), and most with each refinement alone 
 Runs in `benchmarks/bands.jsonl` are not repeated unless their parameters change: delete it after a change of the code.
 
 The differences of the default mesh from the finest one are taken as normally distributed about zero, with a standard
-deviation that is proportional to the number or not, whatever is likelier; of forces it is proportional. The band of
-a number is the root mean square of the differences times the factor of Student's distribution that contains 95 % for
-so many parts: 2.2 for 11, 2.6 for 5, 4.3 for 2. No factor is fitted. On larger elements a band grows with the square of
-their size, on smaller ones it falls in proportion to it. Bends are in plane strain; bends with a width have their
+deviation that is proportional to the number or not, whichever is likelier; of forces it is proportional. The band of a
+number is the root mean square of the differences times the factor of Student's distribution that contains 95 % for so
+many parts: 2.2 for 11, 2.6 for 5, 4.3 for 2. Here no factor is fitted. On larger elements a band grows with the square
+of their size, on smaller ones it falls in proportion to it. Bends are in plane strain; bends with a width have their
 bands. Each bend of a sequence has the bands of single ones, flanges have their own; the finest mesh of a sequence has
 four layers, that of a single bend a stack of eight.
 
-**Sharp bends.** The bends of the studies have the same number of elements on a thickness, and thickness over inside
-radius does not tell those with large errors from others. The hardening that is left does. With *softness* as the yield
-stress over its slope, both at the strain of the outer face, errors of bends follow its power of {exponent}, the
-likeliest one. A bend of a steel with little hardening has a wide band, others a narrow one:
+**Sharp bends.** The errors of bends depend less on thickness over inside radius than on the hardening that is left at
+the outer face. They are taken as proportional to a power of {exponent}, the likeliest one, of the *softness*: the yield
+stress over its slope at the strain of the outer face. A bend of a steel with little hardening has a wide band:
 
 {bends}
 
@@ -156,7 +156,7 @@ def page(
         check=_check(checks),
         missed=_missed(checks),
         coarse=_coarse(found),
-        errors="\n\n".join(_errors(process, rows, units.get(process, {})) for process, rows in data.items()),
+        errors="\n\n".join(_errors(process, studies, _units(rows, process)) for process, studies in data.items()),
     )
 
 
@@ -268,6 +268,11 @@ def _missed(checks: Mapping[tuple[str, str], tuple[Checked, Checked]]) -> str:
         for where, numbers in found.items()
     )
     return "Answers beyond their bands:\n\n" + "\n".join(lines)
+
+
+def _units(rows: _Rows, process: str) -> dict[str, str]:
+    """Unit of each number of a process, also of one whose parts have no stored studies here."""
+    return {name: unit for row in rows if row["process"] == process for name, unit in row["units"].items()}
 
 
 def _errors(process: str, studies: Mapping[str, Any], units: Mapping[str, str]) -> str:

@@ -175,8 +175,7 @@ class Balance:
         The last step is shorter than `within` times the size of the part.
 
         The length of a step is chosen by the step that the same matrix gives behind it, which must be shorter,
-        eq. (6.14): norms of forces are those of the stiffest triangles. That step is the last
-        one if it is short enough.
+        eq. (6.14): norms of forces are those of the stiffest triangles. If that step is short enough, it is the last.
 
         Raises
         ------
