@@ -22,7 +22,8 @@ def bench(
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
-    """Open a local page in the browser: bend a sheet, and read stroke, force, springback and flat length.
+    """Open a local page in the browser: bends, parts of several bends, hems, drawn parts, flat patterns,
+    bend tables and decks.
 
     The server listens on 127.0.0.1 only, and requires the token in the link. Each job runs in a separate process; jobs
     are kept in the folder and continue when the bench is restarted. Needs `pip install "umform[bench]"`.

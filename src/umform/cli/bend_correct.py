@@ -41,7 +41,7 @@ def bend_correct(
         Path | None, option("bends.json of a table to issue again with the corrected card.", _FILES, "--issue-again")
     ] = None,
     formats: Annotated[str, option("Files of this table, as of `umform bend table`.", _FILES, "--format")] = "csv,json",
-    out: Annotated[str | None, option("Folder; default: results/bend-corrected.", _FILES)] = None,
+    out: Annotated[str | None, option("Folder; default: results/bend-corrected.", _FILES, "--out", "-o")] = None,
     store: StoreFolder = None,
     jobs: Annotated[int | None, option("Setups of the table at a time.", SOLUTION)] = None,
     overwrite: Overwrite = False,

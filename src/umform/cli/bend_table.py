@@ -33,12 +33,12 @@ _NONE = ("stroke", "bottoming")
 @given_by(AirBending, omit=(*_OTHERS, *_NONE))
 def bend_table(
     material: Annotated[str, option("Metals of the library: DC04,1.4301.", SHEET)],
-    thickness: Annotated[str, option("Thicknesses: 1,1.5,2, or first:last:step.", SHEET)],
-    opening: Annotated[str, option("Openings of dies: 8,12.", _TOOLS)],
-    angle: Annotated[str, option("Angles between the legs after springback: 90:150:15, or 90,120.", _TABLE)],
+    thickness: Annotated[str, option("Thicknesses in mm: 1,1.5,2, or first:last:step.", SHEET)],
+    opening: Annotated[str, option("Openings of dies in mm: 8,12.", _TOOLS)],
+    angle: Annotated[str, option("Angles in degrees between the legs after springback: 90:150:15, or 90,120.", _TABLE)],
     given: Given,
-    punch_radius: Annotated[str, option("Radii of the tip of the punch.", _TOOLS)] = "1.5",
-    die_radius: Annotated[str, option("Radii of the shoulders of the die.", _TOOLS)] = "2",
+    punch_radius: Annotated[str, option("Radii of the tip of the punch in mm.", _TOOLS)] = "1.5",
+    die_radius: Annotated[str, option("Radii of the shoulders of the die in mm.", _TOOLS)] = "2",
     tolerance: Annotated[float, option("Tolerance of the angles in degrees.", _TABLE)] = 0.005,
     check: Annotated[
         bool, option("Measure the error between each two angles by a run in their middle.", _TABLE, "--check")
@@ -46,7 +46,9 @@ def bend_table(
     formats: Annotated[
         str, option(f"Files to write: {', '.join(_FORMATS)}; with commas between them.", _TABLE, "--format")
     ] = "csv,json",
-    out: Annotated[str | None, option("Folder for the files; default: results/bend-table.", _TABLE)] = None,
+    out: Annotated[
+        str | None, option("Folder for the files; default: results/bend-table.", _TABLE, "--out", "-o")
+    ] = None,
     store: StoreFolder = None,
     jobs: Annotated[int | None, option("Setups at a time; default: as many as processors.", SOLUTION)] = None,
     overwrite: Overwrite = False,

@@ -55,7 +55,8 @@ def blank(
         bool, typer.Option("--coarse", help="Triangles of CAD files of 1/10 of the part.", rich_help_panel=_PART)
     ] = False,
     out: Annotated[
-        str | None, typer.Option(metavar="FOLDER", help="Folder for drawing, tables, page; default: results/blank.")
+        str | None,
+        typer.Option("--out", "-o", metavar="FOLDER", help="Folder for drawing, tables, page; default: results/blank."),
     ] = None,
     everything: All = False,
     overwrite: Overwrite = False,

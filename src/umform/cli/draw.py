@@ -56,7 +56,7 @@ app.add_typer(group, name="draw")
 
 @group.callback()
 def draw() -> None:
-    """Draw a part, open the tools and measure it: `umform draw cup`."""
+    """Draw a part, open the tools and measure it: `umform draw cup`, `umform draw u`."""
 
 
 Out = Annotated[

@@ -30,8 +30,8 @@ _COLUMNS = ("angle", "stress", "r", "strain", "plastic_strain", "modulus")
 _MEASURED, _LAW, _FILES = "Measurements (CSV)", "Law", "Files"
 
 
-def _option(help_text: str, panel: str, **more: Any) -> Any:
-    return typer.Option(help=help_text, rich_help_panel=panel, **more)
+def _option(help_text: str, panel: str, *names: str, **more: Any) -> Any:
+    return typer.Option(*names, help=help_text, rich_help_panel=panel, **more)
 
 
 @metals.command("list")
@@ -165,7 +165,8 @@ def fit(
     ] = "chaboche2",
     largest_step: Annotated[float, _option("Largest strain of a step through the cycles.", _LAW)] = 1e-3,
     out: Annotated[
-        str | None, _option("Folder for deck, Python, constants and pictures; default: results/metal.", _FILES)
+        str | None,
+        _option("Folder for deck, Python, constants and pictures; default: results/metal.", _FILES, "--out", "-o"),
     ] = None,
     overwrite: Overwrite = False,
     debug: Debug = False,

@@ -90,8 +90,7 @@ class Hemming:
         Gt(0.0),
         About("kN/m", cause="a sign", remedy="a force per length of hem; the table of the documentation has some"),
     ] = None
-    """Force of the plate per length of hem, which it presses with wherever it stands then; without it, the plate moves
-    to its height."""
+    """Force of the plate per length of hem, at which it stops; without it, the plate moves to its height."""
     flange: Length = FOLLOWS
     """Length of the flange, flat, from the bend line to its end."""
     base: Length = FOLLOWS
