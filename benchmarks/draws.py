@@ -34,7 +34,7 @@ PARTS: dict[str, Cup | UBend] = {
     "U-bend, coarse": UBend(**NUMISHEET, **UBend.meshes["coarse"], material=STEEL),
     "U-bend, one mesh": UBend(**NUMISHEET, material=STEEL),
 }
-THREE = "U-bend, three meshes"
+TWO = "U-bend, two meshes"
 
 
 @contextmanager
@@ -58,8 +58,8 @@ VARIANTS: dict[str, tuple[Callable[[Any], Any], Callable[[], Any]]] = {
 def measured(name: str, variant: str) -> dict[str, str]:
     """One part in one way."""
     change, context = VARIANTS[variant]
-    case = change(PARTS["U-bend, one mesh"] if name == THREE else PARTS[name])
-    how: Callable[..., Drawn] = extrapolated if name == THREE else draw
+    case = change(PARTS["U-bend, one mesh"] if name == TWO else PARTS[name])
+    how: Callable[..., Drawn] = extrapolated if name == TWO else draw
     start = time.process_time()
     with context(), timings() as runs:
         drawn = how(case, progress=False)
@@ -99,7 +99,7 @@ def put(page: Path, begin: str, end: str, text: str) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--part", choices=[*PARTS, THREE], nargs="*", default=[*PARTS, THREE])
+    parser.add_argument("--part", choices=[*PARTS, TWO], nargs="*", default=[*PARTS, TWO])
     parser.add_argument("--variant", choices=VARIANTS, nargs="*", default=list(VARIANTS))
     parser.add_argument("--page", type=Path, metavar="FILE", help="write the table into this page")
     record.add_option(parser)
@@ -108,7 +108,7 @@ def main() -> None:
     uf.set_threads(1)
     rows = []
     for name in given.part:
-        for variant in given.variant if name != THREE else given.variant[-1:]:
+        for variant in given.variant if name != TWO else given.variant[-1:]:
             rows.append(measured(name, variant))
             print(" | ".join(rows[-1].values()), flush=True)
     record.write(given.json, "draws", {f"{row['part']}, {row['']}, CPU s": float(row["CPU s"]) for row in rows})
