@@ -68,6 +68,7 @@ ELSEWHERE = (
     "sheet_metals/least_squares.py",
     "sheet_metals/directional_fit.py",
     "processes/air_bending/problem.py",
+    "processes/air_bending/foil.py",
     "processes/air_bending/stack.py",
     "processes/air_bending/usual_tools.py",
     "processes/bend_sequence/form.py",

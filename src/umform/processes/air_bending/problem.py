@@ -13,6 +13,7 @@ from umform.problem.keys import law_keys
 from umform.problem.problem import Problem
 from umform.problem.profiles import profile_table
 from umform.processes.air_bending.brake import OPTIONS, loading, unloading_keys
+from umform.processes.air_bending.foil import refuse_squeezed
 from umform.processes.air_bending.goal import needed_stroke
 from umform.processes.air_bending.sheet import lines_of
 from umform.processes.air_bending.spec import AirBending
@@ -45,8 +46,9 @@ def problem_of(case: AirBending, stroke: float | None = None) -> Problem:
     Raises
     ------
     InvalidValue
-        There is no stroke.
+        There is no stroke, or a foil would be squeezed out.
     """
+    refuse_squeezed(case)
     stroke = needed_stroke(case) if stroke is None else stroke
     if case.width is None:
         modelled, kind = case.thickness, "in plane strain"
@@ -129,7 +131,7 @@ def _between(case: AirBending, number: int) -> dict[str, Any]:
 def _contact(case: AirBending, tool: str, faces: str) -> dict[str, Any]:
     pressed = case.bottoming and tool == "punch"
     how = {"penalty": case.penalty, "penetration": case.penetration, "points": case.contact_points}
-    return {"tool": tool, "faces": faces, **how, "may_bottom": pressed or None}
+    return {"tool": tool, "faces": faces, **how, "friction": case.friction or None, "may_bottom": pressed or None}
 
 
 def _die(case: AirBending) -> dict[str, Any]:

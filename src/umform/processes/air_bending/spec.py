@@ -14,7 +14,7 @@ from umform.errors import InvalidValue
 from umform.processes.air_bending.stack import StackedSheet, check_stack
 from umform.processes.rules import PLASTIC, check_rolling
 from umform.spec import About, check_fields, note_of, parameters
-from umform.spec.types import ContactPoints, Degrees, Length, Positive, Rolling
+from umform.spec.types import ContactPoints, Degrees, Friction, Length, Positive, Rolling
 
 if TYPE_CHECKING:
     from umform.elements.rolling import Vector
@@ -118,6 +118,8 @@ class AirBending:
     """Whether the punch may press the sheet onto the flanks of the die."""
     punch_width: Annotated[Length, SizeOf("punch", "width")] | None = None
     """Width of the body of the punch above its flanks; without it they have no end."""
+    friction: Friction = 0.0
+    """Coefficient of friction of the sheet with punch and die."""
     element: str | Element = "BEND18"
     """Element of the catalogue, or one of your own."""
     layers: Annotated[int, Ge(1), Le(8)] = 2

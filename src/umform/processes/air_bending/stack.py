@@ -25,7 +25,7 @@ class StackedSheet:
     >>> from umform.materials import J2, Perfect
     >>> from umform.processes.air_bending import AirBending, StackedSheet
     >>> foil = StackedSheet(0.1, J2(E=300.0, nu=0.45, hardening=Perfect(12.0)), friction=0.2)
-    >>> AirBending(thickness=1.0, opening=12.0, stroke=4.0, on_top=[foil]).height
+    >>> AirBending(thickness=1.0, opening=12.0, stroke=4.0, on_top=[foil], friction=0.2).height
     1.1
     """
 

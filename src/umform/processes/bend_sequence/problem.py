@@ -46,8 +46,9 @@ def problem_of_bend(
     faces = dict(zip(("die", "punch"), ("upper", "lower") if bend.over else ("lower", "upper"), strict=True))
     # Those of a single bend with undeformed sheet: an estimate needs a sheet that lies as its mesh.
     known = {name: {"penalty": how.penalty, "points": how.points} for name, how in touching(case).items()}
+    rubs = {"friction": case.friction} if case.friction else {}
     tables["contacts"] = {
-        name: {"tool": name, "faces": {"ids": _near(sequence, bend, flat, side)}, **known[name]}
+        name: {"tool": name, "faces": {"ids": _near(sequence, bend, flat, side)}, **known[name], **rubs}
         for name, side in faces.items()
     }
     tables["supports"] = [
