@@ -10,7 +10,7 @@ import itertools
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Any
 
 import umform as uf
 from umform import sheet_metals
@@ -29,7 +29,7 @@ from umform.processes.draw.cup import Cup
 from umform.processes.draw.two_meshes import coarser as coarser_u
 from umform.processes.draw.u_bend import UBend
 from umform.processes.hemming import Hemming, hemming
-from umform.processes.hemming.spec import FOLDED, acute
+from umform.processes.hemming.spec import acute
 from umform.results.outcome import Outcome
 from umform.results.quantity import Quantity
 
@@ -123,9 +123,9 @@ def run(case: Any) -> Outcome | Numbers:
 
 def softness(case: Any, values: Mapping[str, float | None]) -> dict[str, float]:
     """Softness of the bends of a run by their names; empty for other processes."""
-    sheet = case if isinstance(case, AirBending) else getattr(case, "sheet", None)
-    if not isinstance(sheet, AirBending):
+    if not isinstance(case, AirBending | BendSequence):
         return {}
+    sheet = case if isinstance(case, AirBending) else case.sheet
     return {
         name.removesuffix(_STRAIN).removesuffix(": "): softness_of(sheet.material, strain)
         for name, strain in values.items()
@@ -133,9 +133,15 @@ def softness(case: Any, values: Mapping[str, float | None]) -> dict[str, float]:
     }
 
 
+def length(case: Any) -> float:
+    """Length that errors in mm are proportional to: the thickness of a hem, which all its lengths follow."""
+    return case.sheet.thickness if isinstance(case, Hemming) else 1.0
+
+
 def fingerprint(case: Any) -> str:
     """Digest of all parameters of a case that are given: a stored run of other parameters is made again."""
-    given = re.sub(r", \w+=(None|\(\))(?=[,)])", "", repr(case))  # a new parameter that is absent changes nothing
+    # a new parameter that is absent changes nothing
+    given = re.sub(r", (\w+=(None|\(\))|friction=0\.0)(?=[,)])", "", repr(case))
     return hashlib.sha256(given.encode()).hexdigest()[:12]
 
 
@@ -213,18 +219,20 @@ def _of_sequence(case: BendSequence) -> Iterator[tuple[str, Any]]:
 
 
 def _of_hem(case: Hemming) -> Iterator[tuple[str, Any]]:
-    """Twice as many increments change no number by more than half a per cent: the finest mesh is without them."""
     sources = _finer(case.sheet)
+    every = {name: value for source in sources.values() for name, value in source.items() if name != "thickness_points"}
     mesh = {"elements_per_thickness": 2.0 * case.sheet.elements_per_thickness, "layers": 4}
-    coarse = replace(case.sheet, elements_per_thickness=0.5 * case.sheet.elements_per_thickness)
-    every = {name: value for source in sources.values() for name, value in source.items() if name != "increment"}
+    coarse = {"elements_per_thickness": 0.5 * case.sheet.elements_per_thickness}
+
+    def refined(sheet: dict[str, Any], times: int = 1) -> Hemming:
+        return replace(case, sheet=replace(case.sheet, **sheet), increments=times * case.increments)
+
     yield DEFAULT, case
-    yield COARSE, replace(case, sheet=coarse)
+    yield COARSE, refined(coarse)
     for name, source in sources.items():
-        count = 2 * case.increments if name == "increments" else case.increments
-        yield name, replace(case, sheet=replace(coarse, **source), increments=count)
-    yield "mesh", replace(case, sheet=replace(case.sheet, **mesh))
-    yield FINEST, replace(case, sheet=replace(case.sheet, **every | mesh))
+        yield name, refined(coarse | source, 2 if name == "increments" else 1)
+    yield "mesh", refined(mesh)
+    yield FINEST, refined(every | mesh, 2)
 
 
 def _of_deck(case: Deck) -> Iterator[tuple[str, Any]]:
@@ -265,7 +273,7 @@ def _halved(lines: Sequence[float]) -> list[float]:
 _KINDS: dict[str, Callable[[Any], Iterator[tuple[str, Any]]]] = {
     "air bending": _of_bend,
     "bend sequence": _of_sequence,
-    "hem": _of_hem,
+    **dict.fromkeys(("hem, flat", "hem, filled", "hem, open", "hem, rope", "hem by force"), _of_hem),
     "cup": _of_cup,
     "u-bend": _of_u_bend,
     DECK: _of_deck,
@@ -338,17 +346,12 @@ def _u(
     return Job("u-bend", f"{metal}, {thickness:g} mm, edges {edges[0]:g} and {edges[1]:g}", case, single)
 
 
-_HemForm = Literal["insert", "open"]
-
-
-def _hem(
-    metal: str, thickness: float, gap: float, stroke: float, *, single: bool = True, form: _HemForm = "insert"
-) -> Job:
-    mesh = {name: getattr(AirBending, name) for name in FOLDED}  # that of the bands of hems over an insert
-    sheet = acute(thickness, **mesh, material=_law(metal), stroke=stroke)
-    kind = "" if form == "insert" else f", {form}"
-    case = Hemming(form=form, gap=gap, base=14.0 * thickness, sheet=sheet)
-    return Job("hem", f"{metal}, {thickness:g} mm, gap {gap:g}{kind}", case, single)
+def _hem(metal: str, thickness: float, form: Any, *, single: bool = False, sheet: Any = (), **keys: Any) -> Job:
+    """A hem, that is closed to its height or with a force; with other keys of its sheet."""
+    strip = acute(thickness, material=_law(metal), **dict(sheet))
+    case = Hemming(form=form, base=14.0 * thickness, sheet=strip, **keys)
+    name = ", ".join([f"{metal}, {thickness:g} mm, {form}", *(f"{key} {value:g}" for key, value in keys.items())])
+    return Job(case.study, name, case, single)
 
 
 def _sequence(
@@ -417,10 +420,20 @@ JOBS = (
     _u("EN AW-5754", 1.5, 40.0, 140.0, (8.0, 8.0), 30.0, 3000.0, single=False),
     _u("S355", 2.0, 50.0, 160.0, (8.0, 10.0), 30.0, 10000.0, single=False),
     _u("1.4301", 1.0, 40.0, 120.0, (5.0, 7.0), 22.0, 5000.0, single=False),
-    _hem("DC04", 1.0, 1.0, 4.9),
-    _hem("EN AW-5754", 1.5, 1.5, 7.2, single=False),
-    _hem("EN AW-5754", 1.0, 1.2, 4.8, single=False, form="open"),
-    _hem("DP600", 1.0, 2.0, 4.9, single=False),
+    _hem("DC04", 1.0, "insert", single=True),
+    _hem("EN AW-5754", 1.5, "insert", gap=1.0),
+    _hem("DP600", 1.2, "insert", gap=2.0),
+    _hem("DC04", 1.0, "inner", gap=0.8, sheet={"element": "BEND8"}),
+    _hem("DC04", 1.0, "flat"),
+    _hem("AA6016-T4", 1.0, "flat", sheet={"rolling": 90.0}),
+    _hem("DP600", 1.2, "flat"),
+    _hem("EN AW-5754", 1.2, "open"),
+    _hem("DC04", 1.5, "open", gap=1.2),
+    _hem("DP600", 0.8, "rope"),
+    _hem("AA6016-T4", 0.8, "rope", sheet={"rolling": 90.0}),
+    _hem("DC04", 1.0, "insert", force=300.0, single=True),
+    _hem("DC04", 1.0, "flat", force=300.0),
+    _hem("EN AW-5754", 1.2, "flat", force=300.0),
     _sequence("DC04", 2.0, 16.0, (5.0, 6.0)),
     _sequence("DP600", 1.0, 8.0, (3.0, 2.5)),
     _sequence("EN AW-5754", 1.5, 12.0, (4.4, 3.5), punch_radius=2.0),

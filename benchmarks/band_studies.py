@@ -47,11 +47,13 @@ Checked = list[tuple[str, str, bool]]
 
 
 class Change(NamedTuple):
-    """Change of a number from a run to another one, what it is relative to, and the softness of the run."""
+    """Change of a number from a run to another one, what it is relative to; softness and length; its sign, if one."""
 
     error: float
     value: float
     softness: float
+    length: float
+    sign: float
 
     def scaled(self, *, relative: bool, exponent: float) -> float:
         """The error over what it is proportional to."""
@@ -60,7 +62,7 @@ class Change(NamedTuple):
     def scale(self, *, relative: bool, exponent: float) -> float:
         """What the error is proportional to."""
         power: float = self.softness**exponent
-        return (self.value if relative else 1.0) * power
+        return (self.value if relative else self.length) * power
 
 
 def parts_of(rows: Iterable[Mapping[str, Any]], process: str) -> dict[str, Part]:
@@ -77,13 +79,16 @@ def changes(part: Part, run: str, other: str) -> dict[str, list[Change]]:
     found: dict[str, list[Change]] = {}
     if run not in part or other not in part:
         return found
+    units = part.get(DEFAULT, {}).get("units", {})
     for name, value in part[run]["values"].items():
         last = part[other]["values"].get(name)
         if value is not None and last is not None and studied_name(name) not in WITHOUT:
             scale = max(abs(value), abs(last)) if name == _RADIUS else abs(value)
             feature = name.rpartition(": ")[0] if name.startswith("bend ") else ""
             soft = part[run].get("softness", {}).get(feature, 1.0)
-            found.setdefault(studied_name(name), []).append(Change(abs(value - last), scale, soft))
+            length = part[run].get("length", 1.0) if units.get(name) == "mm" else 1.0
+            sign = math.copysign(1.0, value) if value * last > 0.0 else 0.0
+            found.setdefault(studied_name(name), []).append(Change(abs(value - last), scale, soft, length, sign))
     return found
 
 
@@ -103,6 +108,7 @@ def studied(parts: Sequence[Part], units: Mapping[str, str]) -> dict[str, Any]:
     base = [changes(part, DEFAULT, FINEST) for part in parts]
     names = dict.fromkeys(name for found in base for name in found)
     every = {name: [pair for found in base for pair in found.get(name, ())] for name in names}
+    every = {name: found for name, found in every.items() if any(one.error for one in found)}  # others are given
     soft = any(pair.softness != 1.0 for found in every.values() for pair in found)
     exponent = max(
         _EXPONENTS if soft else _EXPONENTS[:1],
@@ -141,9 +147,10 @@ def _root_mean_square(found: Sequence[float]) -> float:
 
 
 def _likeliest(found: Sequence[Change], unit: str | None, exponent: float) -> tuple[float, bool]:
-    """Log-likelihood of errors, and whether they are relative to the values."""
+    """Log-likelihood of errors, and whether they are relative to the values, which have then one sign."""
     kinds = [True] if unit in _FORCES else [False]
-    if unit not in _FORCES and all(one.value > 1e-9 for one in found):
+    one_sign = {one.sign for one in found} in ({1.0}, {-1.0})
+    if unit not in _FORCES and one_sign and all(one.value > 1e-9 for one in found):
         kinds.append(True)
     return max(((_likelihood(found, one, exponent), one) for one in kinds), key=lambda one: round(one[0], 9))
 
@@ -197,9 +204,8 @@ def inside(parts: Mapping[str, Part], studies: Mapping[str, Any], mesh: str, pro
         for number, found in changes(part, mesh, FINEST).items()
         for change in found
         if number in rows
-        and (
-            band := band_of(rows[number], exponent, change.value, StudiedMesh(process, mesh, 1.0, change.softness), "")
-        )
+        and (at := StudiedMesh(process, mesh, softness=change.softness, length=change.length))
+        and (band := band_of(rows[number], exponent, change.value, at, ""))
     ]
 
 

@@ -16,7 +16,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from band_jobs import DECK, DEFAULT, JOBS, Job, fingerprint, run, softness
+from band_jobs import DECK, DEFAULT, JOBS, Job, fingerprint, length, run, softness
 from band_studies import SEQUENCE, SINGLE, parts_of, studied
 from bands_page import page
 from umform.errors import UmformError
@@ -70,13 +70,13 @@ def read(path: Path) -> list[dict[str, Any]]:
 
 
 def known_rows(path: Path) -> list[dict[str, Any]]:
-    """The rows of the present jobs, with the softness of their bends."""
+    """The rows of the present jobs, with the softness of their bends, and the length that errors in mm follow."""
     cases = {(job.process, job.name, name): case for job in JOBS for name, case in job.cases.items()}
     found = []
     for row in read(path):
         case = cases.get((row["process"], row["job"], row["run"]))
         if case is not None and fingerprint(case) == row["case"]:
-            found.append(row | {"softness": softness(case, row["values"])})
+            found.append(row | {"softness": softness(case, row["values"]), "length": length(case)})
     return found
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -39,12 +39,15 @@ class StudiedMesh:
         Size of the elements over those of that mesh.
     softness : float
         What makes the errors of this run larger than those of others: they follow a power of it.
+    length : float
+        Length that errors in mm are proportional to, unless they are to the number.
     """
 
     process: str
     mesh: str = DEFAULT
     size: float = 1.0
     softness: float = 1.0
+    length: float = 1.0
 
     @classmethod
     def nearest(cls, process: str, size: float, coarse: float, softness: float = 1.0) -> StudiedMesh:
@@ -94,6 +97,7 @@ def estimated(one: Quantity, at: StudiedMesh) -> Band | None:
     row = None if process is None else process["quantities"].get(studied_name(one.name))
     if process is None or row is None or one.value is None:
         return None
+    at = at if one.unit == "mm" else replace(at, length=1.0)
     return band_of(row, process["exponent"], one.value, at, f"studies of {_parts(process['parts'])} ({at.process})")
 
 
@@ -121,7 +125,7 @@ def band_of(row: Mapping[str, Any], exponent: float, value: float, at: StudiedMe
     meshes: Mapping[str, float] = row["meshes"]
     if at.mesh not in meshes:
         return None
-    scale = (abs(value) if row["relative"] else 1.0) * row["factor"] * at.softness**exponent
+    scale = (abs(value) if row["relative"] else at.length) * row["factor"] * at.softness**exponent
     parts = {name: scale * change for name, change in row["sources"].items()}
     if "mesh" in parts:
         parts["mesh"] *= at.factor

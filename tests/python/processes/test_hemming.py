@@ -14,9 +14,11 @@ from umform.processes.hemming import Hemming, hemming
 from umform.processes.hemming.files import FILES, record, write_files
 from umform.processes.hemming.measures import clearances
 from umform.processes.hemming.spec import acute
+from umform.results.quantity import GIVEN
 
 SHEET = acute(element="BEND18", elements_per_thickness=1.0, layers=1, increment=0.025)
 COARSE = Hemming(form="insert", base=13.0, increments=24, sheet=SHEET)
+THICK = replace(COARSE, sheet=replace(SHEET, thickness=2.0))
 FLAT = Hemming(base=13.0, increments=24, sheet=acute(elements_per_thickness=2.0, layers=1, increment=0.025))
 
 
@@ -77,6 +79,20 @@ def test_the_record_is_json(hem, tmp_path):
     assert all(f"<td>{value}</td>" in page for _, value, *_ in rows)
     assert page.count("<h2>Balance of forces and energies</h2>") == 1 and "<th>flattening</th>" in page
     assert "V 8, 30 degrees, shoulder 1, punch radius 0.5, 30 degrees; V/t 8" in page
+
+
+def test_each_number_has_a_band(hem, flat):
+    """A plate with a force has studies of its own, errors in mm follow the thickness; a given stroke leaves one out."""
+    for one in (hem, flat):
+        assert all(number.band.error > 0.0 and not number.of_mesh for number in one.quantities)
+    pressed, thick = (replace(hem, case=case) for case in (replace(COARSE, force=300.0), THICK))
+    assert [one.name for one in pressed.quantities if one.band == GIVEN] == ["force", "largest_force"]
+    assert (hem.studied.process, pressed.studied.process) == ("hem, filled", "hem by force")
+    bands = [{number.name: number.band for number in one.quantities} for one in (hem, thick)]
+    assert bands[1]["roll_in"].error == pytest.approx(2.0 * bands[0]["roll_in"].error)
+    assert bands[1]["angle"] == bands[0]["angle"]
+    *rest, angle = replace(hem, case=hem.with_stroke).quantities
+    assert all(number.band for number in rest) and angle.band is None and angle.of_mesh
 
 
 def folded(gap):

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 _GROWTH = 0.3
 #: Size of the elements of the coarse mesh of the studies of errors over that of the default.
 _COARSE = 2.0
+#: Elements per thickness of the default mesh of a bend.
+_USUAL = float(parameters(AirBending)["elements_per_thickness"].default)
 #: Slope of the yield stress over the stress below which the studies have no bends.
 _LEAST_SLOPE = 0.01
 
@@ -55,7 +57,9 @@ def _march(length: float, fine: float, coarse: float, zones: Sequence[tuple[floa
     return np.array(lines) * (length / lines[-1])
 
 
-def studied_mesh(case: AirBending, strain: float | None = None, process: str = "air bending") -> StudiedMesh:
+def studied_mesh(
+    case: AirBending, strain: float | None = None, process: str = "air bending", usual: float = _USUAL
+) -> StudiedMesh:
     """Mesh of a bend beside those of the studies of errors, by the elements along the sheet.
 
     Parameters
@@ -66,8 +70,9 @@ def studied_mesh(case: AirBending, strain: float | None = None, process: str = "
         Largest logarithmic strain of the outer face; None for numbers that belong to no bend.
     process : str
         Process of the studies.
+    usual : float
+        Elements per thickness of their default mesh.
     """
-    usual = float(parameters(AirBending)["elements_per_thickness"].default)
     soft = 1.0 if strain is None else softness(case.material, strain)
     return StudiedMesh.nearest(process, usual / case.elements_per_thickness, _COARSE, soft)
 

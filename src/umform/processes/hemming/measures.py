@@ -14,12 +14,11 @@ from umform.problem.problem import Problem
 from umform.processes.air_bending.remarks import coarse_mesh, extrapolated, tools_text
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.sheet import studied_mesh
-from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence.part import Part, after
 from umform.processes.bend_sequence.sides import Strip
-from umform.processes.hemming.spec import Hemming
+from umform.processes.hemming.spec import FOLDED, Hemming
 from umform.results.outcome import Outcome
-from umform.results.quantity import FORCE_PER_LENGTH, Quantity, quantities_of
+from umform.results.quantity import FORCE_PER_LENGTH, GIVEN, Quantity, quantities_of
 from umform.results.studies import StudiedMesh
 from umform.sheet_metals import sheet_text
 
@@ -28,7 +27,9 @@ Floats = NDArray[np.float64]
 #: Gap that is left in a closed hem under load, over the thickness.
 _CLOSED = 0.01
 #: Parameters of files and pages.
-_GIVEN = ("form", "gap", "force", "flange", "base", "insert_edge", "loop_length", "angle")
+_IN_FILES = ("form", "gap", "force", "flange", "base", "insert_edge", "loop_length", "angle")
+#: Measures that a force of the plate gives.
+_PRESSED = ("force", "largest_force")
 
 
 @dataclass(frozen=True)
@@ -116,7 +117,7 @@ class Hem(Outcome):
     @property
     def given(self) -> dict[str, object]:
         """Parameters of the hem beside those of its sheet."""
-        return {name: getattr(self.case, name) for name in _GIVEN}
+        return {name: getattr(self.case, name) for name in _IN_FILES}
 
     @property
     def with_stroke(self) -> Hemming:
@@ -130,18 +131,21 @@ class Hem(Outcome):
 
     @property
     def quantities(self) -> list[Quantity]:
-        """The measures, and the angle of the first bend."""
+        """The measures, and the angle of the first bend: a goal, unless the sheet has a stroke."""
         first = Quantity("angle of the first bend", "degrees", 2, name="first_angle")
         angle = replace(first, value=self.first.bends[0].measures.angle)
-        found = self.banded([*quantities_of(self.measures), angle])
-        return [replace(one, of_mesh=one.band is None) for one in found]
+        found = self.banded(quantities_of(self.measures))
+        if self.case.force is not None:
+            found = [replace(one, band=GIVEN) if one.name in _PRESSED else one for one in found]
+        if self.case.sheet.stroke is None:
+            return [*found, *self.banded([angle])]
+        return [*found, replace(angle, band=self._band(angle, None), of_mesh=True)]
 
     @property
-    def studied(self) -> StudiedMesh | None:
-        """Mesh beside those of the studies, which are of open hems and over an insert, on their element."""
-        case = self.case
-        as_studied = case.form in ("insert", "open") and case.sheet.element == AirBending.element
-        return studied_mesh(case.sheet, self.measures.outer_strain, "hem") if as_studied else None
+    def studied(self) -> StudiedMesh:
+        """Mesh beside those of the studies of such hems."""
+        sheet, usual = self.case.sheet, FOLDED["elements_per_thickness"]
+        return replace(studied_mesh(sheet, process=self.case.study, usual=usual), length=sheet.thickness)
 
     @property
     def is_closed(self) -> bool:

@@ -176,6 +176,13 @@ class Hemming:
         return self.form != "insert"
 
     @property
+    def study(self) -> str:
+        """Process of the studies of errors that has such hems: a sheet or plate in the fold makes it another one."""
+        if self.force is not None:
+            return "hem by force"
+        return "hem, filled" if self.form in ("inner", "insert") else f"hem, {self.form}"
+
+    @property
     def loop_length(self) -> float:
         """Distance of the plate from the bend line; 0 for a plate over the whole hem."""
         return 0.0 if self.form != "rope" else 0.5 * self.flange if self.loop is None else self.loop
