@@ -100,7 +100,7 @@ dome: env  ## a sphere pressed into sheets of up to 160 000 elements: time, memo
 balances: env  ## 63 jobs of all kinds whose balances are watched (a minute of CPU); writes docs/balances.md
 	@$(BIN)/python benchmarks/balances.py --json build/balances.json --page docs/balances.md $(ARGS)
 
-bands: env  ## studies of errors, for the bands of numbers (some 20 minutes of CPU, less what benchmarks/bands.jsonl has); writes docs/bands.md
+bands: env  ## studies of errors, for the bands of numbers (some 70 minutes of CPU, less what benchmarks/bands.jsonl has); writes docs/bands.md
 	@$(BIN)/python benchmarks/bands.py --page docs/bands.md $(ARGS)
 
 robust: env  ## 300 random jobs and how many finish (some 10 minutes of CPU), then the balances; writes docs/robust-rate.md

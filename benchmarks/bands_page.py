@@ -87,11 +87,11 @@ bands. Each bend of a sequence has the bands of single ones, flanges have their 
 four layers, that of a single bend a stack of eight.
 
 **Hems.** Flat, open and rope hems have a study each, those over an inner sheet or an insert have one together
-(*filled*), and hems of all forms by a force another: there the force is given, height and gap follow. Errors in mm that
-are not proportional to the number are so to the thickness; softness has no part. The finest mesh has eight elements on
-a thickness and four layers. On it the fold itself has not converged: largest gap, creep, roll-in and inner strain have
-the wide bands that the studies show. A study of two parts is a small one: its factor is 4.3, and its check says little,
-since one part alone, with a factor of 12.7, has to contain the other.
+(*filled*), and hems of all forms by a force another, of flat ones and one over an insert: there the force is given,
+height and gap follow. Errors in mm that are not proportional to the number are so to the thickness; softness has no
+part. The finest mesh has eight elements on a thickness and four layers. On it the fold itself has not converged:
+largest gap, creep, roll-in and inner strain have the wide bands that the studies show. Studies of three parts are
+small: their factor is 3.2, and the check by two others, with a factor of 4.3, is a weak one.
 
 **Sharp bends.** The errors of bends depend less on thickness over inside radius than on the hardening that is left at
 the outer face. They are taken as proportional to a power of {exponent}, the likeliest one, of the *softness*: the yield
