@@ -19,7 +19,7 @@ from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, console, printi
 from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.warnings import print_warnings_once
 from umform.processes.air_bending.spec import AirBending
-from umform.processes.hemming.spec import ACUTE, FOLDED, Hemming, acute
+from umform.processes.hemming.spec import ACUTE, FOLDED, Hemming, acute, refuse_flat
 from umform.spec import parameters
 
 #: Parameters of the sheet that a hem does not have: drawn tools, and what belongs to a single bend.
@@ -86,6 +86,8 @@ def hem(
     of_hem = {name: given.pop(name) for name in _OF_HEM}
     sheet = acute(**{name: value for name, value in given.items() if value is not None}, material=law)
     case = Hemming(**of_hem, sheet=sheet)
+    if derive or scatter_options:
+        refuse_flat(case)
     if scatter_options:  # refuse what is wrong before the run
         scatter_options.check(replace(case, sheet=replace(sheet, stroke=0.5 * sheet.largest_stroke)))
     say = partial(typer.echo, err=True)

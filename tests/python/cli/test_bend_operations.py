@@ -131,7 +131,7 @@ def test_studies_that_a_part_refuses_before_the_run(one_bend, more, said):
 
 def test_the_scatter_of_a_hem_is_refused_before_the_run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    done = CliRunner().invoke(app, ["hem", "--scatter", "opening_angle=2%"])
+    done = CliRunner().invoke(app, ["hem", "--form", "insert", "--scatter", "opening_angle=2%"])
     assert done.exit_code == 1
     assert "there is no number of this path" in done.stderr
     assert not Path("results").exists()

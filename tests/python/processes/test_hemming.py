@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import umform as uf
 from umform.errors import InvalidValue
 from umform.processes.bend_sequence.sides import Strip
 from umform.processes.hemming import Hemming, hemming
@@ -178,3 +179,9 @@ def test_an_inner_sheet_is_clamped_between_flange_and_base(tmp_path):
 def test_hems_that_cannot_be_made_are_refused(change, message):
     with pytest.raises(InvalidValue, match=message):
         replace(COARSE, **change)
+
+
+def test_a_flat_hem_has_no_derivatives():
+    case = replace(FLAT, sheet=replace(FLAT.sheet, stroke=6.7))
+    with pytest.raises(InvalidValue, match="results of a flat hem jump"):
+        uf.derivatives(case, ["sheet.punch_radius"], progress=False)

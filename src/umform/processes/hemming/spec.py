@@ -203,3 +203,20 @@ class Hemming:
         stroke = self.sheet.stroke
         bend = Bend(self.flange, self.angle) if stroke is None else Bend(self.flange, stroke=stroke)
         return BendSequence(self.flange + self.base, (bend,), replace(self.sheet, stroke=None))
+
+
+def refuse_flat(case: Hemming) -> None:
+    """Refuse derivatives of a flat hem: its runs jump by more than they say (docs/bending-operations.md).
+
+    Raises
+    ------
+    InvalidValue
+    """
+    if case.form == "flat":
+        raise InvalidValue(
+            "the results of a flat hem jump: they have no derivatives",
+            where="form",
+            value=case.form,
+            cause="with a slightly different value its fold touches elsewhere, and it springs back to another shape",
+            remedy='form="insert", or runs that are far apart: umform sweep',
+        )
