@@ -16,7 +16,7 @@ from umform.notebook import Display, InNotebook
 from umform.results.balanced import balanced
 from umform.results.history import History
 from umform.results.penetration import stage_penetrations
-from umform.results.quantity import Band, Quantity, list_columns, prefixed, table, values
+from umform.results.quantity import GIVEN, Band, Quantity, list_columns, prefixed, table, values
 from umform.results.run_record import run_record
 from umform.results.studies import StudiedMesh, estimated
 
@@ -198,7 +198,8 @@ class Outcome(InNotebook, ABC):
     def all_notes(self) -> list[str]:
         """The notes, and where the errors of the quantities come from."""
         bands = (one.band for one in self.quantities)
-        return [*self.notes, *dict.fromkeys(f"error: {band.source}" for band in bands if band is not None)]
+        sources = [f"error: {band.source}" for band in bands if band is not None and band != GIVEN]
+        return [*self.notes, *dict.fromkeys(sources)]
 
     @property
     def tables(self) -> dict[str, list[list[str]]]:

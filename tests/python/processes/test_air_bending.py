@@ -347,6 +347,7 @@ def test_the_numbers_of_a_bend_have_bands(bend):
     """A stroke found for an angle has the error of the angle over its change with the stroke; a given one has none."""
     assert [one.name for one in bend.quantities if one.band is None] == ["length_balance"]
     assert {one.name for one in bend.quantities if one.band == GIVEN} == {"stroke", "below_die"}
+    assert "error: given" not in bend.all_notes
     bend = replace(bend, searched=True)
     found = {one.name: one for one in bend.quantities}
     assert [name for name, one in found.items() if one.band is None] == ["length_balance"]

@@ -126,7 +126,7 @@ def test_tables_have_a_column_for_each_refinement(bend, errors):
     labels = [one.label for one in declared(Measures).values()]
     assert [row[0] for row in rows if row[0] != "force on the width"] == labels
     total = next(row for row in rows if row[0] == "force on the width")
-    assert "largest force (choose the press by it)" in [row[0] for row in bend.tables["Measures"]]
+    assert "K-factor (for the flat pattern)" in [row[0] for row in bend.tables["Measures"]]
     assert f"± {errors.total('angle'):.2f}" in next(row for row in rows if row[0] == "angle")
     assert float(total[1]) == pytest.approx(bend.measures.largest_force * 0.05, abs=0.006)
 

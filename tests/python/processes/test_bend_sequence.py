@@ -49,6 +49,16 @@ def test_one_bar_counts_the_bends(profile_z, told):
     assert {name for name, *_ in told} >= {"bend 1, loading", "bend 2, loading"}
 
 
+def test_tools_rub_a_part_as_they_rub_a_single_bend():
+    """But for the elastic slip, whose stiffness follows from the given penalty here."""
+    sheet = replace(SHEET, friction=0.2)
+    part = bend_sequence(BendSequence(60.0, (Bend(30.0, stroke=3.0),), sheet), frames=1, progress=False)
+    force = part.bends[0].measures.force
+    rubbed, free = (air_bending(replace(sheet, stroke=3.0, friction=mu), progress=False) for mu in (0.2, 0.0))
+    assert force == pytest.approx(rubbed.measures.force, rel=1e-3)
+    assert force > 1.03 * free.measures.force
+
+
 def test_bends_far_apart_are_single_bends(profile_z, single):
     for done in profile_z.bends:
         for name in ("angle", "loaded_angle", "springback"):

@@ -10,6 +10,8 @@ import pytest
 from umform.errors import InvalidValue
 from umform.materials import J2, Voce
 from umform.processes.air_bending import AirBending, StackedSheet, air_bending
+from umform.processes.air_bending.foil import refuse_squeezed, tip_pressure
+from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.spec import dc04_like
 
 COARSE = {"elements_per_thickness": 1, "layers": 1, "increment": 0.02, "thickness": 1.0, "opening": 12.0}
@@ -36,6 +38,17 @@ def test_friction_on_both_faces_holds_a_foil_below_the_punch():
     assert 0.8 < covered.stack[1].loaded.thicknesses.min() < 0.98
     assert covered.measures.largest_force == pytest.approx(bare.measures.largest_force, rel=0.05)
     assert covered.measures.loaded_angle > bare.measures.loaded_angle  # the foil gives way: the sheet follows later
+
+
+def test_the_flow_stress_in_plane_strain_decides_and_the_rule_of_the_shop():
+    """Between 25 MPa, which is squeezed out without friction, and 41 MPa, which stays."""
+    case = AirBending(**COARSE, on_top=[StackedSheet(0.1, FILM)])
+    with pytest.raises(InvalidValue) as refused:
+        refuse_squeezed(case)
+    bears, pressure = 2.0 / math.sqrt(3.0) * (25.0 - 15.0 * math.exp(-1.5)), tip_pressure(case)
+    assert f"it bears {bears:.3g} MPa" in refused.value.cause and f"about {pressure:.3g} MPa" in refused.value.cause
+    assert pressure == pytest.approx(shop_forces(case)[0] / (0.7 * case.punch_radius))
+    refuse_squeezed(replace(case, on_top=[StackedSheet(0.1, replace(FILM, hardening=Voce(20.0, 40.0, 1.5)))]))
 
 
 def test_a_foil_that_slides_freely_is_refused():

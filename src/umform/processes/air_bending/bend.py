@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from umform.analysis.run import Result
 from umform.processes.air_bending.brake import force_per_width, loading
-from umform.processes.air_bending.formulas import shop_forces
+from umform.processes.air_bending.formulas import RULE, shop_forces
 from umform.processes.air_bending.measures import Measures, measure
 from umform.processes.air_bending.remarks import STROKES, depth_text, of_this_mesh, remarks, tools_text, total_force
 from umform.processes.air_bending.section import Section
@@ -196,7 +196,7 @@ class AirBend(Outcome):
     def notes(self) -> list[str]:
         """Tools, force by the rule of the shop, remarks."""
         low, high = shop_forces(self.case)
-        rule = f"the rule of the shop, 1.33 to 1.42 Rm t²/V, gives {low:.1f} to {high:.1f} {FORCE_PER_LENGTH}"
+        rule = f"the {RULE}, gives {low:.1f} to {high:.1f} {FORCE_PER_LENGTH}; choose the press by the larger force"
         total = [] if self.bend_length is None else [total_force(self.measures.largest_force, self.bend_length)]
         depth = depth_text(self.measures.below_die)
         return [depth, tools_text(self.case), rule, *remarks(self.case, self.measures), *total]

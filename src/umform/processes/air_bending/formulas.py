@@ -12,6 +12,8 @@ from umform.sheet_metals import tension_test
 
 #: Factors in use for F = factor Rm t² / V.
 FORCE_FACTORS = (1.33, 1.42)
+#: The rule for people.
+RULE = "rule of the shop, {:g} to {:g} Rm t²/V".format(*FORCE_FACTORS)
 #: Inside radius over the opening that the shop reckons with, for steel.
 INNER_RADIUS = 0.16
 
@@ -56,7 +58,7 @@ def strength(case: AirBending, material: J2 | Metal | None = None) -> float:
 
 
 def shop_forces(case: AirBending) -> tuple[float, float]:
-    """Largest force of air bending by the workshop formula F = 1.33 ... 1.42 Rm t² / V in kN/m, V the opening.
+    """Largest force of air bending by the rule of the shop, F = factor Rm t² / V, in kN/m, V the opening.
 
     That of several sheets is the sum, without friction between them.
     """

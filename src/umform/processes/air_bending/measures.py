@@ -25,9 +25,7 @@ class Measures:
     """Depth of the tip of the punch below the top of the die at the stroke: the stroke less the thickness."""
     force: Annotated[float, Quantity("force at the stroke", FORCE_PER_LENGTH, 1)]
     """Force of the punch per length of bend at the stroke."""
-    largest_force: Annotated[
-        float, Quantity("largest force", FORCE_PER_LENGTH, 1, hint="choose the press by it", leading=True)
-    ]
+    largest_force: Annotated[float, Quantity("largest force", FORCE_PER_LENGTH, 1, leading=True)]
     """The largest force up to there."""
     loaded_angle: Annotated[float, Quantity("angle under load", "degrees", 2)]
     """Angle between the legs under load."""

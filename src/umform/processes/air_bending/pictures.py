@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from umform.model.equations.frame import Frame
 from umform.plotting import COLOUR_MAP, COLOURS, Picture, house_style
 from umform.processes.air_bending.bend import AirBend
-from umform.processes.air_bending.formulas import shop_forces
+from umform.processes.air_bending.formulas import RULE, shop_forces
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.spec import AirBending
@@ -75,7 +75,7 @@ def _draw_force(axes: Axes, bend: AirBend) -> None:
     error = bend["largest_force"].relative_error * np.abs(bend.force[down])
     shade(axes, bend.stroke[down], bend.force[down], error, _BLUE)
     low, high = shop_forces(bend.case)
-    axes.axhspan(low, high, color=_GREEN, alpha=0.25, linewidth=0, label="rule of the shop, 1.33 to 1.42 Rm t²/V")
+    axes.axhspan(low, high, color=_GREEN, alpha=0.25, linewidth=0, label=RULE)
     axes.set(xlabel="stroke in mm", ylabel=f"force in {FORCE_PER_LENGTH}", title="Force")
     axes.set_ylim(0.0, 1.35 * max(high, float(bend.force.max())))
     axes.legend(loc="upper left")

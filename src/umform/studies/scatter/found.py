@@ -85,11 +85,10 @@ class Scattered(Study):
     @property
     def tables(self) -> dict[str, list[list[str]]]:
         """Tables for people by their headings: a header, then rows of cells."""
-        return {
-            "Parameters that scatter": self._table_of_sources,
-            "Scatter of the results": self._table_of_results,
-            SHARES: self._table_of_shares,
-        } | {f"{one.place}: changes": self._table_of_run(one) for one in self.second_runs}
+        found = {"Parameters that scatter": self._table_of_sources, "Scatter of the results": self._table_of_results}
+        if len(self.sources) > 1:
+            found[SHARES] = self._table_of_shares
+        return found | {f"{one.place}: changes": self._table_of_run(one) for one in self.second_runs}
 
     @property
     def _table_of_sources(self) -> list[list[str]]:
@@ -168,8 +167,9 @@ class Scattered(Study):
     def annexes(self) -> list[Annex]:
         """Tables and picture for the outcome of a process; the warnings are at the end."""
         found = {title: Annex(title, table) for title, table in self.tables.items()}
-        caption = "Shares of the parameters in the variance of the results."
-        found[SHARES] = replace(found[SHARES], picture=self.plot, caption=caption)
+        if SHARES in found:
+            caption = "Shares of the parameters in the variance of the results."
+            found[SHARES] = replace(found[SHARES], picture=self.plot, caption=caption)
         *others, last = found.values()
         return [*others, replace(last, warnings=self.warnings)]
 

@@ -72,6 +72,13 @@ def test_refusals(deck, words, expected):
     assert "Traceback" not in done.output
 
 
+def test_one_parameter_has_no_table_of_shares(deck):
+    few = ["--set", "steps.0.increments=1", "--set", "mesh.cells=[4,1]", "--set", "steps.0.to.force=0.01"]
+    done = call("sigma", deck, *few, "--scatter", "E=1%", "--measure", "force_force")
+    assert done.exit_code == 0, done.output
+    assert "Scatter of the results" in done.output and "Shares" not in done.output
+
+
 def test_an_unknown_result_is_refused(deck):
     done = call("sigma", deck, "--set", "steps.0.increments=1", "--scatter", "E=1%", "--limit", "angle=1:4")
     assert done.exit_code == 1
