@@ -55,7 +55,7 @@ the amplitude from which they count; the angle of the first bend of a hem whose 
 force at the end of a step changes by, and with `forming` thinning, strains and forming limits. The runs go in parallel.
 The error is the root of the sum of squares, times {safety:g}. If a number converges at least linearly with element
 size, increment and penetration, its true error is below that, unless a coarser mesh agrees by chance. The factor is the
-smallest of 1, 1.25, 1.5 and 2 with which 90 % of the answers of the decks below lie in their bands: it is chosen and
+smallest of 1, 1.25, 1.5 and 2 that puts 90 % of the answers of the decks below into their bands: it is chosen and
 checked on the same decks. The numbers of `forming` are not among these answers.
 
 | name | change |

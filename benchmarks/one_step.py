@@ -25,7 +25,7 @@ from umform_book.drawing.revolved import cup
 #: Mean height of the cup, mm; rings of some 20 000 triangles.
 HEIGHT, RINGS = 34.13, 58
 HELD: dict[str, Any] = {"holder_force": 40e3, "friction": 0.09, "gap": 1.2}
-#: Methods whose time is told: energies, forces and matrices of triangles; their sums; factors; solutions.
+#: Methods that are timed: energies, forces and matrices of triangles; their sums; factors; solutions.
 PARTS = {
     "triangles": ((FlatProblem, "residual"), (FlatProblem, "energy")),
     "sums": ((Equations, "matrix"), (Equations, "vector")),

@@ -61,6 +61,13 @@ def test_coarser_elements_have_a_wider_band(size, factor):
     assert other.sources["increments"] == usual.sources["increments"]
 
 
+@pytest.mark.parametrize(("name", "unit", "factor"), [("roll_in", "mm", 2.0), ("angle", "degrees", 1.0)])
+def test_errors_of_lengths_follow_the_thickness(name, unit, factor):
+    one = Quantity(name, unit, name=name, value=0.5)
+    thin, thick = (estimated(one, StudiedMesh("hem, flat", length=length)) for length in (1.0, 2.0))
+    assert thick.error == pytest.approx(factor * thin.error) and thin.error > 0.0
+
+
 def test_the_nearest_mesh_of_the_studies_counts():
     near = [StudiedMesh.nearest("cup", size, 2.0, 3.0) for size in (0.7, 1.0, 1.4, 1.5, 3.0)]
     assert [one.mesh for one in near] == [DEFAULT] * 3 + [COARSE] * 2

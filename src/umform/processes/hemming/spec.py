@@ -217,6 +217,6 @@ def refuse_flat(case: Hemming) -> None:
             "the results of a flat hem jump: they have no derivatives",
             where="form",
             value=case.form,
-            cause="with a slightly different value its fold touches elsewhere, and it springs back to another shape",
+            cause="with a slightly different size it springs back to another shape",
             remedy='form="insert", or runs that are far apart: umform sweep',
         )
