@@ -18,6 +18,8 @@ from umform.problem.findings import Finding, error, ok, warning
 
 #: Strain at first yield: metals have 3e-4 to 1e-2; beyond the outer pair, stresses are in different units.
 _USUAL_YIELD, _POSSIBLE_YIELD = (1e-4, 3e-2), (1e-5, 0.2)
+#: A sheet softer than this share of the stiffest is a foil of a polymer, whose first yield is at 1e-2 to 1e-1.
+_FOIL, _USUAL_YIELD_OF_FOIL = 0.1, (1e-3, 0.15)
 #: Plastic strain at the end of a table: curves are extrapolated to 1 or 2; a curve in per cent ends at 15 and more.
 _USUAL_END, _POSSIBLE_END = 2.0, 5.0
 #: In-plane extent of the sheet over its thickness.
@@ -49,7 +51,7 @@ def units(model: Model, *, millimetres: bool = False) -> Iterator[Finding]:
     yield elastic_constants(model, stiffest, millimetres=millimetres)
     for material in materials:
         if isinstance(material, Plastic):
-            yield from plastic_constants(material)
+            yield from plastic_constants(material, foil=material.E < _FOIL * stiffest.E)
     thickness = sheet_thickness(model.mesh)
     for contact in model.contacts:
         ratio = contact.penalty * thickness / stiffest.E
@@ -90,15 +92,15 @@ def elastic_constants(model: Model, material: Elastic, *, millimetres: bool) -> 
     return ok("units", text)
 
 
-def plastic_constants(material: Plastic) -> Iterator[Finding]:
+def plastic_constants(material: Plastic, *, foil: bool = False) -> Iterator[Finding]:
     """Yield stress against Young's modulus, and the strains of a hardening table."""
-    first = first_yield(material)
+    first, usual = first_yield(material), _USUAL_YIELD_OF_FOIL if foil else _USUAL_YIELD
     strain = first / material.E
     text = f"first yield at a strain of {strain:.3g}: yield stress {first:.4g}, E = {material.E:.4g}"
     remedy = "give yield stress and elastic constants in one unit"
     if not _POSSIBLE_YIELD[0] <= strain <= _POSSIBLE_YIELD[1]:
         yield error("units", text, remedy)
-    elif not _USUAL_YIELD[0] <= strain <= _USUAL_YIELD[1]:
+    elif not usual[0] <= strain <= usual[1]:
         yield warning("units", text, remedy)
     curve = material.hardening
     if isinstance(curve, Table) and curve.eqps[-1] > _USUAL_END:

@@ -1,11 +1,14 @@
 """Units: what is unusual is a warning, what no metal sheet comes near to an error."""
 
+from dataclasses import replace
+
 import pytest
 
+from umform.materials import J2, Perfect, Voce
 from umform.problem import DeckError
 from umform.problem.findings import Level, accept, error, ok, warning
 from umform.problem.plausible import of_model
-from umform.processes.air_bending import AirBending
+from umform.processes.air_bending import AirBending, StackedSheet
 from umform.processes.air_bending.problem import build
 
 OK, WARNING, ERROR = [Level.OK], [Level.WARNING], [Level.ERROR]
@@ -75,8 +78,6 @@ def test_a_metal_of_the_library_has_its_units(strip, found):
 
 
 def test_the_modulus_of_a_bend_is_in_MPa():
-    from umform.materials import J2, Perfect
-
     for E, yield_stress in ((210.0, 0.2), (210e9, 160e6)):
         model, _ = build(AirBending(stroke=6.0, material=J2(E=E, nu=0.3, hardening=Perfect(yield_stress))))
         assert Level.ERROR in levels(of_model(model, millimetres=True))
@@ -97,3 +98,12 @@ def test_errors_are_refused_together_unless_forced():
     assert all("--force" in told.remedy for told in caught.value.errors)
     assert [line.split(":")[0] for line in accept(findings, force=True)] == ["b", "c", "d"]
     assert len(accept(findings[:2])) == 1
+
+
+def test_a_foil_of_a_polymer_yields_late_a_sheet_does_not():
+    """Polyethylene: 10 MPa of 250, a strain of .04; steel that yields so late has its stress in another unit."""
+    steel, film = (J2(E=E, nu=0.4, hardening=Voce(0.04 * E, 0.1 * E, 1.5)) for E in (210e3, 250.0))
+    case = AirBending(thickness=1.0, opening=12.0, stroke=1.0, friction=0.3, elements_per_thickness=1, layers=1)
+    for law, level in ((film, []), (steel, WARNING)):
+        model, _ = build(replace(case, on_top=[StackedSheet(0.1, law, 0.3)]))
+        assert levels(finding for finding in of_model(model) if "first yield" in finding.text) == level
