@@ -19,7 +19,7 @@ from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, console, printi
 from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.warnings import print_warnings_once
 from umform.processes.air_bending.spec import AirBending
-from umform.processes.hemming.spec import ACUTE, FOLDED, Hemming, acute, refuse_flat
+from umform.processes.hemming.spec import ACUTE, FOLDED, Hemming, acute, refuse_jumps
 from umform.spec import parameters
 
 #: Parameters of the sheet that a hem does not have: drawn tools, and what belongs to a single bend.
@@ -87,7 +87,7 @@ def hem(
     sheet = acute(**{name: value for name, value in given.items() if value is not None}, material=law)
     case = Hemming(**of_hem, sheet=sheet)
     if derive or scatter_options:
-        refuse_flat(case)
+        refuse_jumps(case)
     if scatter_options:  # refuse what is wrong before the run
         scatter_options.check(replace(case, sheet=replace(sheet, stroke=0.5 * sheet.largest_stroke)))
     say = partial(typer.echo, err=True)

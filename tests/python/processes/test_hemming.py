@@ -181,7 +181,8 @@ def test_hems_that_cannot_be_made_are_refused(change, message):
         replace(COARSE, **change)
 
 
-def test_a_flat_hem_has_no_derivatives():
-    case = replace(FLAT, sheet=replace(FLAT.sheet, stroke=6.7))
-    with pytest.raises(InvalidValue, match="results of a flat hem jump"):
+@pytest.mark.parametrize(("form", "gap"), [("flat", 0.0), ("inner", 1.0), ("open", 1.0), ("rope", 0.0)])
+def test_only_a_hem_over_an_insert_has_derivatives(form, gap):
+    case = replace(FLAT, form=form, gap=gap, sheet=replace(FLAT.sheet, stroke=6.7))
+    with pytest.raises(InvalidValue, match="results of this form of hem jump"):
         uf.derivatives(case, ["sheet.punch_radius"], progress=False)

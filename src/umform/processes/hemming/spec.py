@@ -205,16 +205,16 @@ class Hemming:
         return BendSequence(self.flange + self.base, (bend,), replace(self.sheet, stroke=None))
 
 
-def refuse_flat(case: Hemming) -> None:
-    """Refuse derivatives of a flat hem: its runs jump by more than they say (docs/bending-operations.md).
+def refuse_jumps(case: Hemming) -> None:
+    """Refuse derivatives of hems whose runs jump by more than they say (docs/bending-operations.md).
 
     Raises
     ------
     InvalidValue
     """
-    if case.form == "flat":
+    if case.form != "insert":
         raise InvalidValue(
-            "the results of a flat hem jump: they have no derivatives",
+            "the results of this form of hem jump: they have no derivatives",
             where="form",
             value=case.form,
             cause="with a slightly different size it springs back to another shape",
