@@ -19,7 +19,7 @@ from umform.problem.findings import Finding, error, ok, warning
 #: Strain at first yield: metals have 3e-4 to 1e-2; beyond the outer pair, stresses are in different units.
 _USUAL_YIELD, _POSSIBLE_YIELD = (1e-4, 3e-2), (1e-5, 0.2)
 #: A sheet softer than this share of the stiffest is a foil of a polymer, whose first yield is at 1e-2 to 1e-1.
-_FOIL, _USUAL_YIELD_OF_FOIL = 0.1, (1e-3, 0.15)
+_SOFT, _USUAL_YIELD_OF_FOIL = 0.1, (1e-3, 0.15)
 #: Plastic strain at the end of a table: curves are extrapolated to 1 or 2; a curve in per cent ends at 15 and more.
 _USUAL_END, _POSSIBLE_END = 2.0, 5.0
 #: In-plane extent of the sheet over its thickness.
@@ -51,7 +51,7 @@ def units(model: Model, *, millimetres: bool = False) -> Iterator[Finding]:
     yield elastic_constants(model, stiffest, millimetres=millimetres)
     for material in materials:
         if isinstance(material, Plastic):
-            yield from plastic_constants(material, foil=material.E < _FOIL * stiffest.E)
+            yield from plastic_constants(material, foil=material.E < _SOFT * stiffest.E)
     thickness = sheet_thickness(model.mesh)
     for contact in model.contacts:
         ratio = contact.penalty * thickness / stiffest.E

@@ -18,7 +18,7 @@ def operations_of(case: Hemming) -> list[Operation]:
     Raises
     ------
     InvalidValue
-        The sheet has no stroke for the first bend, or the hem is flat.
+        The sheet has no stroke for the first bend, or the form of the hem has no derivatives.
     """
     refuse_jumps(case)
     needed_stroke(case.sheet, "sheet")

@@ -217,6 +217,6 @@ def refuse_jumps(case: Hemming) -> None:
             "the results of this form of hem jump: they have no derivatives",
             where="form",
             value=case.form,
-            cause="with a slightly different size it springs back to another shape",
+            cause="whole runs with slightly different sizes do not lie on a smooth curve",
             remedy='form="insert", or runs that are far apart: umform sweep',
         )
