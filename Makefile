@@ -32,7 +32,7 @@ export OMP_WAIT_POLICY ?= passive
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
-.PHONY: k-factor help env book dev demo test test-cpp test-python test-long test-clang windows sanitize test-pardiso pardiso test-mpi mpi instructions verification mutants lint lint-python lint-workflows lint-once lint-imports lint-types lint-page lint-stubs lint-format lint-cpp stubs \
+.PHONY: k-factor help env book dev demo test test-cpp test-python test-long test-clang windows sanitize test-pardiso pardiso test-mpi mpi instructions verification mutants lint lint-others lint-python lint-workflows lint-once lint-imports lint-types lint-page lint-stubs lint-format lint-cpp stubs \
         format docs wheel bench bench-picture dome robust robust-draws balances bands ubend cup draws touch s-rail compare peers gallery clean
 
 help:  ## show this help
@@ -204,7 +204,7 @@ test-pardiso: pardiso  ## tests of solvers, threads and a bend with PARDISO
 	@if $(PIP) show mkl > /dev/null 2>&1; then \
 	    printf '\033[1m==>\033[0m %s\n' 'Testing with PARDISO: solvers, threads, free bending of 12 x 1 elements with 18 nodes' && \
 	    $(BIN)/python -c 'import umform.solvers as s; raise SystemExit(0 if s.available()["pardiso"] else "MKL is not found")' && \
-	    $(BIN)/pytest -q $(PARDISO_TESTS) $(ARGS); \
+	    OMP_NUM_THREADS=1 $(BIN)/pytest -q -n $(JOBS) --dist loadfile $(PARDISO_TESTS) $(ARGS); \
 	else echo 'There is no wheel of MKL for this platform: PARDISO is not tested here'; fi
 
 # Beside .venv, never in it: Debian's petsc4py wants NumPy 1.
@@ -273,7 +273,8 @@ wheel: env $(VENV)/.wheel  ## wheels of umform and of the book in dist, tested i
 
 # ---- style ----
 
-lint: lint-python lint-workflows lint-once lint-imports lint-types lint-page lint-stubs lint-format lint-cpp  ## style, types and names, in Python and in C++
+lint: lint-others lint-cpp  ## style, types and names, in Python and in C++
+lint-others: lint-python lint-workflows lint-once lint-imports lint-types lint-page lint-stubs lint-format  ## all of lint but clang-tidy
 
 lint-python: $(VENV)/.dev
 	$(SAY) 'ruff'

@@ -1,10 +1,11 @@
-"""Look at the site of `make docs` in a browser, from its files: lengths of pages, widths on a phone, search.
+"""Look at the site of `make docs`: outputs of notebooks; in a browser, lengths of pages, widths on a phone, search.
 
 Call: python tools/check_site.py build/docs/0.2.0
 """
 
 from __future__ import annotations
 
+import re
 import shutil
 import sys
 from collections.abc import Iterator
@@ -17,25 +18,46 @@ LONGEST = 8000
 FOUND = {"springback": "bend", "find_stroke": "find_stroke", "V-die": "die"}
 #: Pages that are looked at on a phone, in both schemes.
 ON_A_PHONE = ("index.html", "site/gallery.html", "site/api/model.html", "notebooks/bend.html", "README.html")
+#: Smallest number of pictures of each notebook.
+PICTURES = {"bend": 3, "cup": 3, "own-law": 1}
 
 
 def main(root: Path) -> int:
     """Print what is wrong; return their number."""
+    wrong = [*notebooks(root), *in_a_browser(root)]
+    print(*wrong, sep="\n", end="\n" if wrong else "")
+    return len(wrong)
+
+
+def notebooks(root: Path) -> Iterator[str]:
+    """Notebooks without their pictures and tables, or with warnings."""
+    for name, pictures in PICTURES.items():
+        text = (root / "notebooks" / f"{name}.html").read_text()
+        shown = len(re.findall(r'<img[^>]*src="[^"]*_images/', text))
+        if shown < pictures:
+            yield f"the notebook {name} shows {shown} pictures; at least {pictures}"
+        if 'class="output text_html"' not in text:
+            yield f"the notebook {name} shows no result as a table"
+        if 'class="output stderr' in text:
+            yield f"the notebook {name} prints warnings"
+
+
+def in_a_browser(root: Path) -> list[str]:
+    """What is wrong with the pages as a browser shows them."""
     try:
         from playwright.sync_api import sync_playwright
     except ImportError:
         print("no look at the site: playwright is not installed (make dev)")
-        return 0
+        return []
     browser = shutil.which("chromium") or shutil.which("google-chrome")
     if browser is None:
         print("no look at the site: there is no chromium")
-        return 0
+        return []
     with sync_playwright() as tools:
         window = tools.chromium.launch(executable_path=browser, args=["--no-sandbox"])
         wrong = [*long_pages(window, root), *wide_pages(window, root), *not_found(window, root)]
         window.close()
-    print(*wrong, sep="\n", end="\n" if wrong else "")
-    return len(wrong)
+    return wrong
 
 
 def long_pages(window: Any, root: Path) -> Iterator[str]:

@@ -20,7 +20,7 @@ from umform.results.quantity import GIVEN
 SHEET = acute(element="BEND18", elements_per_thickness=1.0, layers=1, increment=0.025)
 COARSE = Hemming(form="insert", base=13.0, increments=24, sheet=SHEET)
 THICK = replace(COARSE, sheet=replace(SHEET, thickness=2.0))
-FLAT = Hemming(base=13.0, increments=24, sheet=acute(elements_per_thickness=2.0, layers=1, increment=0.025))
+FLAT = Hemming(base=13.0, increments=96, sheet=acute(elements_per_thickness=1.5, layers=1, increment=0.0125))
 
 
 @pytest.fixture(scope="module")

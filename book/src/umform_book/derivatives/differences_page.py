@@ -77,8 +77,8 @@ def _sizes(name: str, changes: Sequence[float], *, points: bool) -> list[tuple[f
 
 def run(page: Page) -> None:
     """Fill the page."""
-    _table(page, "Steps, tools, controls and loads", "model", EXAMPLES, ("Move; friction", "Close", "Arc"))
-    _table(page, "Sheets that touch", "model", SHEETS, ("two sheets, points; friction",))
+    _table(page, "Steps, tools, controls and loads", "model", EXAMPLES, ("Close", "Arc"))
+    _table(page, "Sheets that touch", "model", SHEETS, ())
     laws = {name: example(law) for name, law in LAWS.items()}
     _table(page, "Laws, with all their constants", "law", laws, ("J2, Linear", "Metal, Mises"))
     _chains(page)

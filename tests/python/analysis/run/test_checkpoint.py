@@ -283,7 +283,7 @@ def test_a_run_goes_on_from_any_place_to_the_same_bits(build, copies, tmp_path, 
     assert_the_same(watched, solve(watched, steps, **options, checkpoint=tmp_path / "run.h5", every=0), model, expected)
     places = list(copies)
     assert len(places) >= len(expected)
-    for place in places[:: max(1, len(places) // 5)] + places[-1:]:
+    for place in places[:: max(1, len(places) // 3)] + places[-1:]:
         again, steps, options = build()
         result = resume(place, again, steps, **options, every=1e9)
         assert_the_same(again, result, model, expected)
