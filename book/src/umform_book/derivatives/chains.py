@@ -61,6 +61,12 @@ CHAINS = {
         ("largest_force", "height", "springback", "tip_gap", "loop_gap", "angle"),
         3e-3,
     ),
+    "roll-in of a hem over an insert, friction in the V-die": Chain(
+        replace(HEM, sheet=replace(HEM.sheet, friction=0.1)),
+        ("gap", "sheet.punch_radius", "sheet.friction"),
+        ("roll_in", "height"),
+        0.03,
+    ),
     "hem whose bend snaps off its tools": Chain(
         replace(HEM, sheet=replace(HEM.sheet, stroke=7.2267)),
         ("sheet.material.hardening.strength", "sheet.punch_radius"),
