@@ -99,13 +99,18 @@ class System(Evaluated):
         for contact in self.touching:
             contact.begin()
 
+    @property
+    def inputs(self) -> dict[str, Floats]:
+        """Histories that the evaluation of the converged state used as input, by the keys of their terms."""
+        return {term.key: term.before for term in self.terms if self.ranks.any(term.before.size > 0)}
+
     def repeat(self, before: Mapping[str, Floats]) -> Evaluation:
         """Repeat the evaluation of the converged state from the histories that it used as input.
 
         Parameters
         ----------
         before : mapping of str to ndarray
-            ``Term.before`` of each term that had any, by its key.
+            Its `inputs`.
 
         Returns
         -------

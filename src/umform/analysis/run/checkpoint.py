@@ -197,9 +197,7 @@ def memory_of(run: Run) -> dict[str, Any]:
             "factors": solver.memory() if isinstance(solver, Remembering) else None,
             "loop": None if run.loop is None else run.loop.memory(),
             "model": vars(model.system.snapshot()),
-            "before": {
-                term.key: term.before for term in model.system.terms if model.system.ranks.any(term.before.size > 0)
-            },
+            "before": model.system.inputs,
             "trail": None if run.trail is None else vars(run.trail),
             "statistics": vars(run.statistics),
             "result": _result_tree(run.result),
