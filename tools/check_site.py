@@ -18,7 +18,7 @@ LONGEST = 8000
 FOUND = {"springback": "bend", "find_stroke": "find_stroke", "V-die": "die"}
 #: Pages that are looked at on a phone, in both schemes.
 ON_A_PHONE = ("index.html", "site/gallery.html", "site/api/model.html", "notebooks/bend.html", "README.html")
-#: Smallest number of pictures of each notebook.
+#: Pictures that each notebook shows at least.
 PICTURES = {"bend": 3, "cup": 3, "own-law": 1}
 
 

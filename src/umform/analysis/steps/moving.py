@@ -107,7 +107,8 @@ class Moving:
             return
         if saved is not None and self._repeats(run, step, target, converged):
             saved.restore(run)
-            run.evaluation = model.system.repeat(model.system.inputs)  # the extrapolation recovers from its blocks
+            # An extrapolation recovers the enhanced parameters from the blocks of the last evaluation.
+            run.evaluation = model.system.repeat(model.system.inputs)
             run.trail, self.size = trail, 0.5 * (target - self.fraction)
             run.newton.timing.attempts.take_back(mark, "difference of work and energies")
             return
