@@ -97,7 +97,7 @@ class Moving:
         x_before, active_before = model.system.x.copy(), run.evaluation.active
         if self._hopeless(step, 0.5 * (target - self.fraction)):
             run.statistics.begin_last_attempt()
-        saved, trail, mark = self._saved(run), run.trail, run.newton.timing.attempts.mark()
+        saved, mark = self._saved(run), run.newton.timing.attempts.mark()
         try:
             values = step.values(target, self.starts)
             time = self.start_time + target * step.time
@@ -107,9 +107,7 @@ class Moving:
             return
         if saved is not None and self._repeats(run, step, target, converged):
             saved.restore(run)
-            # An extrapolation recovers the enhanced parameters from the blocks of the last evaluation.
-            run.evaluation = model.system.repeat(model.system.inputs)
-            run.trail, self.size = trail, 0.5 * (target - self.fraction)
+            self.size = 0.5 * (target - self.fraction)
             run.newton.timing.attempts.take_back(mark, "difference of work and energies")
             return
         if converged.jumped:

@@ -28,7 +28,11 @@ class Saved:
         return cls(model.system.snapshot(), evaluation, [(term, term.before) for term in model.system.terms])
 
     def restore(self, run: Run) -> None:
-        """Restore the run, so that a checkpoint can repeat the evaluation to the last bit."""
+        """Restore the run, so that a checkpoint can repeat the evaluation to the last bit.
+
+        Nothing is left to extrapolate: the next attempt evaluates the tangent of the state, from which the enhanced
+        parameters are recovered.
+        """
         run.model.system.restore(self.snapshot)
         run.model.system.stand(self.evaluation)
         for term, before in self.before:
