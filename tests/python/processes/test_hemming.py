@@ -14,6 +14,8 @@ from umform.processes.bend_sequence.sides import Strip
 from umform.processes.hemming import Hemming, hemming
 from umform.processes.hemming.files import FILES, record, write_files
 from umform.processes.hemming.measures import clearances
+from umform.processes.hemming.operations import operations_of
+from umform.processes.hemming.problem import problem_of_hem
 from umform.processes.hemming.spec import acute
 from umform.results.quantity import GIVEN
 
@@ -181,8 +183,20 @@ def test_hems_that_cannot_be_made_are_refused(change, message):
         replace(COARSE, **change)
 
 
-@pytest.mark.parametrize(("form", "gap"), [("flat", 0.0), ("inner", 1.0), ("open", 1.0), ("rope", 0.0)])
-def test_only_a_hem_over_an_insert_has_derivatives(form, gap):
+@pytest.mark.parametrize(("form", "gap"), [("flat", 0.0), ("inner", 1.0), ("rope", 0.0)])
+def test_hems_whose_results_jump_have_no_derivatives(form, gap):
     case = replace(FLAT, form=form, gap=gap, sheet=replace(FLAT.sheet, stroke=6.7))
     with pytest.raises(InvalidValue, match="results of this form of hem jump"):
         uf.derivatives(case, ["sheet.punch_radius"], progress=False)
+
+
+def test_an_open_hem_has_derivatives():
+    case = replace(FLAT, form="open", gap=1.0, sheet=replace(FLAT.sheet, stroke=6.7))
+    assert [one.name for one in operations_of(case)][-1] == "flattening"
+
+
+@pytest.mark.parametrize(("form", "kind"), [("insert", "points"), ("open", "cells")])
+def test_a_hem_that_touches_itself_is_pressed_over_cells(form, kind, hem):
+    case = replace(COARSE, form=form)
+    contacts = problem_of_hem(case, hem.first)[0].source.data["contacts"]
+    assert all(kind in one for one in contacts.values())

@@ -24,8 +24,7 @@ HEM = Hemming(
     increments=24,
     sheet=acute(element="BEND18", elements_per_thickness=1.0, layers=1, increment=0.025, stroke=7.3),
 )
-#: Change of a parameter in central differences, relative to its value.
-_SIZE = 1e-4
+OPEN = Hemming(form="open", base=13.0, sheet=acute(elements_per_thickness=3.0, stroke=6.24))
 
 
 @dataclass(frozen=True)
@@ -40,12 +39,15 @@ class Chain:
         Parameters, and results.
     limit : float
         Largest error of a derivative relative to that of differences.
+    size : float
+        Change of a parameter in central differences, relative to its value.
     """
 
     case: Any
     by: tuple[str, ...]
     of: tuple[str, ...]
     limit: float
+    size: float = 1e-4
 
 
 CHAINS = {
@@ -67,6 +69,13 @@ CHAINS = {
         ("roll_in", "height"),
         0.03,
     ),
+    "open hem, gap 2 % more and less": Chain(
+        OPEN,
+        ("gap",),
+        ("largest_force", "height", "loop_gap"),
+        0.05,
+        0.02,
+    ),
     "hem whose bend snaps off its tools": Chain(
         replace(HEM, sheet=replace(HEM.sheet, stroke=7.2267)),
         ("sheet.material.hardening.strength", "sheet.punch_radius"),
@@ -80,7 +89,7 @@ def compared_chain(chain: Chain) -> Iterator[Compared]:
     """Largest error of the derivatives of all results with respect to each parameter."""
     found = uf.derivatives(chain.case, chain.by, chain.of, progress=False)
     for one in found.parameters:
-        step = _SIZE * float(one.value)
+        step = chain.size * float(one.value)
         ends = [_whole(chain.case, one.path, float(one.value) + change) for change in (step, -step)]
         worst = 0.0
         for name in chain.of:

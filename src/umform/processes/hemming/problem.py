@@ -26,9 +26,9 @@ from umform.surfaces import Plane
 _PARTS = 12
 #: Radius of the edge of insert and plate relative to their thickness.
 _ROUND = 0.49
-#: Contact points per direction and facet: plates are flat.
+#: Contact points per direction and facet over a rigid insert; where sheets touch, cells by the type of the elements: a
+#: fold rolls closed over points step by step, over cells smoothly (docs/sheets-that-touch.md).
 _POINTS = 5
-#: Cells per direction of a face that touches another one, by the type of the elements (docs/sheets-that-touch.md).
 _CELLS = {"hex8": 3, "hex18": 6}
 #: Length of the elements of an inner sheet below the flange, in thicknesses of the sheet; beyond it, this many times.
 _INNER, _COARSER = 0.5, 4.0
@@ -63,7 +63,7 @@ def problem_of_hem(case: Hemming, first: Part) -> tuple[Problem, float]:
     strip = Strip.of(mesh, u)
     top = _top(case, strip)
     way = top - case.height
-    how, flat = {**_given(case), "points": _POINTS}, _flat(case, mesh)
+    how, flat = {**_given(case), **_integration(case)}, _flat(case, mesh)
     bent, outside = before.problem.source.data, _of_part(case, "lower")
     plane = {"shape": "Plane", "point": (0.0, 0.0, 0.0), "normal": (0.0, 0.0, 1.0)}
     tools: dict[str, Any] = {"table": plane, "plate": _plate(case, strip, top)}
@@ -104,6 +104,11 @@ def _given(case: Hemming) -> dict[str, float | None]:
     return {"penalty": case.sheet.penalty, "penetration": case.sheet.penetration}
 
 
+def _integration(case: Hemming) -> dict[str, int]:
+    """Integration of the contact over a face."""
+    return {"cells": _CELLS[element(case.sheet.element).cell]} if case.touches_itself else {"points": _POINTS}
+
+
 def _flat(case: Hemming, mesh: Mesh) -> dict[str, Any]:
     """Allowed penetration of a flat tool, and the one from which its first penalty follows.
 
@@ -113,7 +118,7 @@ def _flat(case: Hemming, mesh: Mesh) -> dict[str, Any]:
     if case.sheet.penalty is not None:
         return {}
     steep = max(touching(case.sheet).values(), key=lambda pair: pair.penalty)
-    how = ContactOptions(penetration=case.sheet.penetration, points=_POINTS)
+    how = ContactOptions(penetration=case.sheet.penetration, **_integration(case))
     soft = contact_settings(mesh, "lower", Plane(), case.sheet.material, how)
     assert soft.allowed is not None
     return {"penetration": soft.allowed * soft.penalty / steep.penalty, "allowed": soft.allowed}
@@ -141,7 +146,7 @@ def _pressing(case: Hemming, way: float) -> dict[str, Any]:
 
 def _sheet_contacts(case: Hemming) -> dict[str, Any]:
     """The inner face with itself, and with both faces of an inner sheet: the base from below, the flange from above."""
-    how = {"cells": _CELLS[element(case.sheet.element).cell]}
+    how = _integration(case)
     inside = _of_part(case, "upper")
     found: dict[str, Any] = {"inside": {"faces": inside, **how}}
     if case.form == "inner":

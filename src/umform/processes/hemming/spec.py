@@ -27,6 +27,8 @@ ACUTE: dict[str, float] = {
 FOLDED: dict[str, Any] = {"element": "ANS3DEAS", "elements_per_thickness": 4.0}
 #: Forms of a hem, and the gap that each has over the thickness where none is given.
 GAPS: dict[str, float] = {"flat": 0.0, "inner": 1.0, "insert": 1.0, "open": 1.0, "rope": 0.0}
+#: Forms whose results follow small changes of sizes smoothly (docs/bending-operations.md).
+_SMOOTH = ("insert", "open")
 #: Forms whose flange is closed on what it lies on.
 CLOSED = ("flat", "inner", "rope")
 
@@ -113,7 +115,7 @@ class Hemming:
     cannot be flattened between plates."""
     sheet: AirBending = field(default_factory=acute)
     """Thickness, material, mesh, and tools of the first bend; in plane strain."""
-    increments: Annotated[int, Ge(6), Le(10000), About(cause="a length")] = 60
+    increments: Annotated[int, Ge(6), Le(10000), About(cause="a length")] = 120
     """Increments of the travel of the plate."""
 
     def __post_init__(self) -> None:
@@ -212,11 +214,11 @@ def refuse_jumps(case: Hemming) -> None:
     ------
     InvalidValue
     """
-    if case.form != "insert":
+    if case.form not in _SMOOTH:
         raise InvalidValue(
             "the results of this form of hem jump: they have no derivatives",
             where="form",
             value=case.form,
             cause="whole runs with slightly different sizes do not lie on a smooth curve",
-            remedy='form="insert", or runs that are far apart: umform sweep',
+            remedy="the form open or insert, or runs that are far apart: umform sweep",
         )

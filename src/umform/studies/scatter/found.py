@@ -197,7 +197,7 @@ class Scattered(Study):
         }
 
     def write(self, folder: str | Path) -> list[Path]:
-        """Write the numbers as CSV and JSON, and the picture.
+        """Write the numbers as CSV and JSON, and the picture if there are shares to show.
 
         Returns
         -------
@@ -208,8 +208,11 @@ class Scattered(Study):
         folder.mkdir(parents=True, exist_ok=True)
         write_csv(folder / TABLE, list_columns(self.quantities))
         write_json(folder / RECORD, self.record())
-        self.plot(folder / PICTURE)
-        return [folder / name for name in FILES]
+        written = [folder / TABLE, folder / RECORD]
+        if SHARES in self.tables:
+            self.plot(folder / PICTURE)
+            written.append(folder / PICTURE)
+        return written
 
     def plot(self, path: str | Path | None = None) -> Figure:
         """Bars of the shares of the sources in the variance of each result."""

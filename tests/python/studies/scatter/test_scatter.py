@@ -130,6 +130,12 @@ def test_other_values_of_a_function_are_kept():
     assert short == pytest.approx(8.0 * scatter({"E": "3%"})["force"].mean.value, rel=0.05)
 
 
+def test_one_parameter_has_all_the_variance_and_no_picture(tmp_path):
+    files = scatter({"E": "3%"}).write(tmp_path)
+    assert [file.name for file in files] == ["scatter.csv", "scatter.json"]
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["scatter.csv", "scatter.json"]
+
+
 def test_files(tmp_path):
     found = scatter({"E": "3%", "deflection": "4%"}, correlations={("E", "deflection"): -0.9})
     files = found.write(tmp_path)
