@@ -203,9 +203,9 @@ ENTRIES = {
     ),
     "hem": Entry(
         "Hem",
-        "Bent to 40 degrees in an acute V, then flattened between plate and table over an insert. Plane strain, drawn "
-        "12 mm wide.",
-        (f"umform hem --material DC04 --base 14 --increments 40 {COARSE} --out FOLDER",),
+        "Bent to 40 degrees in an acute V, then flattened between plate and table until it touches itself. Plane strain, "
+        "drawn 12 mm wide.",
+        ("umform hem --material DC04 --base 14 --out FOLDER",),
         (Shot("hem.vtkhdf", field=STRAIN, view=(-60.0, 22.0), width=12.0, whole=False),),
     ),
     "u-bend": Entry(
