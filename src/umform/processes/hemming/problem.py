@@ -104,7 +104,7 @@ def _given(case: Hemming) -> dict[str, float | None]:
     return {"penalty": case.sheet.penalty, "penetration": case.sheet.penetration}
 
 
-def _integration(case: Hemming) -> dict[str, int]:
+def _integration(case: Hemming) -> dict[str, Any]:
     """Integration of the contact over a face."""
     return {"cells": _CELLS[element(case.sheet.element).cell]} if case.touches_itself else {"points": _POINTS}
 
