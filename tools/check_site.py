@@ -18,6 +18,8 @@ LONGEST = 8000
 FOUND = {"springback": "bend", "find_stroke": "find_stroke", "V-die": "die"}
 #: Pages that are looked at on a phone, in both schemes.
 ON_A_PHONE = ("index.html", "site/gallery.html", "site/api/model.html", "notebooks/bend.html", "README.html")
+#: Where the notebooks are, and what else is there.
+NOTEBOOKS, BESIDE = Path(__file__).parents[1] / "docs" / "notebooks", {"README.md"}
 #: Pictures that each notebook shows at least.
 PICTURES = {"bend": 3, "cup": 3, "own-law": 1}
 
@@ -29,8 +31,11 @@ def main(root: Path) -> int:
     return len(wrong)
 
 
-def notebooks(root: Path) -> Iterator[str]:
-    """Notebooks without their pictures and tables, or with warnings."""
+def notebooks(root: Path, source: Path = NOTEBOOKS) -> Iterator[str]:
+    """Notebooks without their pictures and tables, or with warnings; files that they leave where they are."""
+    left = {path.name for path in source.iterdir()} - {f"{name}.ipynb" for name in PICTURES} - BESIDE
+    if left:
+        yield f"the notebooks leave files in {source}: {', '.join(sorted(left))}"
     for name, pictures in PICTURES.items():
         text = (root / "notebooks" / f"{name}.html").read_text()
         shown = len(re.findall(r'<img[^>]*src="[^"]*_images/', text))
