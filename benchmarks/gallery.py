@@ -203,8 +203,8 @@ ENTRIES = {
     ),
     "hem": Entry(
         "Hem",
-        "Bent to 40 degrees in an acute V, then flattened between plate and table until it touches itself. Plane strain, "
-        "drawn 12 mm wide.",
+        "Bent to 40 degrees in an acute V, then flattened between plate and table until it touches itself. Plane "
+        "strain, drawn 12 mm wide.",
         ("umform hem --material DC04 --base 14 --out FOLDER",),
         (Shot("hem.vtkhdf", field=STRAIN, view=(-60.0, 22.0), width=12.0, whole=False),),
     ),
