@@ -118,7 +118,7 @@ def _flat(case: Hemming, mesh: Mesh) -> dict[str, Any]:
     if case.sheet.penalty is not None:
         return {}
     steep = max(touching(case.sheet).values(), key=lambda pair: pair.penalty)
-    how = ContactOptions(penetration=case.sheet.penetration, **_integration(case))
+    how = ContactOptions(penetration=case.sheet.penetration)
     soft = contact_settings(mesh, "lower", Plane(), case.sheet.material, how)
     assert soft.allowed is not None
     return {"penetration": soft.allowed * soft.penalty / steep.penalty, "allowed": soft.allowed}
