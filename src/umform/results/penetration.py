@@ -123,7 +123,8 @@ def force_error(result: History) -> float:
 
 
 def _reached(model: Model, result: History, contact: Contact | SheetContact) -> Reached:
-    rule = "at the nodes" if contact.points == "nodes" else "{} x {} contact points on each facet".format(*contact.rule)
+    kind = "contact points" if contact.cells is None else "cells"
+    rule = "at the nodes" if contact.points == "nodes" else "{} x {} {} on each facet".format(*contact.rule, kind)
     return Reached(
         contact.name,
         _deepest(result, contact),

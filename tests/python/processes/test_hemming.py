@@ -75,7 +75,7 @@ def test_the_record_is_json(hem, tmp_path):
     assert len(rows) == len(text["measures"])
     assert list(text["balance"]) == list(text["contacts"]) == ["first bend", "flattening"]
     assert text["balance"]["flattening"]["works"]["plate"] > 0.0
-    assert "insert" in text["contacts"]["flattening"]
+    assert text["contacts"]["flattening"]["insert"]["rule"].endswith("contact points on each facet")
     write_files(tmp_path, hem)
     assert {file.name for file in tmp_path.iterdir()} == set(FILES)
     page = (tmp_path / "report.html").read_text()
@@ -138,7 +138,9 @@ def test_the_gap_along_the_flange_is_recorded(flat, tmp_path):
     assert free.max() == pytest.approx(flat.measures.loop_gap, abs=1e-5) and pressed[0] < 0.01
     write_files(tmp_path, flat)
     assert (tmp_path / "gaps.csv").read_text().startswith("from the tip mm")
-    assert json.loads((tmp_path / "hem.json").read_text())["closed"] is True
+    text = json.loads((tmp_path / "hem.json").read_text())
+    assert text["closed"] is True
+    assert {one["rule"] for one in text["contacts"]["flattening"].values()} == {"3 x 3 cells on each facet"}
 
 
 def test_a_small_force_leaves_a_flat_hem_open():

@@ -255,8 +255,13 @@ class SheetPasses(Term):
         return self.settings.points
 
     @property
+    def cells(self) -> int | None:
+        """Cells per direction and facet; None at points."""
+        return self.settings.points if self.settings.over_cells else None
+
+    @property
     def rule(self) -> tuple[int, int]:
-        """The same along and across a facet."""
+        """Gauss points, or cells, along and across a facet."""
         return self.points, self.points
 
     @property
