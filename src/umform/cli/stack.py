@@ -17,7 +17,7 @@ OnTop = Annotated[
     list[str] | None,
     option(
         "A further sheet on those before, as METAL,THICKNESS or METAL,THICKNESS,FRICTION: a metal as in --material, "
-        "and its coefficient of friction with the sheet below; repeatable.",
+        "and its coefficient of friction with the sheet below, or the word bonded where it sticks to it; repeatable.",
         SHEET,
     ),
 ]
@@ -33,6 +33,8 @@ def stacked(texts: Sequence[str]) -> list[StackedSheet]:
     for text in texts:
         name, *rest = text.split(",")
         numbers: list[float] = []
+        if bonded := len(rest) == 2 and rest[1].strip() == "bonded":
+            rest = rest[:1]
         with suppress(ValueError):
             numbers = [float(part) for part in rest]
         if len(numbers) not in (1, 2):
@@ -41,10 +43,10 @@ def stacked(texts: Sequence[str]) -> list[StackedSheet]:
                 where="--on-top",
                 value=text,
                 cause="a number is missing, or a decimal comma",
-                remedy="--on-top DC04,0.8 or --on-top foil.toml,0.1,0.2",
+                remedy="--on-top DC04,0.8 or --on-top foil.toml,0.1,0.2 or --on-top foil.toml,0.1,bonded",
             )
         try:
-            sheets.append(StackedSheet(numbers[0], metal_of(name.strip(), numbers[0]).law, *numbers[1:]))
+            sheets.append(StackedSheet(numbers[0], metal_of(name.strip(), numbers[0]).law, *numbers[1:], bonded=bonded))
         except InvalidValue as error:
             if error.where in ("thickness", "friction"):
                 error.where = f"--on-top, {error.where}"

@@ -2,6 +2,7 @@
 
 from umform.mesh.bending_sizes import Bent, Sizes, bending_sizes
 from umform.mesh.blanks import disc, ring
+from umform.mesh.bond import bond
 from umform.mesh.files import read, read_shell
 from umform.mesh.generators import graded, grid, plate, strip
 from umform.mesh.mesh import FACE_NODES, FACES, Floats, Ids, Mesh, Selector
@@ -21,6 +22,7 @@ __all__ = [
     "Sizes",
     "bending_sizes",
     "blank",
+    "bond",
     "disc",
     "graded",
     "grid",

@@ -162,7 +162,7 @@ class Mesh:
             if selector in self.sets:
                 ids = np.asarray(self.sets[selector], dtype=np.int32)
             elif selector in self.faces:
-                ids = self._nodes_on(np.asarray(self.faces[selector], dtype=np.int32))
+                ids = self.nodes_on(np.asarray(self.faces[selector], dtype=np.int32))
             else:
                 raise _unknown("node", selector, [*self.sets, *self.faces])
         elif callable(selector):
@@ -266,8 +266,8 @@ class Mesh:
         """The same mesh with its points (n, 3) mapped by ``function``."""
         return Mesh(function(self.points), self.cells, self.sets, self.faces)
 
-    def _nodes_on(self, rows: Ids) -> Ids:
-        """Nodes of faces, given as cell and number of the face."""
+    def nodes_on(self, rows: Ids) -> Ids:
+        """Sorted ids of the nodes of faces, given as cell and number of the face."""
         kinds = enumerate(nodes_of_faces(self.cell))
         parts = [self.connectivity[np.ix_(rows[rows[:, 1] == number, 0], local)].ravel() for number, local in kinds]
         return unique(np.concatenate(parts))

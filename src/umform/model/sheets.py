@@ -86,8 +86,8 @@ class SheetContacts:
             error.where = f"contact {name}, {error.where}"
             raise
         mesh = self.system.mesh
-        bodies = [self.system.bodies.of(side[:, 0]) for side in sides]
-        settings = sheet_contact_settings(mesh, sides, bodies, wanted, f"contact {name}")
+        layers = [self.system.bodies.layers(side[:, 0])[0] for side in sides]
+        settings = sheet_contact_settings(mesh, sides, layers, wanted, f"contact {name}")
         contact = SheetContact(mesh, sides, settings, name)
         self.system.add(contact)
         return contact

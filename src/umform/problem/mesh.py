@@ -230,15 +230,20 @@ class SheetPart(Part):
 
 
 class Together(Part):
-    """Sheets that share no node; the sets of the sheet NAME have their names with "of NAME" behind: "upper of NAME"."""
+    """Several sheets; the sets of the sheet NAME have their names with "of NAME" behind: "upper of NAME"."""
 
     generator: Literal["together"]
     sheets: Annotated[dict[Name, SheetPart], Field(min_length=1)]
     """The sheets by name."""
+    bonds: tuple[tuple[str, str], ...] = ()
+    """Pairs of sets of faces that are bonded, with nodes at the same places: ``["upper of base", "lower of foil"]``."""
 
     def build(self, cell: str, folder: Path) -> Mesh:
         """Mesh of cells of a type."""
-        return mesh.together(**{name: part.build(cell, folder) for name, part in self.sheets.items()})
+        made = mesh.together(**{name: part.build(cell, folder) for name, part in self.sheets.items()})
+        for faces, others in self.bonds:
+            made = mesh.bond(made, faces, others)
+        return made
 
 
 MeshPart = Annotated[_ONE | Annotated[Together, Tag("together")], _generators(*_WORDS, "together")]

@@ -6,8 +6,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Protocol
 
-import numpy as np
-
 from umform.analysis.run import Result
 from umform.analysis.run.stages import continued
 from umform.elements import Rolling
@@ -127,11 +125,8 @@ class SheetBuilder:
             if sheet.material is not None:
                 law = sheet.material.law
                 way = self._rolling(sheet.material, "mesh", "sheets", name, "material", "rolling")
-            cells = np.isin(mesh.connectivity[:, 0], mesh.nodes(name))
             with self.at("element"):
-                bodies.append(
-                    Body(element.name, material=law, cells=cells, name=name, rolling=way, **element.of_spec())
-                )
+                bodies.append(Body(element.name, material=law, cells=name, name=name, rolling=way, **element.of_spec()))
         return bodies
 
     def _mesh(self, cell: str) -> Mesh | None:

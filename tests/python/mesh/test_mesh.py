@@ -51,7 +51,7 @@ def test_strip_has_its_size_cells_and_sets(cell, layers):
         on_plane = np.flatnonzero(np.isclose(made.points[:, axis], value))
         np.testing.assert_array_equal(made.nodes(name), on_plane)
         for cell_number, face in made.face_set(name):
-            assert np.isin(made._nodes_on(np.array([[cell_number, face]])), on_plane).all()
+            assert np.isin(made.nodes_on(np.array([[cell_number, face]])), on_plane).all()
     for name in ("x0", "x1", "y0", "y1"):
         for side in ("lower", "upper"):
             expected = np.intersect1d(made.nodes(name), made.nodes(side))

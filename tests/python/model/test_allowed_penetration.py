@@ -12,7 +12,7 @@ from umform.analysis.newton import keeping, newton
 from umform.analysis.newton.options import NewtonOptions
 from umform.errors import NoConvergence
 from umform.model.contact import Contact
-from umform.model.contact.encounter import Encounter
+from umform.model.contact.encounter import Encounter, Layer
 from umform.results.penetration import force_error, penetrations
 from umform.results.records import Failed
 
@@ -42,7 +42,7 @@ def test_the_penalty_under_a_flat_tool_carries_the_line_force_on_twenty_thicknes
     model, _, _ = stretched()
     plane = uf.Plane((0.0, 0.0, 0.5), "-z")
     pair = model.contact("upper", plane, name="holder")
-    met = Encounter.of(model.mesh, model.mesh.face_set("upper"), plane.kernel(), STEEL, "")
+    met = Encounter.of(model.mesh, model.mesh.face_set("upper"), plane.kernel(), [Layer(STEEL)], "")
     assert met.flat and met.length < 20.0 * met.thickness
     assert pair.penalty == pytest.approx(met.line_force / (0.005 * 20.0 * 1.0), rel=1e-12)
     assert pair.penalty == pytest.approx(1.15 * 200.0 / 8.0 / (0.005 * 20.0), rel=0.15)

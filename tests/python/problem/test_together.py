@@ -71,6 +71,19 @@ def test_a_deck_of_one_law_has_one_body():
     assert np.ptp(model.mesh.points[model.mesh.nodes("cover"), 2]) == pytest.approx(0.5)
 
 
+def test_bonded_sheets_share_nodes_and_keep_their_laws():
+    text = DECK.replace("cells = [6, 1]", "cells = [5, 1]").replace(
+        "[mesh]\n", '[mesh]\nbonds = [["upper of base", "lower of cover"]]\n'
+    )
+    contact = '[sheet_contacts.stack]\nfaces = "upper of base"\nothers = "lower of cover"\n'
+    prepared = Problem.read(text.replace(contact, "")).build()
+    assert len(prepared.model.mesh.points) == 3 * 6 * 2
+    assert [len(body.cells) for body in prepared.model.bodies] == [5, 5]
+    assert prepared.solve(progress=False)["end_force"][-1] < 0.0
+    with pytest.raises(DeckError, match=r"upper of base"):
+        Problem.read(text).build()
+
+
 def test_numbers_of_the_sheets_have_paths():
     problem = Problem.read(DECK)
     paths = {one.path for one in problem.paths()}
@@ -86,6 +99,8 @@ def test_numbers_of_the_sheets_have_paths():
         ("shift = [0.0, 0.0, 0.75]", "shif = [0.0, 0.0, 0.75]", "did you mean shift"),
         ('library = "AA6016-T4", rolling = "x"', 'library = "AA6016-T4"', "rolling"),
         ('nodes = "x0 of cover"', 'nodes = "x0"', "x0"),
+        ("[mesh]\n", '[mesh]\nbonds = [["upper of base", "lower of cover"]]\n', "bonded faces have the same nodes"),
+        ("[mesh]\n", '[mesh]\nbonds = [["upper of base", "lower of lid"]]\n', "lower of lid"),
     ],
 )
 def test_a_mistake_in_a_sheet_has_its_place(old, new, match):

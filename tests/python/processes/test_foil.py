@@ -12,6 +12,7 @@ from umform.materials import J2, Voce
 from umform.processes.air_bending import AirBending, StackedSheet, air_bending
 from umform.processes.air_bending.foil import refuse_squeezed, tip_pressure
 from umform.processes.air_bending.formulas import shop_forces
+from umform.processes.air_bending.sheet import lines_along, lines_through
 from umform.processes.air_bending.spec import dc04_like
 
 COARSE = {"elements_per_thickness": 1, "layers": 1, "increment": 0.02, "thickness": 1.0, "opening": 12.0}
@@ -38,6 +39,29 @@ def test_friction_on_both_faces_holds_a_foil_below_the_punch():
     assert 0.8 < covered.stack[1].loaded.thicknesses.min() < 0.98
     assert covered.measures.largest_force == pytest.approx(bare.measures.largest_force, rel=0.05)
     assert covered.measures.loaded_angle > bare.measures.loaded_angle  # the foil gives way: the sheet follows later
+
+
+@pytest.mark.parametrize("below", [True, False])
+def test_a_foil_that_sticks_follows_the_sheet_on_either_side_without_friction(below):
+    sheet = StackedSheet(1.0, dc04_like(), bonded=True)
+    case = AirBending(**COARSE, stroke=3.5)
+    bare = air_bending(case, progress=False)
+    if below:
+        covered = air_bending(replace(case, thickness=0.1, material=FILM, on_top=[sheet]), progress=False)
+    else:
+        covered = air_bending(replace(case, on_top=[StackedSheet(0.1, FILM, bonded=True)]), progress=False)
+    assert covered.measures.largest_force == pytest.approx(bare.measures.largest_force, rel=0.05)
+    assert covered.measures.springback == pytest.approx(bare.measures.springback, rel=0.05)
+    assert covered.measures.angle == pytest.approx(bare.measures.angle, abs=1.0)
+    assert covered.penetration < 0.0055  # of the foil, at most that which is allowed for the sheet
+    assert covered.force_balance < 1e-6
+
+
+def test_elements_of_bonded_sheets_follow_the_thinnest():
+    case = AirBending(thickness=3.0, opening=24.0, on_top=[StackedSheet(0.1, FILM, bonded=True)])
+    assert 0.5 < lines_along(case)[1] <= 0.6
+    assert lines_along(replace(case, on_top=()))[1] > 0.8
+    assert [len(lines_through(case, sheet.thickness)) for sheet in case.sheets] == [3, 2]
 
 
 def test_the_flow_stress_in_plane_strain_decides_and_the_rule_of_the_shop():

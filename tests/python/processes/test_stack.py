@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 
 import umform as uf
+from umform.cli.stack import stacked
 from umform.errors import InvalidValue
 from umform.processes.air_bending import AirBending, StackedSheet, air_bending
 from umform.processes.air_bending.files import record
+from umform.processes.air_bending.formulas import _bending, shop_forces
 from umform.processes.air_bending.outcome import outcome_of
 from umform.processes.air_bending.problem import problem_of
 from umform.processes.air_bending.section import Section
@@ -86,6 +88,36 @@ def test_the_distance_of_two_sections():
     assert gaps_of(flat(0.0, 1.0), tilted) == pytest.approx((0.1 * 9.8, 0.0))
 
 
+def test_bonded_sheets_of_one_metal_are_one_sheet():
+    """With the same lines of nodes, and half of the thickness behind each face for the penalty."""
+    case = stack(on_top=[StackedSheet(1.0, dc04_like(), bonded=True)])
+    clad = air_bending(case, progress=False)
+    one = air_bending(replace(case, on_top=(), thickness=2.0, layers=2), progress=False)
+    assert clad.result.model.mesh.points.shape == one.result.model.mesh.points.shape
+    assert clad.measures.angle == pytest.approx(one.measures.angle, abs=1e-3)
+    assert clad.measures.largest_force == pytest.approx(one.measures.largest_force, rel=1e-4)
+    assert clad.measures.k_factor == pytest.approx(one.measures.k_factor, rel=1e-4)
+    assert shop_forces(case) == pytest.approx(shop_forces(one.case))
+    assert clad.stack[0].gap is None and clad.stack[0].released.thickness == pytest.approx(1.0)
+    assert not problem_of(case).contents.sheet_contacts
+    assert record(clad)["sheets"][1]["bonded"] is True
+
+
+def test_a_bond_is_a_word_in_place_of_a_coefficient():
+    loose, rough, clad = stacked(["DC04,0.8", "DC04,0.8,0.1", "DC04, 0.8, bonded"])
+    assert [(one.friction, one.bonded) for one in (loose, rough, clad)] == [(0.0, False), (0.1, False), (0.0, True)]
+    with pytest.raises(InvalidValue, match="perhaps a coefficient") as refused:
+        stacked(["DC04,bonded"])
+    assert "0.1,bonded" in refused.value.remedy
+
+
+def test_the_shop_takes_the_plastic_moment_of_bonded_sheets():
+    """Layers of 1 and 3 in plastic bending: the neutral fibre is 1/3 within the stiff one."""
+    assert _bending([(300.0, 1.5)]) == pytest.approx(300.0 * 1.5**2)
+    moment = 1.0 * 1.0 * (0.5 + 1.0 / 3.0) + 3.0 * 0.5 * ((1.0 / 3.0) ** 2 + (2.0 / 3.0) ** 2)
+    assert _bending([(1.0, 1.0), (3.0, 1.0)]) == pytest.approx(4.0 * moment)
+
+
 def test_a_stack_is_refused_where_one_sheet_is_meant():
     with pytest.raises(InvalidValue, match="not pressed onto the flanks"):
         stack(bottoming=True, stroke=None, punch_angle=88.0, die_angle=88.0)
@@ -93,6 +125,8 @@ def test_a_stack_is_refused_where_one_sheet_is_meant():
         BendSequence(length=60.0, bends=[Bend(30.0, angle=90.0)], sheet=replace(stack(), stroke=None))
     with pytest.raises(InvalidValue, match="friction"):
         StackedSheet(1.0, dc04_like(), 20.0)
+    with pytest.raises(InvalidValue, match="a bonded sheet does not slide"):
+        StackedSheet(1.0, dc04_like(), 0.1, bonded=True)
     with pytest.raises(InvalidValue, match="does not fit the thickness"):
         stack(second=20.0)
 

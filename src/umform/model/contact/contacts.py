@@ -75,16 +75,17 @@ class Contacts(list[Contact]):
                 remedy="contact(..., name=...) with another one",
             )
         surface = tool.surface if isinstance(tool, Tool) else tool
+        rows = self.mesh.face_set(faces)
         if isinstance(surface, UserSurface):
-            facets, rows = self.mesh.facets(faces)[:, :4], self.mesh.face_set(faces)
+            facets = self.mesh.facets_of(rows)[:, :4]
             check_beside(surface, self.mesh.points[facets], sheet_thickness(self.mesh, rows), f"contact {name}")
-        body = self.bodies.of(self.mesh.face_set(faces)[:, 0])
+        body, layers = self.bodies.of(rows[:, 0]), self.bodies.layers(rows[:, 0])
         try:
             wanted = ContactOptions(**options)
         except InvalidValue as error:
             error.where = f"contact {name}, {error.where}"
             raise
-        settings = contact_settings(self.mesh, faces, surface, body.material, wanted, f"contact {name}")
+        settings = contact_settings(self.mesh, faces, surface, layers, wanted, f"contact {name}")
         if body.element.plane_strain and not wanted.augmented and settings.cells is None and self._one_side(faces):
             settings = replace(settings, width_points=body.element.width_points)
         touched = tool if isinstance(tool, Tool) else Tool(name, tool, self.tools.now)

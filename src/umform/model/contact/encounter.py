@@ -6,6 +6,7 @@ Estimates suffice: a penalty may be wrong by a factor of two, and the history re
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +20,7 @@ from umform.mesh.numbers import common, median, unique
 from umform.mesh.part import sheets_of
 
 Floats = NDArray[np.float64]
+Numbers = NDArray[np.int64]
 
 #: Shortest lever arm of the contact force in thicknesses: that of the narrowest die, shortened by its radii.
 _ARM = 2.0
@@ -28,6 +30,14 @@ _FLATTEST = 50.0
 _LARGEST_STRAIN = 0.25
 #: Time in which a law that depends on the rate reaches the strain: that of a step. In no time it would be elastic.
 _TIME = 1.0
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A layer of a sheet: its law, and its thickness; None if it is the whole sheet."""
+
+    material: Material
+    thickness: float | None = None
 
 
 @dataclass(frozen=True)
@@ -45,7 +55,9 @@ class Encounter:
     line_force : float
         Expected force per width. eq. (4.28)
     stiffness : float
-        E / (1 - nu^2) of the sheet.
+        E / (1 - nu^2) behind the faces.
+    depth : float
+        Thickness of the metal with that stiffness: that of the sheet, or of the layer at the faces of clad metal.
     """
 
     thickness: float
@@ -53,6 +65,7 @@ class Encounter:
     length: float
     line_force: float
     stiffness: float
+    depth: float
 
     @property
     def flat(self) -> bool:
@@ -60,34 +73,38 @@ class Encounter:
         return self.radius >= _FLATTEST * self.thickness
 
     @classmethod
-    def of(cls, mesh: Mesh, faces: Ids, tool: _core.Surface, material: Material, where: str) -> Encounter:
-        """Evaluate mesh and tool in their present position, and the law."""
+    def of(cls, mesh: Mesh, faces: Ids, tool: _core.Surface, layers: Sequence[Layer], where: str) -> Encounter:
+        """Evaluate mesh and tool in their present position, and the laws, that of the layer at the faces first."""
         h = sheet_thickness(mesh, faces)
         radius, length = _sharpest(mesh.points[mesh.facets_of(faces)[:, :4]], tool, _FLATTEST * h)
         strain = min(h / (2.0 * radius + h), _LARGEST_STRAIN)
-        stress, slope = (bending_stress(material, e, where) for e in (strain, 1e-7))
-        return cls(h, radius, length, stress * h / (4.0 * _ARM), slope / 1e-7)
+        stretched = sum(bending_stress(one.material, strain, where) * (one.thickness or h) for one in layers)
+        stiffness = bending_stress(layers[0].material, 1e-7, where) / 1e-7
+        return cls(h, radius, length, stretched / (4.0 * _ARM), stiffness, layers[0].thickness or h)
 
 
 def sheet_thickness(mesh: Mesh, faces: Ids | None = None) -> float:
-    """Thickness of the sheet: the median over its cells, times the number of stacked layers; of several the smallest.
+    """Thickness of the sheet: the median over its cells, summed over stacked layers; of several the smallest.
 
     ``faces``, rows (cell, face): only the sheets that these belong to.
     """
     sheet = sheets_of(mesh)
     of = unique(sheet if faces is None else sheet[faces[:, 0]])
-    return min(_thickness(mesh.points, mesh.connectivity[sheet == one]) for one in of.tolist())
+    return min(cells_thickness(mesh, np.flatnonzero(sheet == one)) for one in of.tolist())
 
 
-def _thickness(points: Floats, cells: Ids) -> float:
-    half = cells.shape[1] // 2
-    lower, upper = cells[:, :half], cells[:, half:]
-    cell = median(np.linalg.norm(points[upper] - points[lower], axis=-1))
-    layers, above = 1, unique(upper)
-    while len(above := common(above, lower)):  # nodes with another cell above
-        layers += 1
-        above = unique(upper[np.isin(lower, above).all(axis=1)])
-    return layers * cell
+def cells_thickness(mesh: Mesh, cells: Numbers) -> float:
+    """Thickness of some cells: the sum over stacked layers of their medians."""
+    nodes, half = mesh.connectivity[cells], mesh.connectivity.shape[1] // 2
+    lower, upper = nodes[:, :half], nodes[:, half:]
+    heights = np.linalg.norm(mesh.points[upper] - mesh.points[lower], axis=-1)
+    if not len(common(lower, upper)):
+        return median(heights)
+    layer, thickness = ~np.isin(lower, upper).all(axis=1), 0.0
+    while layer.any():
+        thickness += median(heights[layer])
+        layer = np.isin(lower, upper[layer]).all(axis=1)
+    return thickness
 
 
 def bending_stress(material: Material, strain: float, where: str) -> float:

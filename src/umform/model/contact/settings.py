@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Annotated, Literal
@@ -13,10 +13,9 @@ from annotated_types import Ge, Gt, Le, Lt
 
 from umform import _core
 from umform.errors import InvalidPenalty, InvalidValue
-from umform.materials import Material
 from umform.mesh import Mesh, Selector
 from umform.model.contact.cells import MOST, RIPPLE, cells_for, ripple_of
-from umform.model.contact.encounter import Encounter, sheet_thickness
+from umform.model.contact.encounter import Encounter, Layer, sheet_thickness
 from umform.model.contact.friction import AnyFriction, friction_kernel
 from umform.model.contact.own_law import AnyContactLaw
 from umform.model.contact.own_stiffness import measured, refuse_beside
@@ -169,9 +168,11 @@ class ContactSettings:
 
 
 def contact_settings(
-    mesh: Mesh, faces: Selector, tool: Surface, material: Material, options: ContactOptions, where: str = "contact"
+    mesh: Mesh, faces: Selector, tool: Surface, layers: Sequence[Layer], options: ContactOptions, where: str = "contact"
 ) -> ContactSettings:
-    """Settings from the given values, the rest from mesh, tool and law. eqs. (4.29), (4.31), (4.122)
+    """Settings from the given values, the rest from mesh, tool and the layers of the sheet, that at the faces first.
+
+    eqs. (4.29), (4.31), (4.122)
 
     Raises
     ------
@@ -197,7 +198,7 @@ def contact_settings(
         allowed = ALLOWED * thickness
     met = None
     if estimated:
-        met = Encounter.of(mesh, rows, tool.kernel(), material, where)
+        met = Encounter.of(mesh, rows, tool.kernel(), layers, where)
         if points == "auto" and over_cells:
             points = _cells(met, penalty, allowed, ripple)
         elif points == "auto":
@@ -215,7 +216,7 @@ def contact_settings(
     number = int(points) if over_cells else None
     expected = None
     if number is not None:
-        meet = partial(Encounter.of, mesh, rows, tool.kernel(), material, where)
+        meet = partial(Encounter.of, mesh, rows, tool.kernel(), layers, where)
         expected = _ripple(met, meet, number, allowed)
     largest = 0.0 if given or augmented or met is None else _largest(met)
     plain = ContactSettings(
@@ -232,7 +233,7 @@ def contact_settings(
         return plain
     slip = _SLIP * thickness if slip is None else float(slip)
     if given or allowed is None:
-        pressure = _pressure(mesh, faces, tool, material, penalty, points)
+        pressure = _pressure(mesh, faces, tool, layers, penalty, points)
     else:
         pressure = penalty * allowed
     ratio = _tangential_stiffness(law, pressure, slip) / penalty
@@ -240,11 +241,11 @@ def contact_settings(
 
 
 def _pressure(
-    mesh: Mesh, faces: Selector, tool: Surface, material: Material, penalty: float, points: int | str
+    mesh: Mesh, faces: Selector, tool: Surface, layers: Sequence[Layer], penalty: float, points: int | str
 ) -> float:
     """Expected pressure for a penalty. eqs. (4.28), (4.15)"""
     try:
-        met = Encounter.of(mesh, mesh.face_set(faces), tool.kernel(), material, "")
+        met = Encounter.of(mesh, mesh.face_set(faces), tool.kernel(), layers, "")
     except InvalidPenalty:  # no estimate: assume the penalty of the default penetration
         return penalty * ALLOWED * sheet_thickness(mesh, mesh.face_set(faces))
     spacing = met.length if isinstance(points, str) else met.length / points
@@ -278,7 +279,7 @@ def _penalty(met: Encounter, allowed: float, points: int | str) -> float:
 
 def _largest(met: Encounter) -> float:
     """Largest penalty that an estimate gives, or that grows in a run."""
-    return _STIFFEST * met.stiffness / met.thickness
+    return _STIFFEST * met.stiffness / met.depth
 
 
 def _points(met: Encounter, penalty: float | None, allowed: float | None, least: int) -> int:

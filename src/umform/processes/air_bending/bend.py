@@ -17,7 +17,7 @@ from umform.processes.air_bending.remarks import STROKES, depth_text, of_this_me
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.sheet import studied_mesh
 from umform.processes.air_bending.spec import AirBending
-from umform.processes.air_bending.stack import of_sheet
+from umform.processes.air_bending.stack import edges_of
 from umform.processes.air_bending.stacked import SheetOfStack, quantities_of_stack, stack_of, table_of_stack
 from umform.results.budget import Budget
 from umform.results.outcome import Outcome
@@ -120,8 +120,8 @@ class AirBend(Outcome):
         step = np.where(number > len(loading(case, loaded.stroke)), 2, np.minimum(number, 1))
         stroke, model = result["stroke"], result.model
         under_load = [frame for frame in result.frames if step[frame.number] < 2]
-        edge = of_sheet(case, "y0")
-        sections = Section.each(model.mesh, (frame.points["displacement"] for frame in under_load), edge)
+        edges = edges_of(case)
+        sections = Section.each(model.mesh, (frame.points["displacement"] for frame in under_load), edges)
         angles = [section.angle for section in sections]
         return cls(
             case=case,
@@ -130,7 +130,7 @@ class AirBend(Outcome):
             stroke=stroke,
             force=force_per_width(case, result["stroke_force"]),
             loaded=loaded.section,
-            released=Section.of(model.mesh, model.u, edge),
+            released=Section.of(model.mesh, model.u, edges),
             path=np.array([[stroke[frame.number], angle] for frame, angle in zip(under_load, angles, strict=True)]),
             against=loaded.against,
             result=result,
@@ -231,7 +231,7 @@ class AirBend(Outcome):
         found = {
             lying: bool(self.against) and not self.case.bottoming,
             hollow: self.case.bottoming and not self.against,
-            deep: self.penetration > _DEEP * self.case.thickness and not exceeded,
+            deep: self.penetration > _DEEP * self.case.thickest and not exceeded,
             flat: not self.released.is_bent,
         }
         failures = {} if self.budget is None else self.budget.failures

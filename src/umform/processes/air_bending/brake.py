@@ -63,12 +63,12 @@ def unloading(case: AirBending, punch: Control) -> Release:
 
 def unloading_keys(case: AirBending) -> dict[str, Any]:
     """First increment and tolerance of unloading."""
-    return {"increment": _FIRST_BACK * case.thickness, "tolerance": _ZERO_FORCE}
+    return {"increment": _FIRST_BACK * case.thickest, "tolerance": _ZERO_FORCE}
 
 
 def force_per_width(case: AirBending, force: NDArray[np.float64]) -> NDArray[np.float64]:
     """Force per length of bend on the whole sheet, from the force on the modelled part."""
-    modelled = case.thickness if case.width is None else 0.5 * case.width
+    modelled = case.thickest if case.width is None else 0.5 * case.width
     return 2.0 / modelled * force
 
 

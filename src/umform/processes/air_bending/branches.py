@@ -25,7 +25,7 @@ from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.problem import build
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.spec import AirBending
-from umform.processes.air_bending.stack import of_sheet
+from umform.processes.air_bending.stack import edges_of
 from umform.progress import Tick, silent
 
 Floats = NDArray[np.float64]
@@ -67,7 +67,7 @@ class Brake:
 
     def section(self) -> Section:
         """Section of the first sheet as it is now."""
-        return Section.of(self.model.mesh, self.model.u, of_sheet(self.case, "y0"))
+        return Section.of(self.model.mesh, self.model.u, edges_of(self.case))
 
     def forces(self) -> Floats:
         """Force of the punch per length of bend in kN/m, all increments up to now."""

@@ -120,7 +120,12 @@ def _told(numbers: Mapping[str, float]) -> dict[str, float | None]:
 
 
 def _of_sheet(sheet: StackedSheet) -> dict[str, Any]:
-    return {"thickness": sheet.thickness, "material": full_text(sheet.material), "friction": sheet.friction}
+    return {
+        "thickness": sheet.thickness,
+        "material": full_text(sheet.material),
+        "friction": sheet.friction,
+        "bonded": sheet.bonded,
+    }
 
 
 def parameters(case: AirBending) -> dict[str, Any]:

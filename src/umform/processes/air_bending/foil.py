@@ -26,22 +26,22 @@ def refuse_squeezed(case: AirBending) -> None:
     """Refuse a foil that slides freely on a face and bears less than the pressure of the tip.
 
     Between smooth plates a wide foil bears its flow stress in plane strain, however wide it is. Friction on both
-    faces holds it.
+    faces holds it, or a bond on one.
 
     Raises
     ------
     InvalidValue
     """
-    rubs = [case.friction, *(sheet.friction for sheet in case.on_top), case.friction]
+    rubs = [case.friction, *(math.inf if sheet.bonded else sheet.friction for sheet in case.on_top), case.friction]
     pressure = tip_pressure(case)
     for number, (sheet, faces) in enumerate(zip(case.sheets, pairwise(rubs), strict=True)):
         bears = 2.0 / math.sqrt(3.0) * sheet.material.hardening.curve()(_SQUEEZED)[0]
-        if case.on_top and bears < pressure and min(faces) == 0.0:
+        if case.on_top and bears < pressure and min(faces) == 0.0 and max(faces) < math.inf:
             raise InvalidValue(
                 f"{name_of(number)} would be squeezed out between tool and sheet: it is too soft to slide freely",
                 where="friction",
                 value=f"{faces[0]:g} below it, {faces[1]:g} above",
                 cause=f"squeezed to a third it bears {bears:.3g} MPa, the tip presses with about {pressure:.3g} MPa",
-                remedy="friction on both of its faces, of the tools and of the sheets (such as 0.3); or a curve that "
-                "hardens more",
+                remedy="friction on both of its faces, of tools and sheets (such as 0.3); bonded, if it sticks to its "
+                "sheet; or a curve that hardens more",
             )

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
 
 from umform.materials import J2, Metal, Table
 from umform.processes.air_bending.spec import AirBending
+from umform.processes.air_bending.stack import bonded_sheets
 from umform.sheet_metals import tension_test
 
 #: Factors in use for F = factor Rm t² / V.
@@ -60,7 +62,17 @@ def strength(case: AirBending, material: J2 | Metal | None = None) -> float:
 def shop_forces(case: AirBending) -> tuple[float, float]:
     """Largest force of air bending by the rule of the shop, F = factor Rm t² / V, in kN/m, V the opening.
 
-    That of several sheets is the sum, without friction between them.
+    That of several sheets is the sum, without friction between them. Those that are bonded have the plastic moment of
+    their section in place of Rm t² / 4.
     """
-    base = sum(strength(case, sheet.material) * sheet.thickness**2 for sheet in case.sheets) / case.opening
+    layers = [(strength(case, sheet.material), sheet.thickness) for sheet in case.sheets]
+    base = sum(_bending([layers[number] for number in sheets]) for sheets in bonded_sheets(case)) / case.opening
     return FORCE_FACTORS[0] * base, FORCE_FACTORS[1] * base
+
+
+def _bending(layers: Sequence[tuple[float, float]]) -> float:
+    """Four plastic moments of bonded layers (strength, thickness); of a single one Rm t²."""
+    strengths, borders = np.array([one for one, _ in layers]), np.cumsum([0.0, *(thick for _, thick in layers)])
+    pulled = np.cumsum([0.0, *(strengths * np.diff(borders))])
+    from_neutral = borders - np.interp(0.5 * pulled[-1], pulled, borders)
+    return float(2.0 * strengths @ np.diff(from_neutral * np.abs(from_neutral)))

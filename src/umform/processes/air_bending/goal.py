@@ -76,14 +76,14 @@ def check_angle(case: AirBending, angle: float) -> None:
 
 def unreachable(case: AirBending, angle: float, cause: str) -> InvalidValue:
     """Error for an angle that is not reached before the sheet touches a flank."""
-    over_thickness = case.opening / case.thickness
+    over_thickness = case.opening / case.thickest
     if over_thickness < _USUAL:
         return InvalidValue(
             "the angle cannot be reached before the sheet lies against a flank",
             where="angle",
             value=angle,
             cause=f"{cause}; the opening V of the die is small: V/t = {over_thickness:.3g}",
-            remedy=f"a wider opening, such as {8.0 * case.thickness:.4g} (V/t = 8)",
+            remedy=f"a wider opening, such as {8.0 * case.thickest:.4g} (V/t = 8)",
         )
     return InvalidValue(
         "the angle cannot be reached before the sheet lies against a flank",

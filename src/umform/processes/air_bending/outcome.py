@@ -10,7 +10,7 @@ from umform.processes.air_bending.brake import against_flank, force_per_width, l
 from umform.processes.air_bending.goal import needed_stroke
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.spec import AirBending
-from umform.processes.air_bending.stack import of_sheet
+from umform.processes.air_bending.stack import edges_of
 
 
 def outcome_of(case: AirBending, result: Result) -> AirBend:
@@ -20,8 +20,8 @@ def outcome_of(case: AirBending, result: Result) -> AirBend:
     under_load = [frame for frame in result.frames if result.rows[frame.number]["step"] <= last]
     end, mesh = under_load[-1], result.model.mesh
     forces = force_per_width(case, result["stroke_force"])[: end.number + 1]
-    edge = of_sheet(case, "y0")
-    section = Section.of(mesh, end.points["displacement"], edge)
+    edges = edges_of(case)
+    section = Section.of(mesh, end.points["displacement"], edges)
     against = against_flank(case, end.contacts)
     loaded = Loaded(stroke, float(forces[-1]), float(np.max(forces)), section, against)
-    return AirBend.of(case, result, loaded, loaded.measured(Section.of(mesh, result.model.u, edge), case.height))
+    return AirBend.of(case, result, loaded, loaded.measured(Section.of(mesh, result.model.u, edges), case.height))

@@ -94,8 +94,8 @@ def _draw_sheet(axes: Axes, bend: AirBend, section: Section, frame: Frame, numbe
     """Elements of the middle of a sheet, counted from the die from 0, and their mirror images."""
     order, levels = section.order, section.current.shape[1] - 1
     elements = (len(section.current) - 1) // order
-    each = len(bend.result.model.mesh.connectivity) // len(bend.case.sheets)
-    values = frame.cells[_FIELD][number * each : (number + 1) * each].reshape(elements, -1, levels)[:, 0]
+    cells = bend.result.model.bodies[number].cells  # of each sheet
+    values = frame.cells[_FIELD][cells].reshape(elements, -1, levels)[:, 0]
     lines = order * np.arange(elements)[:, None] + np.arange(order + 1)  # of each element
     x = section.current[lines]
     outlines = np.concatenate([x[:, :, :-1], x[:, ::-1, 1:]], axis=1).swapaxes(1, 2).reshape(-1, 2 * order + 2, 2)

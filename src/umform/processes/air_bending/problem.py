@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from umform.elements import element
-from umform.mesh import graded, grid
+from umform.mesh import grid
 from umform.model import Model
+from umform.model.contact.encounter import Layer
 from umform.model.contact.settings import ContactOptions, ContactSettings, contact_settings
 from umform.model.terms.control import Control
 from umform.problem.keys import law_keys
@@ -15,7 +16,7 @@ from umform.problem.profiles import profile_table
 from umform.processes.air_bending.brake import OPTIONS, loading, unloading_keys
 from umform.processes.air_bending.foil import refuse_squeezed
 from umform.processes.air_bending.goal import needed_stroke
-from umform.processes.air_bending.sheet import lines_of
+from umform.processes.air_bending.sheet import lines_of, lines_through
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.air_bending.stack import between, name_of, of_sheet
 
@@ -35,7 +36,7 @@ def touching(case: AirBending) -> dict[str, ContactSettings]:
     sheet, faces = grid(*lines_of(case), element(case.element).cell), {"die": "lower", "punch": "upper"}
     how = ContactOptions(penalty=case.penalty, penetration=case.penetration, points=case.contact_points)
     return {
-        name: contact_settings(sheet, face, getattr(case, name), case.material, how, f"contact {name}")
+        name: contact_settings(sheet, face, getattr(case, name), [Layer(case.material)], how, f"contact {name}")
         for name, face in faces.items()
     }
 
@@ -51,11 +52,12 @@ def problem_of(case: AirBending, stroke: float | None = None) -> Problem:
     refuse_squeezed(case)
     stroke = needed_stroke(case) if stroke is None else stroke
     if case.width is None:
-        modelled, kind = case.thickness, "in plane strain"
+        modelled, kind = case.thickest, "in plane strain"
     else:
         modelled, kind = 0.5 * case.width, f"{case.width:g} mm wide"
+    sheets = " + ".join(f"{sheet.thickness:g}" for sheet in case.sheets)
     remarks = [
-        f"Air bending of a sheet of {case.thickness:g} mm, {kind}, over an opening of {case.opening:g} mm: down by "
+        f"Air bending of a sheet of {sheets} mm, {kind}, over an opening of {case.opening:g} mm: down by "
         f"{stroke:.6g} mm, and back to zero force. Units: mm, N, MPa.",
         f"Half of the sheet, {modelled:g} mm of its width: the force for each mm of the bend is stroke_force times "
         f"{2.0 / modelled:.6g}.",
@@ -76,7 +78,10 @@ def problem_of(case: AirBending, stroke: float | None = None) -> Problem:
             "die": _contact(case, "die", of_sheet(case, "lower")),
             "punch": _contact(case, "punch", of_sheet(case, "upper", last)),
         },
-        "sheet_contacts": {between(number): _between(case, number) for number in range(last)} or None,
+        "sheet_contacts": {
+            between(number): _between(case, number) for number in range(last) if not case.on_top[number].bonded
+        }
+        or None,
         "supports": [
             *({"kind": "symmetry", "nodes": of_sheet(case, "x0", number), "normal": "x"} for number in range(last + 1)),
             *_across(case),
@@ -104,14 +109,19 @@ def _mesh(case: AirBending) -> dict[str, Any]:
     sheets: dict[str, dict[str, Any]] = {name_of(0): {"mesh": first}}
     height = case.thickness
     for number, sheet in enumerate(case.on_top, 1):
-        z = graded(sheet.thickness, case.layers).tolist()
+        z = lines_through(case, sheet.thickness).tolist()
         sheets[name_of(number)] = {
             "mesh": {**first, "z": z, "thickness": sheet.thickness},
             "shift": (0.0, 0.0, height),
             "material": _material(case, sheet.material),
         }
         height += sheet.thickness
-    return {"generator": "together", "sheets": sheets}
+    bonds = [
+        (of_sheet(case, "upper", number), of_sheet(case, "lower", number + 1))
+        for number, sheet in enumerate(case.on_top)
+        if sheet.bonded
+    ]
+    return {"generator": "together", "sheets": sheets, "bonds": bonds or None}
 
 
 def _material(case: AirBending, law: object) -> dict[str, Any]:

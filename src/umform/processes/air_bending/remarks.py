@@ -24,7 +24,7 @@ def tools_text(case: AirBending) -> str:
     die, punch = case.sizes("die"), case.sizes("punch")
     v = f"V {die['opening']:g}, {die['angle']:g} degrees, shoulder {die['radius']:g}"
     tip = f"punch radius {punch['radius']:g}, {punch['angle']:g} degrees"
-    return f"tools: {v}, {tip}; V/t {case.opening / case.thickness:.3g}"
+    return f"tools: {v}, {tip}; V/t {case.opening / case.thickest:.3g}"
 
 
 def depth_text(below_die: float) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Self
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from umform import _core
 from umform.errors import InvalidValue
 from umform.mesh import Mesh
+from umform.mesh.numbers import unique
 from umform.processes.air_bending.spline import Spline
 
 Floats = NDArray[np.float64]
@@ -42,14 +43,14 @@ class Section:
     order: int
 
     @classmethod
-    def of(cls, mesh: Mesh, u: Floats, edge: str = "y0") -> Self:
-        """Section of a mesh of half of the sheet under displacements u, shape (n, 3) or (3 n,); edge: its set."""
-        return next(cls.each(mesh, [u], edge))
+    def of(cls, mesh: Mesh, u: Floats, edges: Sequence[str] = ("y0",)) -> Self:
+        """Section of a mesh of half of the sheet under displacements u, shape (n, 3) or (3 n,); edges: its sets."""
+        return next(cls.each(mesh, [u], edges))
 
     @classmethod
-    def each(cls, mesh: Mesh, states: Iterable[Floats], edge: str = "y0") -> Iterator[Self]:
+    def each(cls, mesh: Mesh, states: Iterable[Floats], edges: Sequence[str] = ("y0",)) -> Iterator[Self]:
         """Sections of a mesh of half of the sheet under several displacements, whose lines of nodes are found once."""
-        middle = mesh.nodes(edge)
+        middle = unique(np.concatenate([mesh.nodes(edge) for edge in edges]))
         X = mesh.points[middle][:, [0, 2]]
         lines = len(np.unique(X[:, 0]))
         order = np.lexsort((X[:, 1], X[:, 0]))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -10,6 +11,7 @@ import numpy as np
 from umform import mesh
 from umform.mesh.mesh import Floats
 from umform.processes.air_bending.spec import AirBending
+from umform.processes.air_bending.stack import bonded_sheets
 from umform.results.studies import StudiedMesh
 from umform.spec import parameters
 
@@ -22,6 +24,9 @@ _GROWTH = 0.3
 _COARSE = 2.0
 #: Elements per thickness of the default mesh of a bend.
 _USUAL = float(parameters(AirBending)["elements_per_thickness"].default)
+#: Longest fine elements over the thickness of a bonded sheet. Elements ten times as long as a foil of 0.1 mm is thick
+#: turn inside out below 3 mm of DC04; those 3.3 and 5 times as long leave 0.72 of it.
+_SLENDER = 6.0
 #: Slope of the yield stress over the stress below which the studies have no bends.
 _LEAST_SLOPE = 0.01
 
@@ -32,16 +37,23 @@ def lines_of(case: AirBending) -> tuple[Floats, Floats, Floats]:
     With a width, y goes from the middle of the sheet to its edge; in plane strain over one element.
     """
     if case.width is None:
-        across: Floats = np.array([0.0, case.thickness])
+        across: Floats = np.array([0.0, case.thickest])
     else:  # finer towards the edge, where the sheet curls
         across = mesh.graded(0.5 * case.width, case.width_elements, 0.5)
-    return lines_along(case), across, mesh.graded(case.thickness, case.layers)
+    return lines_along(case), across, lines_through(case, case.thickness)
+
+
+def lines_through(case: AirBending, thickness: float) -> Floats:
+    """Element borders through a sheet: the layers of the thickest one are no thinner than those of the others."""
+    return mesh.graded(thickness, math.ceil(case.layers * thickness / case.thickest - 1e-9))
 
 
 def lines_along(case: AirBending) -> Floats:
     """Element borders along the sheet, from the middle to the end."""
-    fine = max(case.thickness, case.opening / 16.0) / case.elements_per_thickness
-    coarse = max(case.thickness, case.opening / 8.0)
+    fine = max(case.thickest, case.opening / 16.0) / case.elements_per_thickness
+    thin = [case.sheets[number].thickness for sheets in bonded_sheets(case) if len(sheets) > 1 for number in sheets]
+    fine = min(fine, *(_SLENDER * thickness for thickness in thin)) if thin else fine
+    coarse = max(case.thickest, case.opening / 8.0)
     margin = 0.5 * case.height
     zones = [(0.0, max(0.25 * case.opening, 2.0 * case.height)), (case.shoulder - margin, case.reach + margin)]
     return _march(case.half_length, fine, coarse, zones)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 from annotated_types import Ge, Gt, Le
 
 from umform.errors import InvalidValue
-from umform.processes.air_bending.stack import StackedSheet, check_stack
+from umform.processes.air_bending.stack import StackedSheet, bonded_sheets, check_stack
 from umform.processes.rules import PLASTIC, check_rolling
 from umform.spec import About, check_fields, note_of, parameters
 from umform.spec.types import ContactPoints, Degrees, Friction, Length, Positive, Rolling
@@ -123,7 +123,7 @@ class AirBending:
     element: str | Element = "BEND18"
     """Element of the catalogue, or one of your own."""
     layers: Annotated[int, Ge(1), Le(8)] = 2
-    """Elements stacked through the thickness."""
+    """Elements stacked through the thickness of the thickest sheet; bonded ones are one sheet."""
     thickness_points: Annotated[int, Ge(2), Le(15)] = 6
     """Points through the thickness of each layer."""
     elements_per_thickness: Annotated[float, Gt(0.0), Le(100.0), About(cause="the number of all elements instead")] = (
@@ -188,6 +188,12 @@ class AirBending:
     def height(self) -> float:
         """Thickness of all sheets together."""
         return self.thickness + sum(sheet.thickness for sheet in self.on_top)
+
+    @property
+    def thickest(self) -> float:
+        """Thickness of the thickest sheet; bonded ones are one sheet."""
+        sheets = self.sheets
+        return max(sum(sheets[number].thickness for number in bonded) for bonded in bonded_sheets(self))
 
     @cached_property
     def die(self) -> VDie | Extruded:

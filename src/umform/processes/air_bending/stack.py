@@ -35,9 +35,19 @@ class StackedSheet:
     """Its law."""
     friction: Annotated[float, Ge(0.0), Le(2.0), About(cause="per cent instead of a part of one")] = 0.0
     """Coefficient of friction with the sheet below."""
+    bonded: bool = False
+    """Whether it sticks to the sheet below, as the foil that protects a blank, or clad metal."""
 
     def __post_init__(self) -> None:
         check_fields(self)
+        if self.bonded and self.friction:
+            raise InvalidValue(
+                "a bonded sheet does not slide",
+                where="friction",
+                value=f"{self.friction:g}",
+                cause="bonded beside it",
+                remedy="leave one of them out",
+            )
 
 
 class Stacked(Protocol):
@@ -64,6 +74,22 @@ def of_sheet(case: Stacked, what: str, number: int = 0) -> str:
 def name_of(number: int) -> str:
     """Name of a sheet, counted from the die from 0, in a deck."""
     return f"sheet{number + 1}"
+
+
+def bonded_sheets(case: Stacked) -> list[list[int]]:
+    """Numbers of the sheets that stick together, from the die upwards."""
+    groups = [[0]]
+    for number, sheet in enumerate(case.on_top, 1):
+        if sheet.bonded:
+            groups[-1].append(number)
+        else:
+            groups.append([number])
+    return groups
+
+
+def edges_of(case: Stacked) -> list[str]:
+    """Sets of the nodes of the section at y = 0, of the first sheet with those that are bonded to it."""
+    return [of_sheet(case, "y0", number) for number in bonded_sheets(case)[0]]
 
 
 def between(number: int) -> str:

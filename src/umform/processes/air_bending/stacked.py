@@ -26,7 +26,8 @@ class SheetOfStack:
     loaded, released : Section
         Its section under load and after unloading.
     gap, gap_in_the_middle : float or None
-        After unloading, the largest distance from the sheet above, and that in the plane of symmetry; None of the last.
+        After unloading, the largest distance from the sheet above, and that in the plane of symmetry; None of the
+        last, and below a bonded one.
     """
 
     loaded: Section
@@ -38,11 +39,12 @@ class SheetOfStack:
 def stack_of(case: AirBending, result: Result, loaded: Floats) -> tuple[SheetOfStack, ...]:
     """The sheets of a bend from the die upwards, at its end and with displacements under load; none of a single one."""
     mesh, u = result.model.mesh, result.model.u
-    edges = [of_sheet(case, "y0", number) for number in range(len(case.sheets))] if case.on_top else []
+    edges = [[of_sheet(case, "y0", number)] for number in range(len(case.sheets))] if case.on_top else []
     pairs = [(Section.of(mesh, loaded, edge), Section.of(mesh, u, edge)) for edge in edges]
     found = []
     for number, (under_load, released) in enumerate(pairs):
-        above = pairs[number + 1][1] if number + 1 < len(pairs) else None
+        free = number < len(case.on_top) and not case.on_top[number].bonded
+        above = pairs[number + 1][1] if free else None
         gaps = (None, None) if above is None else gaps_of(released, above)
         found.append(SheetOfStack(under_load, released, *gaps))
     return tuple(found)

@@ -34,7 +34,7 @@ class Strip:
     @classmethod
     def of(cls, mesh: Mesh, u: Floats, edge: str = "y0") -> Strip:
         """Section of a mesh of a flat strip under displacements u, shape (n, 3) or (3 n,); edge: its set of nodes."""
-        section = Section.of(mesh, u, edge)
+        section = Section.of(mesh, u, [edge])
         return cls(section.reference, section.current, section.order)
 
     def at(self, position: float, *, over: bool) -> Strip:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from umform.elements import element
 from umform.mesh import Mesh
+from umform.model.contact.encounter import Layer
 from umform.model.contact.settings import ContactOptions, contact_settings
 from umform.model.transfer.beside import PART
 from umform.model.transfer.rigid_motion import RigidMotion
@@ -119,7 +120,7 @@ def _flat(case: Hemming, mesh: Mesh) -> dict[str, Any]:
         return {}
     steep = max(touching(case.sheet).values(), key=lambda pair: pair.penalty)
     how = ContactOptions(penetration=case.sheet.penetration)
-    soft = contact_settings(mesh, "lower", Plane(), case.sheet.material, how)
+    soft = contact_settings(mesh, "lower", Plane(), [Layer(case.sheet.material)], how)
     assert soft.allowed is not None
     return {"penetration": soft.allowed * soft.penalty / steep.penalty, "allowed": soft.allowed}
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated
 
 import numpy as np
@@ -11,9 +12,8 @@ from annotated_types import Ge, Gt, Le
 
 from umform.errors import InvalidPenalty, InvalidValue
 from umform.mesh import Ids, Mesh
-from umform.model.bodies.body import Body
 from umform.model.contact.cells import MOST
-from umform.model.contact.encounter import bending_stress
+from umform.model.contact.encounter import Layer, bending_stress
 from umform.model.contact.friction import AnyFriction, friction_kernel
 from umform.model.contact.settings import ALLOWED
 from umform.model.contact.sheets.faces import Depth, depth_of
@@ -118,7 +118,7 @@ class SheetContactSettings:
 
 
 def sheet_contact_settings(
-    mesh: Mesh, sides: Sequence[Ids], bodies: Sequence[Body], options: SheetContactOptions, where: str
+    mesh: Mesh, sides: Sequence[Ids], layers: Sequence[Layer], options: SheetContactOptions, where: str
 ) -> SheetContactSettings:
     """Settings from the given values, the rest from the sheets; the same whichever side comes first. eq. (4.320)
 
@@ -128,8 +128,8 @@ def sheet_contact_settings(
         The sheets.
     sides : sequence of ndarray of int, shape (k, 2)
         Faces of each side, rows (cell, face).
-    bodies : sequence of Body
-        Body of each side.
+    layers : sequence of Layer
+        Layer at the face of each side.
     options : SheetContactOptions
         The given values.
     where : str
@@ -140,9 +140,10 @@ def sheet_contact_settings(
     allowed = ALLOWED * thinner if options.penetration is None else float(options.penetration)
     penalty, largest = options.penalty, 0.0
     if penalty is None:
-        stiff = [bending_stress(body.material, 1e-7, where) / 1e-7 for body in bodies]
+        stiff = [bending_stress(layer.material, 1e-7, where) / 1e-7 for layer in layers]
+        deep = [layer.thickness or depth.thickness for layer, depth in zip(layers, depths, strict=True)]
         penalty, largest = (
-            0.5 * len(depths) / sum(_softness(depth, E, share) for depth, E in zip(depths, stiff, strict=True))
+            0.5 * len(depths) / sum(map(partial(_softness, share), depths, deep, stiff))
             for share in ((_MULTIPLIED if options.augmented else _START), _LEAST)
         )
         largest = 0.0 if options.augmented else largest
@@ -170,9 +171,9 @@ def sheet_contact_settings(
     )
 
 
-def _softness(depth: Depth, stiffness: float, of_sheet: float) -> float:
-    """Share of a body in 1/penalty. eq. (4.320)"""
-    return (_SOLID * depth.layer if depth.solid else of_sheet * depth.thickness) / stiffness
+def _softness(of_sheet: float, depth: Depth, thickness: float, stiffness: float) -> float:
+    """Share of a body in 1/penalty, with the thickness of the metal of this stiffness at its face. eq. (4.320)"""
+    return (_SOLID * depth.layer if depth.solid else of_sheet * thickness) / stiffness
 
 
 def longest_side(mesh: Mesh, facets: Ids) -> float:

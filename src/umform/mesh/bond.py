@@ -1,0 +1,101 @@
+"""Bond sheets of one mesh: clad metal, a foil that sticks, a patch, a welded blank."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import InvalidValue
+from umform.mesh.mesh import Floats, Ids, Mesh, Selector, nodes_of_faces
+from umform.mesh.neighbours import place
+from umform.mesh.numbers import unique
+
+#: Distance below which two nodes are at one place, over the smallest distance of nodes of a face.
+_NEAR = 1e-3
+
+
+def bond(mesh: Mesh, faces: Selector, others: Selector) -> Mesh:
+    """Bond two sheets: the nodes of a face become those of the other sheet at the same places.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Sheets of :func:`umform.mesh.together` that touch.
+    faces : str, callable or array_like
+        Faces of one sheet, see :meth:`umform.Mesh.face_set`.
+    others : str, callable or array_like
+        Faces of the other one. Each lies on one of those, node on node.
+
+    Returns
+    -------
+    Mesh
+        The sets keep their names. Bonded faces lie inside: they leave the sets of faces, and a set of nothing else is
+        one of nodes.
+
+    Raises
+    ------
+    InvalidValue
+        If a face has no partner.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> strip = uf.mesh.strip(length=10.0, width=1.0, thickness=0.2, cells=(8, 1))
+    >>> stack = uf.mesh.together(a=strip, b=strip.transformed(lambda X: X + [0.0, 0.0, 0.2]))
+    >>> clad = uf.mesh.bond(stack, "upper of a", "lower of b")
+    >>> len(clad.points), "upper of a" in clad.faces, "upper of a" in clad.sets
+    (54, False, True)
+    """
+    first, second = mesh.face_set(faces), mesh.face_set(others)
+    number, left = _numbers(mesh, mesh.nodes_on(first), mesh.nodes_on(second))
+    cells, points = number[mesh.connectivity], mesh.points[left]
+    bonded = _corners(cells, second)
+    alone = ~_among(bonded, _corners(cells, first))
+    if alone.any():
+        raise _unmatched(points[bonded[alone][0]], "these nodes belong to several faces of the other sheet")
+    sets, outer = {name: unique(number[ids]) for name, ids in mesh.sets.items()}, {}
+    for name, rows in mesh.faces.items():
+        free = ~_among(_corners(cells, rows), bonded)
+        if free.any():
+            outer[name] = rows[free]
+        else:
+            sets[name] = unique(number[mesh.nodes_on(rows)])
+    return Mesh(points, {mesh.cell: cells}, sets, outer)
+
+
+def _numbers(mesh: Mesh, kept: Ids, moved: Ids) -> tuple[Ids, Ids]:
+    """New number of each node, and the nodes that are left, when some become others at the same places."""
+    from scipy.spatial import cKDTree  # slow to import
+
+    tree, at = cKDTree(mesh.points[kept]), mesh.points[moved]
+    distance, partner = tree.query(at)
+    if (distance > _NEAR * tree.query(mesh.points[kept], k=2)[0][:, 1].min()).any():
+        far = int(distance.argmax())
+        raise _unmatched(at[far : far + 1], f"the next node is {distance[far]:.3g} away")
+    same = np.arange(len(mesh.points))
+    same[moved] = kept[partner]
+    left, number = np.unique(same, return_inverse=True)
+    return number.ravel(), left
+
+
+def _corners(cells: Ids, rows: Ids) -> Ids:
+    """Corners of faces (cell, number of the face), ascending; shape (k, 4)."""
+    corners, half = np.array(nodes_of_faces("hex8")), cells.shape[1] // 2
+    local = corners % 4 + half * (corners // 4)
+    return np.sort(cells[rows[:, :1], local[rows[:, 1]]], axis=1)
+
+
+def _among(some: Ids, others: Ids) -> NDArray[np.bool_]:
+    """Which of some rows are among others."""
+    number = np.unique(np.concatenate([some, others]), axis=0, return_inverse=True)[1].ravel()
+    return np.isin(number[: len(some)], number[len(some) :])
+
+
+def _unmatched(points: Floats, found: str) -> InvalidValue:
+    return InvalidValue(
+        "bonded faces have the same nodes",
+        where=place(points),
+        value=found,
+        cause="other lines of elements, or a gap between the sheets",
+        remedy="the same lines of elements for both; or sheet_contact, which does not bond",
+    )
