@@ -7,7 +7,7 @@ import pytest
 
 import umform as uf
 from umform.errors import InvalidValue
-from umform.model.contact.encounter import Layer
+from umform.model.contact.encounter import Layer, sheet_thickness
 
 SOFT, STIFF = uf.SVK(E=70e3, nu=0.0), uf.SVK(E=210e3, nu=0.0)
 LAWS = {"a": SOFT, "b": STIFF}
@@ -89,6 +89,20 @@ def test_the_layers_behind_a_face():
     ]
     model = uf.Model(strip(), bodies=beside)
     assert model.bodies.layers(model.mesh.face_set("lower")[:, 0]) == [Layer(STIFF)]
+
+
+def test_layers_of_different_thickness_add_up_and_each_face_has_its_own():
+    """eq. (4.320): 1 / penalty is the mean of the softness of both sides, that of clad metal of its layer."""
+    thin = uf.mesh.strip(10.0, 1.0, 0.2, (20, 1), layers=2)
+    stack = uf.mesh.together(a=thin, b=lifted(strip((20, 1), 0.4), 0.3))
+    assert sheet_thickness(uf.mesh.bond(stack, "upper of a", "lower of b")) == pytest.approx(0.6)
+    lower, upper = strip((20, 1), 0.2), strip((20, 1), 0.1)
+    parts = uf.mesh.together(a=lower, b=lifted(upper, 0.15), c=lifted(upper, 0.25))
+    mesh = uf.mesh.bond(parts, "upper of a", "lower of b")
+    laws = LAWS | {"c": STIFF}
+    model = uf.Model(mesh, bodies=[uf.Body(material=of, cells=name, name=name) for name, of in laws.items()])
+    pressed = model.sheet_contact("upper of b", "lower of c")
+    assert pressed.penalty == pytest.approx(1.0 / (50.0 * (0.1 + 0.1) / 210e3), rel=1e-4)
 
 
 def test_faces_that_do_not_match_are_refused():
