@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated
 
 from umform.cli.metal import by_name
@@ -46,7 +47,8 @@ def stacked(texts: Sequence[str]) -> list[StackedSheet]:
                 remedy="--on-top DC04,0.8 or --on-top foil.toml,0.1,0.2 or --on-top foil.toml,0.1,bonded",
             )
         try:
-            sheets.append(StackedSheet(numbers[0], metal_of(name.strip(), numbers[0]).law, *numbers[1:], bonded=bonded))
+            sheet = StackedSheet(numbers[0], metal_of(name.strip(), numbers[0]).law, bonded=bonded)
+            sheets.append(replace(sheet, friction=numbers[1]) if numbers[1:] else sheet)
         except InvalidValue as error:
             if error.where in ("thickness", "friction"):
                 error.where = f"--on-top, {error.where}"

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
-from umform.mesh.mesh import Floats, Ids, Mesh, Selector, nodes_of_faces
-from umform.mesh.neighbours import place
+from umform.mesh.mesh import Floats, Mesh, Selector, nodes_of_faces
+from umform.mesh.neighbours import Whole, place
 from umform.mesh.numbers import unique
 
 #: Distance below which two nodes are at one place, over the smallest distance of nodes of a face.
@@ -63,7 +63,7 @@ def bond(mesh: Mesh, faces: Selector, others: Selector) -> Mesh:
     return Mesh(points, {mesh.cell: cells}, sets, outer)
 
 
-def _numbers(mesh: Mesh, kept: Ids, moved: Ids) -> tuple[Ids, Ids]:
+def _numbers(mesh: Mesh, kept: Whole, moved: Whole) -> tuple[Whole, Whole]:
     """New number of each node, and the nodes that are left, when some become others at the same places."""
     from scipy.spatial import cKDTree  # slow to import
 
@@ -78,14 +78,14 @@ def _numbers(mesh: Mesh, kept: Ids, moved: Ids) -> tuple[Ids, Ids]:
     return number.ravel(), left
 
 
-def _corners(cells: Ids, rows: Ids) -> Ids:
+def _corners(cells: Whole, rows: Whole) -> Whole:
     """Corners of faces (cell, number of the face), ascending; shape (k, 4)."""
     corners, half = np.array(nodes_of_faces("hex8")), cells.shape[1] // 2
     local = corners % 4 + half * (corners // 4)
     return np.sort(cells[rows[:, :1], local[rows[:, 1]]], axis=1)
 
 
-def _among(some: Ids, others: Ids) -> NDArray[np.bool_]:
+def _among(some: Whole, others: Whole) -> NDArray[np.bool_]:
     """Which of some rows are among others."""
     number = np.unique(np.concatenate([some, others]), axis=0, return_inverse=True)[1].ravel()
     return np.isin(number[: len(some)], number[len(some) :])

@@ -266,7 +266,7 @@ class Mesh:
         """The same mesh with its points (n, 3) mapped by ``function``."""
         return Mesh(function(self.points), self.cells, self.sets, self.faces)
 
-    def nodes_on(self, rows: Ids) -> Ids:
+    def nodes_on(self, rows: NDArray[np.integer]) -> Ids:
         """Sorted ids of the nodes of faces, given as cell and number of the face."""
         kinds = enumerate(nodes_of_faces(self.cell))
         parts = [self.connectivity[np.ix_(rows[rows[:, 1] == number, 0], local)].ravel() for number, local in kinds]

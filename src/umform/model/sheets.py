@@ -7,6 +7,7 @@ from typing import Any
 
 from umform.errors import InvalidValue
 from umform.mesh import Ids, Selector
+from umform.model.contact.layers import layers_behind
 from umform.model.contact.sheets import SheetContact, SheetContactOptions
 from umform.model.contact.sheets.settings import sheet_contact_settings
 from umform.model.contact.sheets.start import check_facing
@@ -86,7 +87,7 @@ class SheetContacts:
             error.where = f"contact {name}, {error.where}"
             raise
         mesh = self.system.mesh
-        layers = [self.system.bodies.layers(side[:, 0])[0] for side in sides]
+        layers = [layers_behind(self.system.bodies, side[:, 0])[0] for side in sides]
         settings = sheet_contact_settings(mesh, sides, layers, wanted, f"contact {name}")
         contact = SheetContact(mesh, sides, settings, name)
         self.system.add(contact)

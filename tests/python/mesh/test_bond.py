@@ -8,6 +8,7 @@ import pytest
 import umform as uf
 from umform.errors import InvalidValue
 from umform.model.contact.encounter import Layer, sheet_thickness
+from umform.model.contact.layers import layers_behind
 
 SOFT, STIFF = uf.SVK(E=70e3, nu=0.0), uf.SVK(E=210e3, nu=0.0)
 LAWS = {"a": SOFT, "b": STIFF}
@@ -78,17 +79,17 @@ def test_the_layers_behind_a_face():
     """A penalty follows from the layer at the face; bodies side by side are no layers."""
     model = clad_strip()
     lower, upper = (model.mesh.face_set(name)[:, 0] for name in ("lower of a", "upper of b"))
-    assert [(one.material, pytest.approx(one.thickness)) for one in model.bodies.layers(lower)] == [
+    assert [(one.material, pytest.approx(one.thickness)) for one in layers_behind(model.bodies, lower)] == [
         (SOFT, 0.2),
         (STIFF, 0.1),
     ]
-    assert [one.material for one in model.bodies.layers(upper)] == [STIFF, SOFT]
+    assert [one.material for one in layers_behind(model.bodies, upper)] == [STIFF, SOFT]
     beside = [
         uf.Body(material=SOFT, cells=lambda x, y, z: x < 4.0, name="a"),
         uf.Body(material=STIFF, cells=lambda x, y, z: x > 4.0, name="b"),
     ]
     model = uf.Model(strip(), bodies=beside)
-    assert model.bodies.layers(model.mesh.face_set("lower")[:, 0]) == [Layer(STIFF)]
+    assert layers_behind(model.bodies, model.mesh.face_set("lower")[:, 0]) == [Layer(STIFF)]
 
 
 def test_layers_of_different_thickness_add_up_and_each_face_has_its_own():

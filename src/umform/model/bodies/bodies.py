@@ -9,9 +9,7 @@ import numpy as np
 
 from umform.errors import InvalidValue, ModelError
 from umform.mesh import Ids, Mesh
-from umform.mesh.part import stacks
 from umform.model.bodies.body import Body
-from umform.model.contact.encounter import Layer, cells_thickness
 
 
 class Bodies(list[Body]):
@@ -46,17 +44,6 @@ class Bodies(list[Body]):
     def of(self, cells: Ids) -> Body:
         """Body that most of some cells belong to."""
         return max(self, key=lambda body: int(np.isin(cells, body.cells).sum()))
-
-    def layers(self, cells: Ids) -> list[Layer]:
-        """Layers of the sheet behind some cells at its face, that of the face first."""
-        first = self.of(cells)
-        if len(self) == 1:
-            return [Layer(first.material)]
-        stack = stacks(first.mesh)
-        behind = np.isin(stack, stack[np.intersect1d(cells, first.cells)])
-        parts = [(body, body.cells[behind[body.cells]]) for body in [first, *(one for one in self if one is not first)]]
-        found = [Layer(body.material, cells_thickness(body.mesh, part)) for body, part in parts if len(part)]
-        return found if len(found) > 1 else [Layer(first.material)]
 
     @property
     def only(self) -> Body:

@@ -10,6 +10,7 @@ from umform.errors import InvalidValue
 from umform.mesh import Mesh, Selector
 from umform.model.bodies.bodies import Bodies
 from umform.model.contact.encounter import sheet_thickness
+from umform.model.contact.layers import layers_behind
 from umform.model.contact.pair import Contact
 from umform.model.contact.settings import ContactOptions, contact_settings
 from umform.model.contact.tools import Tools
@@ -79,7 +80,7 @@ class Contacts(list[Contact]):
         if isinstance(surface, UserSurface):
             facets = self.mesh.facets_of(rows)[:, :4]
             check_beside(surface, self.mesh.points[facets], sheet_thickness(self.mesh, rows), f"contact {name}")
-        body, layers = self.bodies.of(rows[:, 0]), self.bodies.layers(rows[:, 0])
+        body, layers = self.bodies.of(rows[:, 0]), layers_behind(self.bodies, rows[:, 0])
         try:
             wanted = ContactOptions(**options)
         except InvalidValue as error:
