@@ -73,6 +73,8 @@ if TYPE_CHECKING:
     from umform.studies.scatter import Scatter as Scatter
     from umform.studies.scatter import Scattered as Scattered
     from umform.studies.scatter import scatter as scatter
+    from umform.studies.slopes import Slopes as Slopes
+    from umform.studies.slopes import slopes as slopes
     from umform.studies.sweep import Sweep as Sweep
     from umform.studies.sweep import sweep as sweep
     from umform.surfaces import Box as Box
@@ -143,6 +145,7 @@ _HOME = {
     "umform.studies.goals": ("Compensated", "CompensatedShape", "Wanted", "compensate", "compensate_shape"),
     "umform.studies.scatter": ("Scatter", "Scattered", "scatter"),
     "umform.studies.identification": ("Identified", "MeasuredCurve", "MeasuredNumber", "Sought", "identify"),
+    "umform.studies.slopes": ("Slopes", "slopes"),
     "umform.studies.sweep": ("Sweep", "sweep"),
 }
 _MODULES = {

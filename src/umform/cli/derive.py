@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
@@ -98,6 +98,16 @@ def derived(
     if not by:
         return outcome, []
     found = derivatives(case, by, hold=hold)
+    return outcome.with_annex(found.annex), found.write(place)
+
+
+def sloped(
+    outcome: _Outcome, process: Callable[[Any], _Outcome], case: Any, by: Sequence[str], place: Path
+) -> tuple[_Outcome, list[Path]]:
+    """The outcome of a process with slopes from whole runs beside it, and the files of these."""
+    from umform.studies.slopes import slopes
+
+    found = slopes(process, case, by, base=outcome)
     return outcome.with_annex(found.annex), found.write(place)
 
 

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from umform.cli.derive import Derive, derived
+from umform.cli.derive import Derive, derived, sloped
 from umform.cli.drawn_tools import named_tools
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
@@ -19,7 +19,7 @@ from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, console, printi
 from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.warnings import print_warnings_once
 from umform.processes.air_bending.spec import AirBending
-from umform.processes.hemming.spec import ACUTE, FOLDED, Hemming, acute, refuse_jumps
+from umform.processes.hemming.spec import ACUTE, FOLDED, Hemming, acute, jumps, refuse_jumps
 from umform.spec import parameters
 
 #: Parameters of the sheet that a hem does not have: drawn tools, and what belongs to a single bend.
@@ -78,6 +78,7 @@ def hem(
     from umform.io.staging import staging
     from umform.processes.hemming import hemming
     from umform.processes.hemming.files import FILES, RESULTS, write_files
+    from umform.studies.slopes.study import planned_runs
 
     print_warnings_once()
     thickness = given["thickness"]
@@ -86,7 +87,10 @@ def hem(
     of_hem = {name: given.pop(name) for name in _OF_HEM}
     sheet = acute(**{name: value for name, value in given.items() if value is not None}, material=law)
     case = Hemming(**of_hem, sheet=sheet)
-    if derive or scatter_options:
+    by_slopes = bool(derive) and jumps(case)
+    if by_slopes:
+        planned_runs(case, derive or ())
+    if scatter_options:
         refuse_jumps(case)
     if scatter_options:  # refuse what is wrong before the run
         scatter_options.check(replace(case, sheet=replace(sheet, stroke=0.5 * sheet.largest_stroke)))
@@ -95,7 +99,10 @@ def hem(
     with staging(place, FILES):
         done, more = hemming(case), list[Path]()
         try:
-            done, more = derived(done, done.with_stroke, derive, place, done.strokes)
+            if by_slopes:
+                done, more = sloped(done, hemming, case, derive or (), place)
+            else:
+                done, more = derived(done, done.with_stroke, derive, place, done.strokes)
             done, spread = scatter_options.added_to(done, done.with_stroke, place)
             more += spread
             with printing(f"the files of the hem are in {place}"):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 from typer.testing import CliRunner
@@ -127,6 +128,30 @@ def test_studies_that_a_part_refuses_before_the_run(one_bend, more, said):
     assert done.exit_code == 1
     assert said in done.stderr
     assert not Path("results").exists()
+
+
+def test_slopes_of_a_hem_that_jumps_are_refused_before_the_run(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    done = CliRunner().invoke(app, ["hem", "--form", "rope", "--derive", "gap"])
+    assert done.exit_code == 1
+    assert "a number that is zero has no range" in done.stderr
+    assert not Path("results").exists()
+
+
+@pytest.mark.parametrize(("form", "study"), [("rope", "slopes"), ("open", "derivatives")])
+def test_hems_that_jump_have_slopes_and_others_derivatives(form, study, tmp_path, monkeypatch):
+    """Which study `--derive` takes."""
+
+    def end(*given, **named):
+        raise InvalidValue(f"the {study}", where="here")
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("umform.processes.hemming.hemming", lambda case: Mock(with_stroke=case))
+    monkeypatch.setattr("umform.processes.hemming.files.write_files", lambda *given: [])
+    monkeypatch.setattr(f"umform.studies.{study}.{study}", end)
+    done = CliRunner().invoke(app, ["hem", "--form", form, "--derive", "thickness"])
+    assert done.exit_code == 1
+    assert f"the {study}" in done.stderr
 
 
 def test_the_scatter_of_a_hem_is_refused_before_the_run(tmp_path, monkeypatch):

@@ -207,6 +207,11 @@ class Hemming:
         return BendSequence(self.flange + self.base, (bend,), replace(self.sheet, stroke=None))
 
 
+def jumps(case: Hemming) -> bool:
+    """Whether results of slightly different hems of this form lie on no smooth curve (docs/bending-operations.md)."""
+    return case.form not in _SMOOTH
+
+
 def refuse_jumps(case: Hemming) -> None:
     """Refuse derivatives of hems whose runs jump by more than they say (docs/bending-operations.md).
 
@@ -214,11 +219,11 @@ def refuse_jumps(case: Hemming) -> None:
     ------
     InvalidValue
     """
-    if case.form not in _SMOOTH:
+    if jumps(case):
         raise InvalidValue(
             "the results of this form of hem jump: they have no derivatives",
             where="form",
             value=case.form,
             cause="whole runs with slightly different sizes do not lie on a smooth curve",
-            remedy="the form open or insert, or runs that are far apart: umform sweep",
+            remedy="slopes from whole runs: uf.slopes, or umform hem --derive; or the form open or insert",
         )

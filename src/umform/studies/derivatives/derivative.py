@@ -27,6 +27,8 @@ class Derivative:
         Largest residual of the changed run, relative to the forces.
     why : str
         Why it is unknown; empty if it is known.
+    band : float or None
+        Half of the width of its band; None: it has none.
     """
 
     response: Quantity
@@ -35,6 +37,7 @@ class Derivative:
     switched: int = 0
     residual: float = 0.0
     why: str = ""
+    band: float | None = None
 
     @property
     def unit(self) -> str:

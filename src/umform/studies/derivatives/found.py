@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,14 +15,11 @@ from umform.analysis.run import Result
 from umform.analysis.shadows import Shadowed, of_all
 from umform.errors import InvalidValue
 from umform.io.tables import write_csv
-from umform.results.outcome import Annex, Study
-from umform.results.quantity import UNKNOWN, Quantity
+from umform.results.quantity import Quantity
 from umform.spec import Scalar
 from umform.studies.derivatives.derivative import Derivative
+from umform.studies.derivatives.rates import Rates
 from umform.studies.derivatives.responses import Response
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 Floats = NDArray[np.float64]
 #: Files: all derivatives, those of the columns of the history, the picture of one response.
@@ -31,7 +27,7 @@ TABLE, HISTORY, PICTURE = "derivatives.csv", "derivatives-history.csv", "derivat
 
 
 @dataclass(frozen=True, repr=False)
-class Derivatives(Study):
+class Derivatives(Rates):
     """All derivatives of a run.
 
     Attributes
@@ -121,16 +117,6 @@ class Derivatives(Study):
             kept.lost,
         )
 
-    @staticmethod
-    def _index(names: Sequence[str], name: str, what: str) -> int:
-        if name not in names:
-            raise InvalidValue(f"there is no such {what}", value=name, remedy="one of " + ", ".join(names))
-        return names.index(name)
-
-    def __iter__(self) -> Any:
-        """All of them, by response, then by parameter."""
-        return (self[one.name, other.path] for one in self.responses for other in self.parameters)
-
     def column(self, name: str, path: str, stage: str | None = None) -> Floats:
         """Derivative of a column of the history, a value for each row; NaN from where it is unknown.
 
@@ -200,26 +186,6 @@ class Derivatives(Study):
         )
 
     @property
-    def table(self) -> list[list[str]]:
-        """A header, and a row for each response: its value, and its change for 1 % more of each parameter."""
-        rows = [["quantity", "value", *self._short_names, "unit"]]
-        for response in self.responses:
-            ones = [self[response.name, one.path] for one in self.parameters]
-            if all(one.value in (None, 0.0) for one in ones):
-                continue
-            rows.append([response.label, response.number(response.value), *map(_for_one_percent, ones), response.unit])
-        return rows
-
-    @property
-    def _short_names(self) -> list[str]:
-        """Last part of each path, or the whole path where another one ends alike."""
-        last = [one.path.rpartition(".")[2] for one in self.parameters]
-        return [
-            name if last.count(name) == 1 and not name.isdecimal() else one.path
-            for name, one in zip(last, self.parameters, strict=True)
-        ]
-
-    @property
     def notes(self) -> list[str]:
         """What is constant, and where derivatives are one-sided."""
         found = [f"{name} is constant: {path} follows" for name, path in self.held.items()]
@@ -286,37 +252,3 @@ class Derivatives(Study):
                     columns[f"d {name} / d {one.path}"] = self.column(name, one.path, stage)
         write_csv(path, columns)
         return path
-
-    def _changes(self, response: str) -> bool:
-        """Whether a response depends on the parameters, by more than 1e-6 of its value."""
-        found = [self[response, one.path].relative or 0.0 for one in self.parameters]
-        return max(map(abs, found), default=0.0) > 1e-6
-
-    @property
-    def annex(self) -> Annex:
-        """Table and picture for the outcome of a process."""
-        main = self._main
-        label = next(one.label for one in self.responses if one.name == main)
-        caption = f"Change of the {label} for 1 % more of each parameter."
-        table, notes, warnings = self.table, self.notes, self.warnings
-        return Annex("Changes for 1 % more of", table, notes, warnings, lambda: self.plot(main), caption)
-
-    @property
-    def _main(self) -> str:
-        """The response of the picture: the first that the process is for, or the first of all, that changes."""
-        names = [one.name for one in self.responses]
-        order = [*(name for name in self.main if name in names), *names]
-        return next(filter(self._changes, order), order[0])
-
-    def plot(self, response: str, path: str | Path | None = None) -> Figure:
-        """Bars of the relative derivatives of a response, the largest on top."""
-        from umform.studies.derivatives.picture import tornado
-
-        return tornado([one for one in self if one.response.name == response], path)
-
-
-def _for_one_percent(one: Derivative) -> str:
-    """Change of the response for 1 % more of the parameter; for 1 of a parameter that is zero."""
-    if one.value is None:
-        return UNKNOWN
-    return f"{one.value * (0.01 * one.parameter.value or 1.0):+.3g}"

@@ -29,7 +29,8 @@ def tornado(derivatives: Sequence[Derivative], path: str | Path | None = None) -
         figure = Plot(figsize=(6.5, 0.9 + 0.32 * max(1, len(known))), layout="constrained")
         axes = figure.add_subplot()
         colours = ["tab:red" if change < 0.0 else "tab:blue" for change in changes]
-        axes.barh([one.parameter.path for one in known], changes, color=colours)
+        bands = [abs(0.01 * (one.band or 0.0) * one.parameter.value) for one in known]
+        axes.barh([one.parameter.path for one in known], changes, color=colours, xerr=bands if any(bands) else None)
         axes.axvline(0.0, color="black", linewidth=0.8)
         unit = f", {response.unit}" if response.unit else ""
         axes.set_xlabel(f"change of the {response.label} for 1 % more of each parameter{unit}")

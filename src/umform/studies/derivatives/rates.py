@@ -1,0 +1,115 @@
+"""How results change with parameters, as a table and a picture: base of derivatives and of slopes of whole runs."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from umform.errors import InvalidValue
+from umform.results.outcome import Annex, Study
+from umform.results.quantity import UNKNOWN, Quantity
+from umform.spec import Scalar
+from umform.studies.derivatives.derivative import Derivative
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+class Rates(Study):
+    """Changes of responses with parameters.
+
+    Attributes
+    ----------
+    parameters : tuple of Scalar
+        The parameters.
+    responses : tuple of Quantity
+        The responses with their values.
+    main : tuple of str
+        Names of the responses that the process is for.
+    """
+
+    parameters: tuple[Scalar, ...]
+    responses: tuple[Quantity, ...]
+    main: tuple[str, ...]
+
+    @abstractmethod
+    def __getitem__(self, key: tuple[str, str]) -> Derivative:
+        """The derivative of a response with respect to a parameter, each by its name."""
+
+    @property
+    @abstractmethod
+    def notes(self) -> list[str]:
+        """What belongs beside the numbers."""
+
+    @property
+    @abstractmethod
+    def warnings(self) -> list[str]:
+        """What makes them doubtful."""
+
+    def __iter__(self) -> Iterator[Derivative]:
+        """All of them, by response, then by parameter."""
+        return (self[one.name, other.path] for one in self.responses for other in self.parameters)
+
+    @staticmethod
+    def _index(names: Sequence[str], name: str, what: str) -> int:
+        if name not in names:
+            raise InvalidValue(f"there is no such {what}", value=name, remedy="one of " + ", ".join(names))
+        return names.index(name)
+
+    @property
+    def table(self) -> list[list[str]]:
+        """A header, and a row for each response: its value, and its change for 1 % more of each parameter."""
+        rows = [["quantity", "value", *self._short_names, "unit"]]
+        for response in self.responses:
+            ones = [self[response.name, one.path] for one in self.parameters]
+            if all(one.value in (None, 0.0) for one in ones):
+                continue
+            rows.append([response.label, response.number(response.value), *map(_for_one_percent, ones), response.unit])
+        return rows
+
+    @property
+    def _short_names(self) -> list[str]:
+        """Last part of each path, or the whole path where another one ends alike."""
+        last = [one.path.rpartition(".")[2] for one in self.parameters]
+        return [
+            name if last.count(name) == 1 and not name.isdecimal() else one.path
+            for name, one in zip(last, self.parameters, strict=True)
+        ]
+
+    def _changes(self, response: str) -> bool:
+        """Whether a response depends on the parameters, by more than 1e-6 of its value."""
+        found = [self[response, one.path].relative or 0.0 for one in self.parameters]
+        return max(map(abs, found), default=0.0) > 1e-6
+
+    @property
+    def annex(self) -> Annex:
+        """Table and picture for the outcome of a process."""
+        main = self._main
+        label = next(one.label for one in self.responses if one.name == main)
+        caption = f"Change of the {label} for 1 % more of each parameter."
+        table, notes, warnings = self.table, self.notes, self.warnings
+        return Annex("Changes for 1 % more of", table, notes, warnings, lambda: self.plot(main), caption)
+
+    @property
+    def _main(self) -> str:
+        """The response of the picture: the first that the process is for, or the first of all, that changes."""
+        names = [one.name for one in self.responses]
+        order = [*(name for name in self.main if name in names), *names]
+        return next(filter(self._changes, order), order[0])
+
+    def plot(self, response: str, path: str | Path | None = None) -> Figure:
+        """Bars of the relative derivatives of a response, the largest on top."""
+        from umform.studies.derivatives.picture import tornado
+
+        return tornado([one for one in self if one.response.name == response], path)
+
+
+def _for_one_percent(one: Derivative) -> str:
+    """Change of the response for 1 % more of the parameter; for 1 of a parameter that is zero."""
+    if one.value is None:
+        return UNKNOWN
+    size = 0.01 * one.parameter.value or 1.0
+    band = "" if one.band is None else f" ± {one.band * abs(size):.2g}"
+    return f"{one.value * size:+.3g}{band}"

@@ -1,0 +1,160 @@
+"""Slopes that have been found, with their bands and the runs that they are from; as table, files and picture."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import stdtrit
+
+from umform.io.tables import write_csv
+from umform.results.outcome import Outcome
+from umform.results.quantity import Quantity
+from umform.spec import Scalar
+from umform.studies.derivatives.derivative import Derivative
+from umform.studies.derivatives.rates import Rates
+
+Floats = NDArray[np.float64]
+#: Numbers of a run by their names.
+Numbers = Mapping[str, float | None]
+#: Files: all slopes, the runs, the picture of one response.
+TABLE, RUNS, PICTURE = "slopes.csv", "slopes-runs.csv", "slopes.png"
+#: Probability of the band.
+_WITHIN = 0.95
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run with another value of one parameter.
+
+    Attributes
+    ----------
+    path : str
+        Path of the parameter.
+    value : float
+        Its value.
+    numbers : mapping of str to float, or str
+        What was found, by name; why there is nothing.
+    """
+
+    path: str
+    value: float
+    numbers: Numbers | str
+
+
+@dataclass(frozen=True, repr=False)
+class Slopes(Rates):
+    """Slopes of all responses over a range of each parameter.
+
+    Attributes
+    ----------
+    parameters : tuple of Scalar
+        The parameters.
+    responses : tuple of Quantity
+        The responses with their values.
+    runs : tuple of Run
+        All runs beside that of the case.
+    width : float
+        Half of the range, over the value of the parameter.
+    main : tuple of str
+        Names of the responses that the process is for.
+    """
+
+    parameters: tuple[Scalar, ...]
+    responses: tuple[Quantity, ...]
+    runs: tuple[Run, ...]
+    width: float
+    main: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, parameters: Sequence[Scalar], base: Outcome, runs: Sequence[Run], width: float) -> Slopes:
+        """Those of an outcome and of runs beside it."""
+        known = tuple(one for one in base.quantities if one.value is not None)
+        return cls(tuple(parameters), known, tuple(runs), width, tuple(base.main))
+
+    def __getitem__(self, key: tuple[str, str]) -> Derivative:
+        """The slope of a response over a parameter, each by its name, with the half of its band of 95 %."""
+        response, path = key
+        row = self._index([one.name for one in self.responses], response, "response")
+        column = self._index([one.path for one in self.parameters], path, "parameter")
+        x, y = self.points(response, path).T
+        slope, band = _line(x, y) if len(x) > 2 else (None, None)
+        why = "" if len(x) > 2 else "fewer than three runs have this number"
+        return Derivative(self.responses[row], self.parameters[column], slope, why=why, band=band)
+
+    def points(self, response: str, path: str) -> Floats:
+        """Values of a parameter and of a response in all runs that have it, that of the case first; shape (n, 2)."""
+        first = next(one for one in self.parameters if one.path == path).value
+        base = next(one for one in self.responses if one.name == response).value
+        others = [
+            (run.value, run.numbers.get(response))
+            for run in self.runs
+            if run.path == path and not isinstance(run.numbers, str)
+        ]
+        return np.array([(x, y) for x, y in [(first, base), *others] if y is not None], dtype=float)
+
+    @cached_property
+    def failed(self) -> list[Run]:
+        """Runs that have failed."""
+        return [run for run in self.runs if isinstance(run.numbers, str)]
+
+    @property
+    def notes(self) -> list[str]:
+        """What the slopes are from."""
+        each = len(self.runs) // len(self.parameters)
+        return [
+            f"slopes of lines through {each + 1} whole runs, within {100.0 * self.width:g} % of each parameter; ±: "
+            f"{100.0 * _WITHIN:g} % by the distances of the runs from the line"
+        ]
+
+    @property
+    def warnings(self) -> list[str]:
+        """Runs that have failed."""
+        return [f"the run with {run.path} = {run.value:.6g} has failed: {run.numbers}" for run in self.failed]
+
+    def write(self, folder: str | Path) -> list[Path]:
+        """Write the slopes, and the numbers of all runs, in files of a folder, with a picture; returns the files."""
+        folder = Path(folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        ones = list(self)
+        write_csv(
+            folder / TABLE,
+            {
+                "response": [one.response.name for one in ones],
+                "response_value": [one.response.value for one in ones],
+                "parameter": [one.parameter.path for one in ones],
+                "parameter_value": [one.parameter.value for one in ones],
+                "value": [one.value for one in ones],
+                "band": [one.band for one in ones],
+                "relative": [one.relative for one in ones],
+                "unit": [one.unit for one in ones],
+            },
+        )
+        done = [run for run in self.runs if run not in self.failed]
+        numbers = {
+            one.name: [None if isinstance(run.numbers, str) else run.numbers.get(one.name) for run in done]
+            for one in self.responses
+        }
+        places: dict[str, list[Any]] = {
+            "parameter": [run.path for run in done],
+            "parameter_value": [run.value for run in done],
+        }
+        write_csv(folder / RUNS, {**places, **numbers})
+        self.plot(self._main, folder / PICTURE)
+        return [folder / TABLE, folder / RUNS, folder / PICTURE]
+
+
+def _line(x: Floats, y: Floats) -> tuple[float, float]:
+    """Slope of the line of least squares, and half of its band."""
+    away = x - x.mean()
+    square = float(away @ away)
+    slope = float(away @ y) / square
+    rest = y - y.mean() - slope * away
+    free = len(x) - 2
+    return slope, float(stdtrit(free, 0.5 + 0.5 * _WITHIN)) * math.sqrt(float(rest @ rest) / free / square)
