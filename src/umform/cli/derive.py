@@ -16,6 +16,7 @@ from umform.errors import InvalidValue
 
 if TYPE_CHECKING:
     from umform.results.outcome import Outcome
+    from umform.studies.derivatives.rates import Rates
 
 _Outcome = TypeVar("_Outcome", bound="Outcome")
 
@@ -53,6 +54,14 @@ def derive(
             metavar="NAME=PATH", help="A result that stays constant, by a parameter that follows; repeatable."
         ),
     ] = None,
+    width: Annotated[
+        float | None,
+        typer.Option(
+            metavar="PART",
+            help="Where results jump: slopes of whole runs with each parameter smaller and larger by up to this part "
+            "of it (0.02), in place of derivatives.",
+        ),
+    ] = None,
     changes: Changes = None,
     out: Annotated[
         Path | None,
@@ -72,6 +81,8 @@ def derive(
     from umform.io.folders import folder_for
     from umform.studies.derivatives import derivatives
     from umform.studies.derivatives.found import TABLE
+    from umform.studies.slopes import slopes
+    from umform.studies.slopes.found import TABLE as SLOPES
 
     print_warnings_once()
     said: list[str] = []
@@ -81,8 +92,15 @@ def derive(
         paths, held = by or (table.by if table else []), dict(_pair(text) for text in hold or ())
         wanted = of or (table.results or None if table else None)
         _refuse_none(paths)
-        place = folder_for(out, Path("results") / f"{deck.stem}-derive", (TABLE,), overwrite=overwrite, say=said.append)
-        found = derivatives(problem, paths, wanted, hold=held or (table.hold if table else {}))
+        held = held or (table.hold if table else {})
+        _refuse_both(held, width)
+        files = (TABLE, SLOPES)
+        place = folder_for(out, Path("results") / f"{deck.stem}-derive", files, overwrite=overwrite, say=said.append)
+        found: Rates
+        if width is None:
+            found = derivatives(problem, paths, wanted, hold=held)
+        else:
+            found = slopes(problem, paths, wanted, width=width)
     for text in said:  # only of a run that starts
         typer.echo(f"umform: {text}", err=True)
     show_annex(found.annex)
@@ -107,7 +125,7 @@ def sloped(
     """The outcome of a process with slopes from whole runs beside it, and the files of these."""
     from umform.studies.slopes import slopes
 
-    found = slopes(process, case, by, base=outcome)
+    found = slopes(case, by, process=process, base=outcome)
     return outcome.with_annex(found.annex), found.write(place)
 
 
@@ -124,6 +142,17 @@ def _refuse_none(paths: Sequence[str]) -> None:
             where="--by",
             cause="neither the option, nor a table [derivatives] in the deck",
             remedy="--by tools.die.radius, for instance; umform paths DECK lists all",
+        )
+
+
+def _refuse_both(held: Mapping[str, str], width: float | None) -> None:
+    if held and width is not None:
+        raise InvalidValue(
+            "slopes of whole runs hold no result",
+            where="--hold",
+            value=", ".join(held),
+            cause="--width beside it",
+            remedy="leave one of them out",
         )
 
 

@@ -45,6 +45,19 @@ def test_a_deck_has_derivatives_as_table_files_and_picture(deck, tmp_path):
     }
 
 
+def test_a_deck_has_slopes_of_whole_runs_in_place_of_derivatives(deck, tmp_path):
+    words = ["--by", "material.E", "--of", "stroke_force:peak", *COARSE]
+    done = run("derive", deck, *words, "--width", "0.02", "--out", tmp_path / "slopes")
+    assert done.exit_code == 0, done.output
+    assert "±" in done.output and "5 whole runs" in done.output
+    assert run("derive", deck, *words, "--out", tmp_path / "out").exit_code == 0
+    exact = float(rows(tmp_path / "out")["stroke_force:peak", "material.E"]["value"])
+    with (tmp_path / "slopes" / "slopes.csv").open(newline="") as text:
+        [row] = csv.DictReader(text)
+    assert float(row["value"]) == pytest.approx(exact, rel=0.02)
+    assert float(row["band"]) < 0.1 * exact
+
+
 @pytest.mark.parametrize(
     ("words", "text"),
     [
@@ -53,6 +66,8 @@ def test_a_deck_has_derivatives_as_table_files_and_picture(deck, tmp_path):
         (["--by", "nowhere"], "there is no number of this path"),
         (["--by", "material.E", "--hold", "angle"], "this holds no result"),
         ([], "there is no parameter for derivatives"),
+        (["--by", "material.E", "--width", "0.02", "--hold", "angle=E"], "slopes of whole runs hold no result"),
+        (["--by", "material.E", "--width", "2"], "width"),
     ],
 )
 def test_what_has_no_derivative_is_refused_by_name(deck, words, text, tmp_path):

@@ -38,6 +38,10 @@ class Rates(Study):
     def __getitem__(self, key: tuple[str, str]) -> Derivative:
         """The derivative of a response with respect to a parameter, each by its name."""
 
+    @abstractmethod
+    def write(self, folder: str | Path) -> list[Path]:
+        """Write tables and picture into a folder; returns the files."""
+
     @property
     @abstractmethod
     def notes(self) -> list[str]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -21,12 +20,23 @@ from umform.studies.derivatives.derivative import Derivative
 from umform.studies.derivatives.rates import Rates
 
 Floats = NDArray[np.float64]
-#: Numbers of a run by their names.
-Numbers = Mapping[str, float | None]
 #: Files: all slopes, the runs, the picture of one response.
 TABLE, RUNS, PICTURE = "slopes.csv", "slopes-runs.csv", "slopes.png"
 #: Probability of the band.
 _WITHIN = 0.95
+
+
+@dataclass(frozen=True)
+class Found:
+    """Quantities of a run, and the names of those that the process is for."""
+
+    quantities: tuple[Quantity, ...]
+    main: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, outcome: Outcome) -> Found:
+        """Those of the outcome of a process."""
+        return cls(tuple(one for one in outcome.quantities if one.value is not None), tuple(outcome.main))
 
 
 @dataclass(frozen=True)
@@ -39,13 +49,18 @@ class Run:
         Path of the parameter.
     value : float
         Its value.
-    numbers : mapping of str to float, or str
-        What was found, by name; why there is nothing.
+    found : Found or Exception
+        What was found, or why there is nothing.
     """
 
     path: str
     value: float
-    numbers: Numbers | str
+    found: Found | Exception
+
+    def number(self, name: str) -> float | None:
+        """A number of the run; None if it has none of this name."""
+        known = () if isinstance(self.found, Exception) else self.found.quantities
+        return next((one.value for one in known if one.name == name), None)
 
 
 @dataclass(frozen=True, repr=False)
@@ -72,12 +87,6 @@ class Slopes(Rates):
     width: float
     main: tuple[str, ...] = ()
 
-    @classmethod
-    def of(cls, parameters: Sequence[Scalar], base: Outcome, runs: Sequence[Run], width: float) -> Slopes:
-        """Those of an outcome and of runs beside it."""
-        known = tuple(one for one in base.quantities if one.value is not None)
-        return cls(tuple(parameters), known, tuple(runs), width, tuple(base.main))
-
     def __getitem__(self, key: tuple[str, str]) -> Derivative:
         """The slope of a response over a parameter, each by its name, with the half of its band of 95 %."""
         response, path = key
@@ -92,17 +101,13 @@ class Slopes(Rates):
         """Values of a parameter and of a response in all runs that have it, that of the case first; shape (n, 2)."""
         first = next(one for one in self.parameters if one.path == path).value
         base = next(one for one in self.responses if one.name == response).value
-        others = [
-            (run.value, run.numbers.get(response))
-            for run in self.runs
-            if run.path == path and not isinstance(run.numbers, str)
-        ]
+        others = [(run.value, run.number(response)) for run in self.runs if run.path == path]
         return np.array([(x, y) for x, y in [(first, base), *others] if y is not None], dtype=float)
 
     @cached_property
     def failed(self) -> list[Run]:
         """Runs that have failed."""
-        return [run for run in self.runs if isinstance(run.numbers, str)]
+        return [run for run in self.runs if isinstance(run.found, Exception)]
 
     @property
     def notes(self) -> list[str]:
@@ -116,7 +121,10 @@ class Slopes(Rates):
     @property
     def warnings(self) -> list[str]:
         """Runs that have failed."""
-        return [f"the run with {run.path} = {run.value:.6g} has failed: {run.numbers}" for run in self.failed]
+        return [
+            f"the run with {run.path} = {run.value:.6g} has failed: {str(run.found).splitlines()[0]}"
+            for run in self.failed
+        ]
 
     def write(self, folder: str | Path) -> list[Path]:
         """Write the slopes, and the numbers of all runs, in files of a folder, with a picture; returns the files."""
@@ -137,15 +145,9 @@ class Slopes(Rates):
             },
         )
         done = [run for run in self.runs if run not in self.failed]
-        numbers = {
-            one.name: [None if isinstance(run.numbers, str) else run.numbers.get(one.name) for run in done]
-            for one in self.responses
-        }
-        places: dict[str, list[Any]] = {
-            "parameter": [run.path for run in done],
-            "parameter_value": [run.value for run in done],
-        }
-        write_csv(folder / RUNS, {**places, **numbers})
+        paths: list[Any] = [run.path for run in done]
+        numbers = {one.name: [run.number(one.name) for run in done] for one in self.responses}
+        write_csv(folder / RUNS, {"parameter": paths, "parameter_value": [run.value for run in done], **numbers})
         self.plot(self._main, folder / PICTURE)
         return [folder / TABLE, folder / RUNS, folder / PICTURE]
 

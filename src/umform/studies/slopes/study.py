@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -12,9 +12,12 @@ from umform.errors import InvalidValue
 from umform.pool import run_all
 from umform.progress import Show, progress_bar
 from umform.results.outcome import Outcome
-from umform.spec import About, Scalar, changed, check_fields, scalars, takes
-from umform.studies.derivatives.derive import known_parameter
-from umform.studies.slopes.found import Numbers, Run, Slopes
+from umform.spec import About, Scalar, check_fields, takes
+from umform.studies.derivatives.derive import known_parameter, subject_of
+from umform.studies.derivatives.responses import responses
+from umform.studies.derivatives.subjects import OfFunction, Subject
+from umform.studies.slopes.found import Found, Run, Slopes
+from umform.studies.sweep.measures import Function
 
 
 @dataclass(frozen=True)
@@ -32,30 +35,33 @@ class SlopeOptions:
 
 @takes(SlopeOptions)
 def slopes(
-    process: Callable[[Any], Outcome],
-    case: Any,
-    by: Sequence[str],
+    subject: Any,
+    by: Sequence[str] | Mapping[str, float],
+    of: Sequence[str | Function] | None = None,
     *,
+    process: Callable[[Any], Outcome] | None = None,
     base: Outcome | None = None,
     processes: int | None = None,
     progress: Show = None,
     **options: Any,
 ) -> Slopes:
-    """Slopes of the results of a process over a range of each parameter, by least squares through whole runs.
+    """Slopes of results over a range of each parameter, by least squares through whole runs.
 
     The runs go in parallel processes, which are spawned: a script that calls this needs
     ``if __name__ == "__main__":``.
 
     Parameters
     ----------
-    process : callable
-        Runs a case, as `hemming` and `air_bending`; a function of a module.
-    case : Spec
-        The parameters; an angle that is a goal stays one.
-    by : sequence of str
-        Paths of numbers of the case, or their ends.
+    subject : Problem, case of a process, or callable
+        As for `derivatives`.
+    by : sequence of str, or mapping of str to float
+        Paths of numbers, or their ends; parameters with their values for a function, which runs in this process.
+    of : sequence of str or callable, optional
+        As for `derivatives`; with a process, its quantities.
+    process : callable, optional
+        Runs a case, as `hemming` and `air_bending`; a function of a module. An angle that is a goal stays one.
     base : Outcome, optional
-        That of the case, if it has been run.
+        That of the case, if the process has run it.
     processes : int, optional
         Number of processes; default: that of the processors.
     progress : bool or callable, optional
@@ -72,59 +78,61 @@ def slopes(
     ------
     InvalidValue
         A parameter does not exist, is a whole number or zero, or a value of its range is refused.
+    UmformError
+        The run of the case itself fails.
 
     Examples
     --------
     >>> import umform as uf
     >>> from umform.processes.hemming import Hemming, hemming
-    >>> found = uf.slopes(hemming, Hemming(form="rope"), ["gap"])  # doctest: +SKIP
-    >>> found["roll_in", "gap"].value, found["roll_in", "gap"].band  # doctest: +SKIP
+    >>> found = uf.slopes(Hemming(form="rope"), ["thickness"], process=hemming)  # doctest: +SKIP
+    >>> found["roll_in", "thickness"].value, found["roll_in", "thickness"].band  # doctest: +SKIP
     """
-    planned = planned_runs(case, by, **options)
-    made = process(case) if base is None else base
+    thing, wanted = subject_of(subject, by), SlopeOptions(**options)
+    planned = planned_runs(subject, by, **options)
+    tasks = [_Task(thing.with_({path: value}), of, process) for path, value in planned]
+    if base is None:
+        tasks.append(_Task(thing, of, process))
     with progress_bar(progress) as tick:
-        answers = run_all(
-            _numbers,
-            [_Task(process, changed(case, {path: value})) for path, value in planned],
-            [1.0] * len(planned),
-            on_failure=lambda task, error: str(error).splitlines()[0],
-            processes=processes,
+        answers: list[Found | Exception] = run_all(
+            _run,
+            tasks,
+            [1.0] * len(tasks),
+            on_failure=lambda task, error: error,
+            processes=1 if isinstance(thing, OfFunction) else processes,
             tick=lambda done: tick("slopes", done),
         )
+    first = answers.pop() if base is None else Found.of(base)
+    if isinstance(first, Exception):
+        raise first
     runs = [Run(path, value, answer) for (path, value), answer in zip(planned, answers, strict=True)]
-    return Slopes.of(parameters_of(case, by), made, runs, SlopeOptions(**options).width)
+    return Slopes(tuple(_parameters(thing, by)), first.quantities, tuple(runs), wanted.width, first.main)
 
 
 @takes(SlopeOptions)
-def planned_runs(case: Any, by: Sequence[str], **options: Any) -> list[tuple[str, float]]:
-    """Path and value of the parameter of each run of `slopes`.
+def planned_runs(subject: Any, by: Sequence[str] | Mapping[str, float], **options: Any) -> list[tuple[str, float]]:
+    """Path and value of the parameter of each run of `slopes` beside that of the subject.
 
     Raises
     ------
     InvalidValue
         As `slopes`.
     """
-    wanted = SlopeOptions(**options)
+    thing, wanted = subject_of(subject, by), SlopeOptions(**options)
     steps = [step for step in range(-wanted.each_side, wanted.each_side + 1) if step]
     runs = [
         (one.path, one.value * (1.0 + wanted.width * step / wanted.each_side))
-        for one in parameters_of(case, by)
+        for one in _parameters(thing, by)
         for step in steps
     ]
     for path, value in runs:
-        changed(case, {path: value})
+        thing.with_({path: value})
     return runs
 
 
-def parameters_of(case: Any, by: Sequence[str]) -> list[Scalar]:
-    """The numbers of a case by their paths, or the ends of these, each once.
-
-    Raises
-    ------
-    InvalidValue
-        There is none, it is a whole number, or zero.
-    """
-    known = {one.path: one for one in scalars(case)}
+def _parameters(thing: Subject, by: Iterable[str]) -> list[Scalar]:
+    """The numbers of these paths, each once; those that have a range."""
+    known = {one.path: one for one in thing.parameters()}
     found = {one.path: one for one in (known_parameter(name, known) for name in by)}
     for one in found.values():
         if one.value == 0.0:
@@ -140,10 +148,16 @@ def parameters_of(case: Any, by: Sequence[str]) -> list[Scalar]:
 
 @dataclass(frozen=True)
 class _Task:
-    process: Callable[[Any], Outcome]
-    case: Any
+    thing: Subject
+    of: Sequence[str | Function] | None
+    process: Callable[[Any], Outcome] | None
 
 
-def _numbers(task: _Task) -> Numbers | str:
-    """Numbers of a run by their names; what has gone wrong, if it has."""
-    return {one.name: one.value for one in task.process(task.case).quantities}
+def _run(task: _Task) -> Found:
+    """What a run has found."""
+    if task.process is not None:
+        return Found.of(task.process(task.thing.given))
+    built = task.thing.build()
+    results = built.solve(False)
+    known = responses(task.of, task.thing.quantities(built, *results), results[-1])
+    return Found(tuple(one.quantity for one in known), tuple(task.thing.main(*results)))

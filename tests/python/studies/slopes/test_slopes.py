@@ -57,7 +57,7 @@ def known(case):
 
 @pytest.fixture(scope="module")
 def found():
-    return slopes(known, Wavy(), ["length", "strength"], processes=1, progress=False)
+    return slopes(Wavy(), ["length", "strength"], process=known, processes=1, progress=False)
 
 
 def test_a_straight_line_has_its_slope_and_no_band(found):
@@ -87,11 +87,11 @@ def test_a_run_that_fails_is_a_warning_and_its_line_has_one_point_less(found):
 
 
 def test_a_number_of_less_than_three_runs_has_no_slope():
-    few = slopes(known, Wavy(), ["strength"], width=0.2, each_side=1, processes=1, progress=False)
+    few = slopes(Wavy(), ["strength"], width=0.2, each_side=1, process=known, processes=1, progress=False)
     one = few["straight", "strength"]
     assert one.value is None and one.band is None and "fewer than three" in one.why
     assert not any(row[0] == "straight" for row in few.table)
-    half = slopes(known, Wavy(), ["length"], processes=1, progress=False)
+    half = slopes(Wavy(), ["length"], process=known, processes=1, progress=False)
     assert len(half.points("late", "length")) == 3
 
 
@@ -125,7 +125,7 @@ def test_what_has_no_slope_is_refused_before_any_run(name, options, text):
 def test_slopes_of_a_smooth_process_are_its_derivatives():
     case = AirBending(stroke=4.0, layers=1, elements_per_thickness=1.0, increment=0.025)
     base = air_bending(case, progress=False)
-    lines = slopes(air_bending, case, ["die_radius"], base=base, processes=1, progress=False)
+    lines = slopes(case, ["die_radius"], process=air_bending, base=base, processes=1, progress=False)
     exact = uf.derivatives(case, ["die_radius"], ["springback", "angle"], progress=False)
     for name in ("springback", "angle"):
         slope, derivative = lines[name, "die_radius"], exact[name, "die_radius"].value
