@@ -123,7 +123,7 @@ class AirBending:
     element: str | Element = "BEND18"
     """Element of the catalogue, or one of your own."""
     layers: Annotated[int, Ge(1), Le(8)] = 2
-    """Elements stacked through the thickness of the thickest sheet; bonded ones are one sheet."""
+    """Elements stacked through the thickness."""
     thickness_points: Annotated[int, Ge(2), Le(15)] = 6
     """Points through the thickness of each layer."""
     elements_per_thickness: Annotated[float, Gt(0.0), Le(100.0), About(cause="the number of all elements instead")] = (
