@@ -25,7 +25,7 @@ Floats = NDArray[np.float64]
 #: Constants of the bar, its elongations with the increments to each, and the noise of its force.
 TRUTH = {"yield_stress": 200.0, "modulus": 500.0, "C": 20e3, "gamma": 100.0}
 CYCLE, NOISE = ((0.02, 8), (-0.02, 12)), 2.0
-SAMPLES, FEW = 100, 10
+SAMPLES, FEW = 100, 4
 #: Standard deviations of the measured bend: degrees, and relative to the force.
 ANGLE, FORCE = 0.1, 0.01
 #: The bend that is measured, and those that are predicted.
@@ -114,7 +114,7 @@ def _numbers(case: Any, others: Sequence[str]) -> Floats:
 
 def _bends(page: Page) -> None:
     """A card that one bend corrects."""
-    card = page.pick((CARD,), (replace(CARD, elements_per_thickness=1.0, layers=1),))[0]
+    card = page.pick((CARD,), (replace(CARD, elements_per_thickness=1.0, layers=1, increment=0.025),))[0]
     others = page.pick(list(OTHERS), ["punch radius 3"])
     before = _numbers(card, others)
     errors: dict[str, tuple[Floats, Floats]] = {}
