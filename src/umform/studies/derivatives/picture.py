@@ -32,6 +32,7 @@ def tornado(derivatives: Sequence[Derivative], path: str | Path | None = None) -
         bands = [abs(0.01 * (one.band or 0.0) * one.parameter.value) for one in known]
         axes.barh([one.parameter.path for one in known], changes, color=colours, xerr=bands if any(bands) else None)
         axes.axvline(0.0, color="black", linewidth=0.8)
+        axes.locator_params(axis="x", nbins=6)
         unit = f", {response.unit}" if response.unit else ""
         axes.set_xlabel(f"change of the {response.label} for 1 % more of each parameter{unit}")
     if path is not None:
