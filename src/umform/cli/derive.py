@@ -92,15 +92,21 @@ def derive(
         paths, held = by or (table.by if table else []), dict(_pair(text) for text in hold or ())
         wanted = of or (table.results or None if table else None)
         _refuse_none(paths)
-        held = held or (table.hold if table else {})
         _refuse_both(held, width)
+        held = held or (table.hold if table else {})
         files = (TABLE, SLOPES)
         place = folder_for(out, Path("results") / f"{deck.stem}-derive", files, overwrite=overwrite, say=said.append)
         found: Rates
         if width is None:
             found = derivatives(problem, paths, wanted, hold=held)
         else:
-            found = slopes(problem, paths, wanted, width=width)
+            if held:
+                said.append(f"slopes of whole runs hold no result; the deck would hold {', '.join(held)}")
+            try:
+                found = slopes(problem, paths, wanted, width=width)
+            except InvalidValue as error:
+                error.where = "--width" if error.where == "width" else error.where
+                raise
     for text in said:  # only of a run that starts
         typer.echo(f"umform: {text}", err=True)
     show_annex(found.annex)

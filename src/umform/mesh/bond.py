@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
 from umform.mesh.mesh import Floats, Mesh, Selector, nodes_of_faces
@@ -35,7 +34,7 @@ def bond(mesh: Mesh, faces: Selector, others: Selector) -> Mesh:
     Raises
     ------
     InvalidValue
-        If a face has no partner.
+        If a face has no partner, or they do not look at each other.
 
     Examples
     --------
@@ -50,12 +49,13 @@ def bond(mesh: Mesh, faces: Selector, others: Selector) -> Mesh:
     number, left = _numbers(mesh, mesh.nodes_on(first), mesh.nodes_on(second))
     cells, points = number[mesh.connectivity], mesh.points[left]
     bonded = _corners(cells, second)
-    alone = ~_among(bonded, _corners(cells, first))
-    if alone.any():
-        raise _unmatched(points[bonded[alone][0]], "these nodes belong to several faces of the other sheet")
+    partner = _partners(_corners(cells, first), bonded)
+    if (partner < 0).any():
+        raise _unmatched(points[bonded[partner < 0][0]], "these nodes belong to several faces of the other sheet")
+    _check_sides(points, cells, first[partner], second)
     sets, outer = {name: unique(number[ids]) for name, ids in mesh.sets.items()}, {}
     for name, rows in mesh.faces.items():
-        free = ~_among(_corners(cells, rows), bonded)
+        free = _partners(bonded, _corners(cells, rows)) < 0
         if free.any():
             outer[name] = rows[free]
         else:
@@ -78,6 +78,22 @@ def _numbers(mesh: Mesh, kept: Whole, moved: Whole) -> tuple[Whole, Whole]:
     return number.ravel(), left
 
 
+def _check_sides(points: Floats, cells: Whole, first: Whole, second: Whole) -> None:
+    """Refuse cells on the same side of their common face, and sheets that are turned over."""
+    middle = points[_corners(cells, second)].mean(axis=1)
+    sides = [points[cells[rows[:, 0]]].mean(axis=1) - middle for rows in (first, second)]
+    over = np.einsum("ni,ni->n", *sides) >= 0.0
+    turned = (np.minimum(first[:, 1], second[:, 1]) < 2) & (first[:, 1] + second[:, 1] != 1)
+    if over.any() or turned.any():
+        raise InvalidValue(
+            "bonded faces look at each other, an upper one at a lower one",
+            where=place(middle[over | turned][:1]),
+            value="both cells lie on one side" if over.any() else "one of the sheets is turned over",
+            cause="a face bonded to itself, sheets in the same place, or two upper faces",
+            remedy='bond(mesh, "upper of a", "lower of b"), with b above a',
+        )
+
+
 def _corners(cells: Whole, rows: Whole) -> Whole:
     """Corners of faces (cell, number of the face), ascending; shape (k, 4)."""
     corners, half = np.array(nodes_of_faces("hex8")), cells.shape[1] // 2
@@ -85,10 +101,12 @@ def _corners(cells: Whole, rows: Whole) -> Whole:
     return np.sort(cells[rows[:, :1], local[rows[:, 1]]], axis=1)
 
 
-def _among(some: Whole, others: Whole) -> NDArray[np.bool_]:
-    """Which of some rows are among others."""
+def _partners(some: Whole, others: Whole) -> Whole:
+    """For each of other rows that of some which is equal; -1: none."""
     number = np.unique(np.concatenate([some, others]), axis=0, return_inverse=True)[1].ravel()
-    return np.isin(number[: len(some)], number[len(some) :])
+    at = np.full(len(number), -1)
+    at[number[: len(some)]] = np.arange(len(some))
+    return at[number[len(some) :]]
 
 
 def _unmatched(points: Floats, found: str) -> InvalidValue:

@@ -117,3 +117,21 @@ def test_faces_that_do_not_match_are_refused():
     refused(lifted(strip((7, 1))), "the next node is 0.536 away")
     refused(lifted(one, 0.3), "the next node is 0.1 away")
     refused(lifted(strip((4, 1))), "several faces of the other sheet")
+
+
+@pytest.mark.parametrize(
+    ("z", "faces", "text"),
+    [
+        (0.0, ("upper of a", "upper of b"), "both cells lie on one side"),
+        (0.2, ("upper of a", "upper of a"), "both cells lie on one side"),
+        (0.2, ("upper of a", "upper of b"), "turned over"),
+    ],
+)
+def test_faces_that_do_not_look_at_each_other_are_refused(z, faces, text):
+    one = strip()
+    other = lifted(one, z)
+    if "turned" in text:
+        other = one.transformed(lambda X: X * [1.0, -1.0, -1.0] + [0.0, 1.0, z])
+    with pytest.raises(InvalidValue, match="look at each other") as found:
+        uf.mesh.bond(uf.mesh.together(a=one, b=other), *faces)
+    assert text in str(found.value)

@@ -61,7 +61,9 @@ def test_elements_of_bonded_sheets_follow_the_thinnest():
     case = AirBending(thickness=3.0, opening=24.0, on_top=[StackedSheet(0.1, FILM, bonded=True)])
     assert 0.5 < lines_along(case)[1] <= 0.6
     assert lines_along(replace(case, on_top=()))[1] > 0.8
-    assert [len(lines_through(case, sheet.thickness)) for sheet in case.sheets] == [3, 2]
+    assert [len(lines_through(case, number)) for number in range(2)] == [3, 2]
+    loose = replace(case, on_top=[StackedSheet(1.0, FILM, 0.1)], friction=0.1)
+    assert [len(lines_through(loose, number)) for number in range(2)] == [3, 3]
 
 
 def test_the_flow_stress_in_plane_strain_decides_and_the_rule_of_the_shop():

@@ -11,11 +11,13 @@ import pytest
 import umform as uf
 from umform.cli.stack import stacked
 from umform.errors import InvalidValue
+from umform.materials import J2, Voce
 from umform.processes.air_bending import AirBending, StackedSheet, air_bending
 from umform.processes.air_bending.files import record
 from umform.processes.air_bending.formulas import _bending, shop_forces
 from umform.processes.air_bending.outcome import outcome_of
 from umform.processes.air_bending.problem import problem_of
+from umform.processes.air_bending.search import find_stroke, transformed_stiffness
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.spec import dc04_like
 from umform.processes.air_bending.stacked import gaps_of
@@ -141,3 +143,14 @@ def test_derivatives_of_a_stack_are_those_of_differences():
     step = 1e-3
     expected = [(up - down) / (2.0 * step) for up, down in zip(angles(2.0 + step), angles(2.0 - step), strict=True)]
     np.testing.assert_allclose(rates, expected, rtol=1e-3)
+
+
+def test_the_stroke_of_an_angle_takes_the_stiffness_of_bonded_sheets():
+    """A soft foil below: the estimated springback that ends a part of the search is that of the sheet."""
+    assert transformed_stiffness([3.0], [2.0]) == pytest.approx(3.0 * 2.0**3 / 12.0)
+    assert transformed_stiffness([3.0, 3.0], [0.5, 1.5]) == pytest.approx(3.0 * 2.0**3 / 12.0)
+    foil = J2(E=250.0, nu=0.45, hardening=Voce(10.0, 25.0, 1.5))
+    above = StackedSheet(1.0, dc04_like(), bonded=True)
+    case = AirBending(**COARSE | {"thickness": 0.1, "material": foil, "opening": 12.0, "on_top": [above]})
+    found = find_stroke(case, 120.0, tolerance=0.1, progress=False)
+    assert found.measures.angle == pytest.approx(120.0, abs=0.1)

@@ -74,7 +74,7 @@ def force_per_width(case: AirBending, force: NDArray[np.float64]) -> NDArray[np.
 
 def against_flank(case: AirBending, contacts: Mapping[str, ContactPoints]) -> str:
     """Tool, "die" or "punch", whose flank the sheet touches, a quarter of a thickness beyond the radius."""
-    beyond = 0.25 * case.thickness
+    beyond = 0.25 * case.thickest
     die, punch = (0.5 * math.radians(180.0 - angle) for angle in (case.die_angle, case.punch_angle))
     x_die = np.abs(contacts["die"].x[contacts["die"].gap <= 0.0, 0])
     if (x_die < case.shoulder - case.die_radius * math.sin(die) - beyond * math.cos(die)).any():

@@ -109,7 +109,7 @@ def _mesh(case: AirBending) -> dict[str, Any]:
     sheets: dict[str, dict[str, Any]] = {name_of(0): {"mesh": first}}
     height = case.thickness
     for number, sheet in enumerate(case.on_top, 1):
-        z = lines_through(case, sheet.thickness).tolist()
+        z = lines_through(case, number).tolist()
         sheets[name_of(number)] = {
             "mesh": {**first, "z": z, "thickness": sheet.thickness},
             "shift": (0.0, 0.0, height),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from itertools import accumulate
 
 from umform.errors import InvalidValue, SolveError
 from umform.notebook import Display, InNotebook
@@ -14,6 +15,7 @@ from umform.processes.air_bending.branches import FRAMES, Brake
 from umform.processes.air_bending.goal import Goal, check_angle, unreachable
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.spec import AirBending
+from umform.processes.air_bending.stack import bonded_sheets
 from umform.progress import Tick, progress_bar, silent
 from umform.spec import check_value
 
@@ -301,10 +303,21 @@ def _unreached(brake: Brake, angle: float, state: Loaded, smallest: float) -> In
 def _springback(case: AirBending, state: Loaded) -> float:
     """About how far a sheet springs back, in degrees: N l²/(E' I), N the force of a shoulder, l the length of a leg."""
     slope = math.radians(90.0 - 0.5 * state.angle)
-    material, wide = case.material, case.width is None
-    stiffness = material.E / (1.0 - material.nu**2 if wide else 1.0) * case.thickness**3 / 12.0
+    layers = [case.sheets[number] for number in bonded_sheets(case)[0]]
+    stiff = [one.material.E / (1.0 - one.material.nu**2 if case.width is None else 1.0) for one in layers]
+    stiffness = transformed_stiffness(stiff, [one.thickness for one in layers])
     lever = case.free_length(math.degrees(slope))
     return math.degrees(0.5 * state.force / math.cos(slope) * lever**2 / stiffness)
+
+
+def transformed_stiffness(stiff: Sequence[float], thicknesses: Sequence[float]) -> float:
+    """Bending stiffness per width of layers with these moduli, about their common neutral fibre."""
+    layers = list(zip(stiff, thicknesses, strict=True))
+    ends = accumulate(thicknesses)
+    middles = [end - 0.5 * (t + thicknesses[0]) for end, t in zip(ends, thicknesses, strict=True)]
+    whole = sum(E * t for E, t in layers)
+    neutral = sum(E * t * z for (E, t), z in zip(layers, middles, strict=True)) / whole
+    return sum(E * t**3 / 12.0 + E * t * (z - neutral) ** 2 for (E, t), z in zip(layers, middles, strict=True))
 
 
 def _next_stroke(trials: Sequence[tuple[float, float]], angle: float, slope: float, largest: float) -> float:

@@ -40,12 +40,15 @@ def lines_of(case: AirBending) -> tuple[Floats, Floats, Floats]:
         across: Floats = np.array([0.0, case.thickest])
     else:  # finer towards the edge, where the sheet curls
         across = mesh.graded(0.5 * case.width, case.width_elements, 0.5)
-    return lines_along(case), across, lines_through(case, case.thickness)
+    return lines_along(case), across, lines_through(case, 0)
 
 
-def lines_through(case: AirBending, thickness: float) -> Floats:
-    """Element borders through a sheet: the layers of the thickest one are no thinner than those of the others."""
-    return mesh.graded(thickness, math.ceil(case.layers * thickness / case.thickest - 1e-9))
+def lines_through(case: AirBending, number: int) -> Floats:
+    """Element borders through a sheet, counted from the die from 0; bonded ones share the layers."""
+    thickness = case.sheets[number].thickness
+    whole = next(sheets for sheets in bonded_sheets(case) if number in sheets)
+    share = thickness / sum(case.sheets[one].thickness for one in whole)
+    return mesh.graded(thickness, math.ceil(case.layers * share - 1e-9))
 
 
 def lines_along(case: AirBending) -> Floats:

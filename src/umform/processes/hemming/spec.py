@@ -225,5 +225,5 @@ def refuse_jumps(case: Hemming) -> None:
             where="form",
             value=case.form,
             cause="whole runs with slightly different sizes do not lie on a smooth curve",
-            remedy="slopes from whole runs: uf.slopes, or umform hem --derive; or the form open or insert",
+            remedy="slopes of whole runs: umform hem --derive, uf.slopes(..., process=hemming); or form open or insert",
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -12,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import stdtrit
 
+from umform.errors import InvalidValue
 from umform.io.tables import write_csv
 from umform.results.outcome import Outcome
 from umform.results.quantity import Quantity
@@ -22,6 +24,8 @@ from umform.studies.derivatives.rates import Rates
 Floats = NDArray[np.float64]
 #: Files: all slopes, the runs, the picture of one response.
 TABLE, RUNS, PICTURE = "slopes.csv", "slopes-runs.csv", "slopes.png"
+#: Distances from the mean, over the values, that are round-off.
+_SAME = 1e-13
 #: Probability of the band.
 _WITHIN = 0.95
 
@@ -34,9 +38,24 @@ class Found:
     main: tuple[str, ...] = ()
 
     @classmethod
-    def of(cls, outcome: Outcome) -> Found:
-        """Those of the outcome of a process."""
-        return cls(tuple(one for one in outcome.quantities if one.value is not None), tuple(outcome.main))
+    def of(cls, outcome: Outcome, wanted: Sequence[Any] | None = None) -> Found:
+        """Those of the outcome of a process, all or the wanted ones.
+
+        Raises
+        ------
+        InvalidValue
+            It has no quantity of a wanted name.
+        """
+        known = {one.name: one for one in outcome.quantities if one.value is not None}
+        unknown = [one for one in wanted or () if one not in known]
+        if unknown:
+            raise InvalidValue(
+                "the process has no such quantity",
+                where="of",
+                value=unknown[0],
+                remedy=f"one of {', '.join(known)}",
+            )
+        return cls(tuple(known[one] for one in wanted or known), tuple(outcome.main))
 
 
 @dataclass(frozen=True)
@@ -113,8 +132,9 @@ class Slopes(Rates):
     def notes(self) -> list[str]:
         """What the slopes are from."""
         each = len(self.runs) // len(self.parameters)
+        count = f"{'up to ' if self.failed else ''}{each + 1}"
         return [
-            f"slopes of lines through {each + 1} whole runs, within {100.0 * self.width:g} % of each parameter; ±: "
+            f"slopes of lines through {count} whole runs, within {100.0 * self.width:g} % of each parameter; ±: "
             f"{100.0 * _WITHIN:g} % by the distances of the runs from the line"
         ]
 
@@ -122,7 +142,8 @@ class Slopes(Rates):
     def warnings(self) -> list[str]:
         """Runs that have failed."""
         return [
-            f"the run with {run.path} = {run.value:.6g} has failed: {str(run.found).splitlines()[0]}"
+            f"the run with {run.path} = {run.value:.6g} has failed: "
+            + (str(run.found) or repr(run.found)).splitlines()[0]
             for run in self.failed
         ]
 
@@ -156,7 +177,10 @@ def _line(x: Floats, y: Floats) -> tuple[float, float]:
     """Slope of the line of least squares, and half of its band."""
     away = x - x.mean()
     square = float(away @ away)
-    slope = float(away @ y) / square
-    rest = y - y.mean() - slope * away
+    beside = y - y.mean()
+    if np.abs(beside).max() <= _SAME * np.abs(y).max():
+        return 0.0, 0.0
+    slope = float(away @ beside) / square
+    rest = beside - slope * away
     free = len(x) - 2
     return slope, float(stdtrit(free, 0.5 + 0.5 * _WITHIN)) * math.sqrt(float(rest @ rest) / free / square)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
@@ -15,7 +16,7 @@ from umform.results.outcome import Outcome
 from umform.spec import About, Scalar, check_fields, takes
 from umform.studies.derivatives.derive import known_parameter, subject_of
 from umform.studies.derivatives.responses import responses
-from umform.studies.derivatives.subjects import OfFunction, Subject
+from umform.studies.derivatives.subjects import OfFunction, Subject, refuse_same_model
 from umform.studies.slopes.found import Found, Run, Slopes
 from umform.studies.sweep.measures import Function
 
@@ -24,7 +25,7 @@ from umform.studies.sweep.measures import Function
 class SlopeOptions:
     """Which runs the slopes are taken from."""
 
-    width: Annotated[float, Gt(0.0), Le(0.5), About(cause="per cent instead of a part of one")] = 0.02
+    width: Annotated[float, Gt(0.0), Le(0.5), About(cause="per cent instead of a part of one, or no range")] = 0.02
     """Half of the range of each parameter, over its value."""
     each_side: Annotated[int, Ge(1), Le(20)] = 2
     """Runs with smaller values of each parameter, and with larger ones, at equal distances."""
@@ -57,7 +58,7 @@ def slopes(
     by : sequence of str, or mapping of str to float
         Paths of numbers, or their ends; parameters with their values for a function, which runs in this process.
     of : sequence of str or callable, optional
-        As for `derivatives`; with a process, its quantities.
+        As for `derivatives`, each with a name of its own; with a process, names of its quantities.
     process : callable, optional
         Runs a case, as `hemming` and `air_bending`; a function of a module. An angle that is a goal stays one.
     base : Outcome, optional
@@ -90,6 +91,11 @@ def slopes(
     """
     thing, wanted = subject_of(subject, by), SlopeOptions(**options)
     planned = planned_runs(subject, by, **options)
+    here = isinstance(thing, OfFunction)
+    if here:
+        refuse_same_model([thing.build(), thing.build()])
+    elif processes != 1:
+        _refuse_local(of, process)
     tasks = [_Task(thing.with_({path: value}), of, process) for path, value in planned]
     if base is None:
         tasks.append(_Task(thing, of, process))
@@ -99,10 +105,10 @@ def slopes(
             tasks,
             [1.0] * len(tasks),
             on_failure=lambda task, error: error,
-            processes=1 if isinstance(thing, OfFunction) else processes,
+            processes=1 if here else processes,
             tick=lambda done: tick("slopes", done),
         )
-    first = answers.pop() if base is None else Found.of(base)
+    first = answers.pop() if base is None else Found.of(base, of)
     if isinstance(first, Exception):
         raise first
     runs = [Run(path, value, answer) for (path, value), answer in zip(planned, answers, strict=True)]
@@ -119,6 +125,8 @@ def planned_runs(subject: Any, by: Sequence[str] | Mapping[str, float], **option
         As `slopes`.
     """
     thing, wanted = subject_of(subject, by), SlopeOptions(**options)
+    if not by:
+        raise InvalidValue("there is no parameter for slopes", where="by", remedy='by=["thickness"], for instance')
     steps = [step for step in range(-wanted.each_side, wanted.each_side + 1) if step]
     runs = [
         (one.path, one.value * (1.0 + wanted.width * step / wanted.each_side))
@@ -146,6 +154,21 @@ def _parameters(thing: Subject, by: Iterable[str]) -> list[Scalar]:
     return list(found.values())
 
 
+def _refuse_local(of: Sequence[str | Function] | None, process: Callable[[Any], Outcome] | None) -> None:
+    """Refuse functions that other processes do not find."""
+    for function in [*(one for one in of or () if callable(one)), *([process] if process else [])]:
+        try:
+            pickle.dumps(function)
+        except (pickle.PicklingError, AttributeError, TypeError) as error:
+            raise InvalidValue(
+                "a function within another one, or of a notebook, is not known to other processes",
+                where="of" if function is not process else "process",
+                value=getattr(function, "__name__", function),
+                cause=str(error),
+                remedy="processes=1, or a function of a module",
+            ) from None
+
+
 @dataclass(frozen=True)
 class _Task:
     thing: Subject
@@ -156,7 +179,7 @@ class _Task:
 def _run(task: _Task) -> Found:
     """What a run has found."""
     if task.process is not None:
-        return Found.of(task.process(task.thing.given))
+        return Found.of(task.process(task.thing.given), task.of)
     built = task.thing.build()
     results = built.solve(False)
     known = responses(task.of, task.thing.quantities(built, *results), results[-1])

@@ -131,3 +131,47 @@ def test_slopes_of_a_smooth_process_are_its_derivatives():
         slope, derivative = lines[name, "die_radius"], exact[name, "die_radius"].value
         assert slope.value == pytest.approx(derivative, rel=0.01)
         assert slope.band < 0.01 * abs(derivative)
+
+
+def test_a_number_that_does_not_change_has_no_row(found):
+    one = slopes(Wavy(length=11.0), ["strength"], process=known, processes=1, progress=False)
+    assert (one["late", "strength"].value, one["late", "strength"].band) == (0.0, 0.0)
+    assert [row[0] for row in one.table[1:]] == ["straight"]
+
+
+def test_wanted_names_of_a_process():
+    few = slopes(Wavy(), ["length"], ["steps"], process=known, processes=1, progress=False)
+    assert [one.name for one in few.responses] == ["steps"]
+    with pytest.raises(InvalidValue, match="no such quantity"):
+        slopes(Wavy(), ["length"], ["stepps"], process=known, base=known(Wavy()), processes=1, progress=False)
+
+
+def test_a_model_of_a_function_is_built_anew_for_each_run():
+    def build(way):
+        model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=210e3, nu=0.3))
+        model.fix("x0")
+        return model, uf.Move(model.prescribe("x1_lower", "z", name="tip"), to=-way, steps=1)
+
+    found = slopes(build, {"way": 0.01}, ["tip_force:last"], each_side=1, progress=False)
+    assert found["tip_force:last", "way"].relative == pytest.approx(1.0, rel=1e-3)
+    cached = build(0.01)
+    with pytest.raises(InvalidValue, match="the same model twice"):
+        slopes(lambda way: cached, {"way": 0.01}, ["tip_force:last"], progress=False)
+
+
+def test_a_function_that_other_processes_do_not_find_is_refused_before_the_runs():
+    with pytest.raises(InvalidValue, match="not known to other processes"):
+        slopes(Wavy(), ["length"], process=lambda case: Known(case), processes=2, progress=False)
+    with pytest.raises(InvalidValue, match="no parameter for slopes"):
+        slopes(Wavy(), [], process=known, processes=1, progress=False)
+
+
+def test_an_error_without_a_text_has_its_name():
+    def end(case):
+        if case.length > 10.0:
+            raise AssertionError
+        return Known(case)
+
+    few = slopes(Wavy(), ["length"], process=end, processes=1, progress=False)
+    assert "AssertionError" in few.warnings[0]
+    assert few.notes[0].startswith("slopes of lines through up to 5 whole runs")
