@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import stdtrit
 
 from umform.errors import InvalidValue
 from umform.io.tables import write_csv
@@ -98,6 +97,17 @@ class Slopes(Rates):
         Half of the range, over the value of the parameter.
     main : tuple of str
         Names of the responses that the process is for.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> def build(E):
+    ...     model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=E, nu=0.3))
+    ...     model.fix("x0")
+    ...     return model, uf.Move(model.prescribe("x1_lower", "z", name="tip"), to=-0.1, steps=2)
+    >>> found = uf.slopes(build, {"E": 210e3}, ["tip_force:last"], each_side=1)
+    >>> round(found["tip_force:last", "E"].relative, 6)
+    1.0
     """
 
     parameters: tuple[Scalar, ...]
@@ -175,6 +185,8 @@ class Slopes(Rates):
 
 def _line(x: Floats, y: Floats) -> tuple[float, float]:
     """Slope of the line of least squares, and half of its band."""
+    from scipy.special import stdtrit  # slow to import
+
     away = x - x.mean()
     square = float(away @ away)
     beside = y - y.mean()
