@@ -9,7 +9,7 @@ from umform.mesh.mesh import Floats, Mesh, Selector, nodes_of_faces
 from umform.mesh.neighbours import Whole, place
 from umform.mesh.numbers import unique
 
-#: Distance below which two nodes are at one place, over the smallest distance of nodes of a face.
+#: Tolerance of coinciding nodes, relative to the smallest distance between nodes of the face.
 _NEAR = 1e-3
 
 

@@ -39,6 +39,9 @@ def test_a_patch_leaves_the_rest_of_the_face_outside():
     base = strip(cells=(8, 2))
     patch = uf.mesh.strip(5.0, 0.5, 0.2, (4, 1))
     patched = uf.mesh.bond(uf.mesh.together(base=base, patch=lifted(patch)), "upper of base", "lower of patch")
+    assert sheet_thickness(patched) == pytest.approx(0.2)
+    assert sheet_thickness(patched, patched.face_set("lower of base")) == pytest.approx(0.2)
+    assert sheet_thickness(patched, patched.face_set("upper of patch")) == pytest.approx(0.4)
     assert len(patched.faces["upper of base"]) == 16 - 4
     assert "lower of patch" not in patched.faces
 

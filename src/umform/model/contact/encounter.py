@@ -84,27 +84,33 @@ class Encounter:
 
 
 def sheet_thickness(mesh: Mesh, faces: Ids | None = None) -> float:
-    """Thickness of the sheet: the median over its cells, summed over stacked layers; of several the smallest.
+    """Thickness of the sheet: the median over its cells, of stacked ones over its fibres; of several the smallest.
 
-    ``faces``, rows (cell, face): only the sheets that these belong to.
+    ``faces``, rows (cell, face): only the sheets that these belong to, and the fibres that end there.
     """
     sheet = sheets_of(mesh)
-    of = unique(sheet if faces is None else sheet[faces[:, 0]])
-    return min(cells_thickness(mesh, np.flatnonzero(sheet == one)) for one in of.tolist())
+    if faces is None:
+        return min(cells_thickness(mesh, np.flatnonzero(sheet == one)) for one in unique(sheet).tolist())
+    own = sheet[faces[:, 0]]
+    return min(cells_thickness(mesh, np.flatnonzero(sheet == one), faces[own == one]) for one in unique(own).tolist())
 
 
-def cells_thickness(mesh: Mesh, cells: Numbers) -> float:
-    """Thickness of some cells: the sum over stacked layers of their medians."""
+def cells_thickness(mesh: Mesh, cells: Numbers, faces: Ids | None = None) -> float:
+    """Thickness of some cells: their median, or that of the fibres through stacked ones, all or those of faces."""
     nodes, half = mesh.connectivity[cells], mesh.connectivity.shape[1] // 2
     lower, upper = nodes[:, :half], nodes[:, half:]
-    heights = np.linalg.norm(mesh.points[upper] - mesh.points[lower], axis=-1)
     if not len(common(lower, upper)):
-        return median(heights)
-    layer, thickness = ~np.isin(lower, upper).all(axis=1), 0.0
-    while layer.any():
-        thickness += median(heights[layer])
-        layer = np.isin(lower, upper[layer]).all(axis=1)
-    return thickness
+        return median(np.linalg.norm(mesh.points[upper] - mesh.points[lower], axis=-1))
+    above, below = np.arange(len(mesh.points)), np.arange(len(mesh.points))
+    above[lower], below[upper] = upper, lower
+    ends = unique(lower) if faces is None else mesh.nodes_on(faces)
+    while not np.array_equal(ends, down := unique(below[ends])):
+        ends = down
+    length = np.zeros(len(ends))
+    while not np.array_equal(ends, following := above[ends]):
+        length += np.linalg.norm(mesh.points[following] - mesh.points[ends], axis=-1)
+        ends = following
+    return median(length)
 
 
 def bending_stress(material: Material, strain: float, where: str) -> float:

@@ -225,14 +225,8 @@ class Derivatives(Rates):
         ones = list(self)
         write_csv(
             folder / TABLE,
-            {
-                "response": [one.response.name for one in ones],
-                "response_value": [one.response.value for one in ones],
-                "parameter": [one.parameter.path for one in ones],
-                "parameter_value": [one.parameter.value for one in ones],
-                "value": [one.value for one in ones],
-                "relative": [one.relative for one in ones],
-                "unit": [one.unit for one in ones],
+            self._columns()
+            | {
                 "one_sided_points": [one.switched for one in ones],
                 "residual": [one.residual for one in ones],
             },

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from umform.errors import InvalidValue
 from umform.results.outcome import Annex, Study
@@ -18,17 +18,7 @@ if TYPE_CHECKING:
 
 
 class Rates(Study):
-    """Changes of responses with parameters.
-
-    Attributes
-    ----------
-    parameters : tuple of Scalar
-        The parameters.
-    responses : tuple of Quantity
-        The responses with their values.
-    main : tuple of str
-        Names of the responses that the process is for.
-    """
+    """Changes of responses with parameters; `main` has the names of the responses that the process is for."""
 
     parameters: tuple[Scalar, ...]
     responses: tuple[Quantity, ...]
@@ -81,6 +71,19 @@ class Rates(Study):
             name if last.count(name) == 1 and not name.isdecimal() else one.path
             for name, one in zip(last, self.parameters, strict=True)
         ]
+
+    def _columns(self) -> dict[str, list[Any]]:
+        """Columns of the file of all of them."""
+        ones = list(self)
+        return {
+            "response": [one.response.name for one in ones],
+            "response_value": [one.response.value for one in ones],
+            "parameter": [one.parameter.path for one in ones],
+            "parameter_value": [one.parameter.value for one in ones],
+            "value": [one.value for one in ones],
+            "relative": [one.relative for one in ones],
+            "unit": [one.unit for one in ones],
+        }
 
     def _changes(self, response: str) -> bool:
         """Whether a response depends on the parameters, by more than 1e-6 of its value."""

@@ -50,13 +50,24 @@ def responses(
     Raises
     ------
     InvalidValue
-        There is no such quantity or column.
+        There is no such quantity or column, or two have the same name.
     """
     known = {one.name: one for one in quantities if one.value is not None}
     if wanted is None:
         forces = [f"{control.name}_force" for control in result.model.controls]
         wanted = list(known) or [f"{name}:{stat}" for name in forces for stat in ("last", "peak")]
-    return [_response(one, known, result) for one in wanted]
+    found = [_response(one, known, result) for one in wanted]
+    names = [one.name for one in found]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise InvalidValue(
+            "two responses have the same name",
+            where="of",
+            value=twice,
+            cause="two lambdas, or a name twice",
+            remedy="functions with names of their own",
+        )
+    return found
 
 
 def _response(wanted: str | Callable, known: Mapping[str, Quantity], result: Result) -> Response:  # type: ignore[type-arg]

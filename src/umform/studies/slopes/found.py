@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.errors import InvalidValue
+from umform.errors import InvalidValue, UmformError
 from umform.io.tables import write_csv
 from umform.results.outcome import Outcome
 from umform.results.quantity import Quantity
@@ -67,17 +67,17 @@ class Run:
         Path of the parameter.
     value : float
         Its value.
-    found : Found or Exception
+    found : Found or UmformError
         What was found, or why there is nothing.
     """
 
     path: str
     value: float
-    found: Found | Exception
+    found: Found | UmformError
 
     def number(self, name: str) -> float | None:
         """A number of the run; None if it has none of this name."""
-        known = () if isinstance(self.found, Exception) else self.found.quantities
+        known = () if isinstance(self.found, UmformError) else self.found.quantities
         return next((one.value for one in known if one.name == name), None)
 
 
@@ -136,7 +136,7 @@ class Slopes(Rates):
     @cached_property
     def failed(self) -> list[Run]:
         """Runs that have failed."""
-        return [run for run in self.runs if isinstance(run.found, Exception)]
+        return [run for run in self.runs if isinstance(run.found, UmformError)]
 
     @property
     def notes(self) -> list[str]:
@@ -152,8 +152,7 @@ class Slopes(Rates):
     def warnings(self) -> list[str]:
         """Runs that have failed."""
         return [
-            f"the run with {run.path} = {run.value:.6g} has failed: "
-            + (str(run.found) or repr(run.found)).splitlines()[0]
+            f"the run with {run.path} = {run.value:.6g} has failed: {str(run.found).splitlines()[0]}"
             for run in self.failed
         ]
 
@@ -161,20 +160,7 @@ class Slopes(Rates):
         """Write the slopes, and the numbers of all runs, in files of a folder, with a picture; returns the files."""
         folder = Path(folder)
         folder.mkdir(parents=True, exist_ok=True)
-        ones = list(self)
-        write_csv(
-            folder / TABLE,
-            {
-                "response": [one.response.name for one in ones],
-                "response_value": [one.response.value for one in ones],
-                "parameter": [one.parameter.path for one in ones],
-                "parameter_value": [one.parameter.value for one in ones],
-                "value": [one.value for one in ones],
-                "band": [one.band for one in ones],
-                "relative": [one.relative for one in ones],
-                "unit": [one.unit for one in ones],
-            },
-        )
+        write_csv(folder / TABLE, self._columns() | {"band": [one.band for one in self]})
         done = [run for run in self.runs if run not in self.failed]
         paths: list[Any] = [run.path for run in done]
         numbers = {one.name: [run.number(one.name) for run in done] for one in self.responses}

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 from annotated_types import Ge, Gt, Le
 
-from umform.errors import InvalidValue
+from umform.errors import InvalidValue, UmformError
 from umform.pool import run_all
 from umform.progress import Show, progress_bar
 from umform.results.outcome import Outcome
@@ -100,16 +100,16 @@ def slopes(
     if base is None:
         tasks.append(_Task(thing, of, process))
     with progress_bar(progress) as tick:
-        answers: list[Found | Exception] = run_all(
+        answers: list[Found | UmformError] = run_all(
             _run,
             tasks,
             [1.0] * len(tasks),
-            on_failure=lambda task, error: error,
+            on_failure=_failed,
             processes=1 if here else processes,
             tick=lambda done: tick("slopes", done),
         )
     first = answers.pop() if base is None else Found.of(base, of)
-    if isinstance(first, Exception):
+    if isinstance(first, UmformError):
         raise first
     runs = [Run(path, value, answer) for (path, value), answer in zip(planned, answers, strict=True)]
     return Slopes(tuple(_parameters(thing, by)), first.quantities, tuple(runs), wanted.width, first.main)
@@ -174,6 +174,13 @@ class _Task:
     thing: Subject
     of: Sequence[str | Function] | None
     process: Callable[[Any], Outcome] | None
+
+
+def _failed(task: _Task, error: Exception) -> UmformError:
+    """Why a run has no results; another error than of a run ends the study."""
+    if not isinstance(error, UmformError):
+        raise error
+    return error
 
 
 def _run(task: _Task) -> Found:

@@ -55,6 +55,12 @@ def known(case):
     return Known(case)
 
 
+def bent(way):
+    model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=210e3, nu=0.3))
+    model.fix("x0")
+    return model, uf.Move(model.prescribe("x1_lower", "z", name="tip"), to=-way, steps=1)
+
+
 @pytest.fixture(scope="module")
 def found():
     return slopes(Wavy(), ["length", "strength"], process=known, processes=1, progress=False)
@@ -82,6 +88,7 @@ def test_a_band_has_the_width_of_students_distribution(found):
 
 def test_a_run_that_fails_is_a_warning_and_its_line_has_one_point_less(found):
     assert found.warnings == ["the run with strength = 2.04 has failed: it bursts [solve]"]
+    assert found.notes[0].startswith("slopes of lines through up to 5 whole runs")
     assert len(found.points("straight", "strength")) == 4
     assert found["straight", "strength"].value == pytest.approx(4.0, abs=0.1)
 
@@ -101,9 +108,7 @@ def test_files_have_slopes_and_runs(found, tmp_path):
     runs = files[1].read_text().splitlines()
     assert runs[0] == "parameter,parameter_value,straight,steps,late"
     assert len(runs) == 1 + 7
-    assert (
-        files[0].read_text().splitlines()[0].startswith("response,response_value,parameter,parameter_value,value,band")
-    )
+    assert files[0].read_text().startswith("response,response_value,parameter,parameter_value,value,relative,unit,band")
 
 
 @pytest.mark.parametrize(
@@ -147,14 +152,9 @@ def test_wanted_names_of_a_process():
 
 
 def test_a_model_of_a_function_is_built_anew_for_each_run():
-    def build(way):
-        model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=210e3, nu=0.3))
-        model.fix("x0")
-        return model, uf.Move(model.prescribe("x1_lower", "z", name="tip"), to=-way, steps=1)
-
-    found = slopes(build, {"way": 0.01}, ["tip_force:last"], each_side=1, progress=False)
+    found = slopes(bent, {"way": 0.01}, ["tip_force:last"], each_side=1, progress=False)
     assert found["tip_force:last", "way"].relative == pytest.approx(1.0, rel=1e-3)
-    cached = build(0.01)
+    cached = bent(0.01)
     with pytest.raises(InvalidValue, match="the same model twice"):
         slopes(lambda way: cached, {"way": 0.01}, ["tip_force:last"], progress=False)
 
@@ -166,12 +166,16 @@ def test_a_function_that_other_processes_do_not_find_is_refused_before_the_runs(
         slopes(Wavy(), [], process=known, processes=1, progress=False)
 
 
-def test_an_error_without_a_text_has_its_name():
+def test_an_error_of_the_program_ends_the_study():
     def end(case):
         if case.length > 10.0:
             raise AssertionError
         return Known(case)
 
-    few = slopes(Wavy(), ["length"], process=end, processes=1, progress=False)
-    assert "AssertionError" in few.warnings[0]
-    assert few.notes[0].startswith("slopes of lines through up to 5 whole runs")
+    with pytest.raises(AssertionError):
+        slopes(Wavy(), ["length"], process=end, processes=1, progress=False)
+
+
+def test_responses_have_names_of_their_own():
+    with pytest.raises(InvalidValue, match="two responses have the same name"):
+        slopes(bent, {"way": 0.01}, [lambda r: 1.0, lambda r: 2.0], progress=False)
