@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import sys
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,10 +14,13 @@ from typing import Any
 import typer
 from typer.core import TyperCommand
 
-from umform.errors import InvalidValue
+from umform.errors import InvalidValue, UmformError
 
 _OPTION = "-umform_"
 _KEY = "options of PETSc"
+
+#: Seconds in which mpiexec ends this process, if the first one has failed, too.
+_PATIENCE = 10.0
 
 
 class WithPetscOptions(TyperCommand):
@@ -55,6 +59,25 @@ def let_the_first_talk() -> None:
     """Print on the first of the ranks started by mpiexec only."""
     if launched()[0] > 0:
         sys.stdout = sys.stderr = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115  (to the end)
+
+
+@contextmanager
+def let_the_first_end_all() -> Iterator[None]:
+    """Keep another process from ending before the first one, which prints the error of all.
+
+    mpiexec ends all processes once one has failed. Errors before MPI is started, as those in a deck, are in each of
+    them: without a wait, the message might be lost. An error of this process alone is printed here.
+    """
+    try:
+        yield
+    except UmformError as error:
+        number, size = launched()
+        if number > 0 and not getattr(error, "on_all_ranks", False):
+            time.sleep(_PATIENCE)
+            from umform.parallel.together import tell
+
+            tell(error, number, size)
+        raise
 
 
 @contextmanager

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from umform.cli.check import Trust, deck_errors
-from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks, petsc_options
+from umform.cli.ranks import WithPetscOptions, let_the_first_end_all, let_the_first_talk, on_all_ranks, petsc_options
 from umform.cli.root import Debug, Overwrite, Verbose, app
 from umform.cli.run import Every, finish
 from umform.cli.warnings import print_warnings_once
@@ -41,7 +41,7 @@ def resume(
 
     let_the_first_talk()
     print_warnings_once()
-    with deck_errors():
+    with deck_errors(), let_the_first_end_all():
         checkpoint = _file_of(checkpoint)
         kept = Kept.read(checkpoint, trust)
         with on_all_ranks(kept.chosen_solver, petsc_options(ctx)):

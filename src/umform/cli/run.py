@@ -12,7 +12,7 @@ import typer
 from umform.cli import INTERRUPTED
 from umform.cli.check import Changes, DeckFile, Force, Trust, deck_errors, read
 from umform.cli.outcome_screen import print_table
-from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks, petsc_options
+from umform.cli.ranks import WithPetscOptions, let_the_first_end_all, let_the_first_talk, on_all_ranks, petsc_options
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing, say_of
 from umform.cli.run_checks import show_checks
 from umform.cli.step_table import step_tables
@@ -64,7 +64,7 @@ def run(
 
     let_the_first_talk()
     print_warnings_once()
-    with deck_errors():
+    with deck_errors(), let_the_first_end_all():
         loaded = read(deck, changes or (), trust)
         chosen = solver or loaded.contents.solution.solver
         if budget and chosen == "petsc":

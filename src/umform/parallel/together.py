@@ -26,18 +26,18 @@ def together(ranks: MpiRanks) -> Iterator[None]:
     except BaseException as error:
         if not getattr(error, "on_all_ranks", False):
             if ranks.size > 1 and not ranks.arrive(_PATIENCE + _NEXT * ranks.rank):
-                tell(error, ranks)
+                tell(error, ranks.rank, ranks.size)
                 ranks.abort()
             error.on_all_ranks = True  # type: ignore[attr-defined]
             _leave_it_to_the_first(ranks)
         raise
 
 
-def tell(error: BaseException, ranks: MpiRanks) -> None:
+def tell(error: BaseException, rank: int, size: int) -> None:
     """Print which rank failed, and why."""
     text = str(error) if type(error).__module__.startswith("umform") else f"{type(error).__name__}: {error}"
     stream = sys.__stderr__ or sys.stderr
-    print(f"umform: rank {ranks.rank} of {ranks.size} has failed, and ends all: {text}", file=stream, flush=True)
+    print(f"umform: rank {rank} of {size} has failed, and ends all: {text}", file=stream, flush=True)
 
 
 def _leave_it_to_the_first(ranks: MpiRanks) -> None:

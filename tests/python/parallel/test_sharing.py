@@ -11,6 +11,7 @@ import pytest
 import umform as uf
 from umform.analysis.ranks.run import _outline
 from umform.analysis.run import solve
+from umform.cli import ranks as of_command
 from umform.cli.ranks import split
 from umform.errors import InvalidValue, ModelError
 from umform.mesh import strip
@@ -137,3 +138,22 @@ def test_sheets_that_touch_are_refused_by_name():
     with pytest.raises(InvalidValue, match="sheets that touch cannot be shared with the solver petsc") as caught:
         _outline(model, [], ONE)
     assert caught.value.where == "contact inside"
+
+
+@pytest.mark.parametrize(
+    ("rank", "common", "waits"), [(0, False, []), (1, False, [of_command._PATIENCE]), (1, True, [])]
+)
+def test_the_first_rank_prints_an_error_before_another_ends_all(rank, common, waits, monkeypatch, capsys):
+    """Unless all know of the error: those then wait for each other in MPI."""
+    waited = []
+    monkeypatch.setenv("OMPI_COMM_WORLD_RANK", str(rank))
+    monkeypatch.setenv("OMPI_COMM_WORLD_SIZE", "3")
+    monkeypatch.setattr(of_command.time, "sleep", waited.append)
+    monkeypatch.setattr(sys, "__stderr__", sys.stderr)
+    error = InvalidValue("a deck that is wrong", where="here", value=1)
+    error.on_all_ranks = common
+    with pytest.raises(InvalidValue), of_command.let_the_first_end_all():
+        raise error
+    assert waited == waits
+    told = "umform: rank 1 of 3 has failed, and ends all: a deck that is wrong"
+    assert capsys.readouterr().err.startswith(told) == bool(waits)
