@@ -111,6 +111,12 @@ class NotFinite(InvalidValue):
     id = "value.not-finite"
 
 
+class InvalidPath(InvalidValue):
+    """The path of a number is unknown, ambiguous, or that of no parameter of a study."""
+
+    id = "value.path"
+
+
 class InvalidPenalty(InvalidValue):
     """A contact penalty that is not a positive number."""
 

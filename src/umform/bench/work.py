@@ -128,7 +128,7 @@ def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
             raise
         if wanted.choices.budget:
             watch.phase("budget", 0.75)
-            done = replace(done, budget=error_budget(done.case, done.measures, progress=False))
+            done = replace(done, budget=error_budget(done, progress=False))
         watch.phase("files", 0.95)
         watch.shape(done.result)
         write_files(folder / RESULTS, done, note)

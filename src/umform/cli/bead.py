@@ -11,7 +11,7 @@ from typing import Annotated
 import typer
 
 from umform.cli.compensate import By, Want, compensated
-from umform.cli.derive import Derive, derived
+from umform.cli.derive import Derive, check_derived, derived
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
 from umform.cli.options import (
@@ -96,8 +96,8 @@ def bead(
     if deck:
         print_deck(case)
         return
-    if scatter_options:  # refuse what is wrong before the run
-        scatter_options.check(case)
+    check_derived(case, derive)
+    scatter_options.check(case)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/bead"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     with staging(place, FILES):

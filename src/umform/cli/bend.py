@@ -15,7 +15,7 @@ from umform.cli.bends import alone, bends
 from umform.cli.check import Force
 from umform.cli.compensate import By, Want, compensated
 from umform.cli.deflection import deflected, press_brake
-from umform.cli.derive import Derive, derived
+from umform.cli.derive import Derive, check_derived, derived
 from umform.cli.drawn_tools import drawn_tools, named_tools
 from umform.cli.given import Given, given_by
 from umform.cli.goals import (
@@ -48,7 +48,7 @@ from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, console, printing
 from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.sequence import run_sequence
-from umform.cli.stack import OnTop, check_single, stacked
+from umform.cli.stack import OnTop, stacked
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
 from umform.errors import UmformError
@@ -187,10 +187,10 @@ def bend(
         )
         return
     check_flat_only(flat_only)
-    if on_top:
-        check_single(budget, derive, find or quantity, want or by, scatter_options)
-    if scatter_options:  # refuse what is wrong before the run
-        scatter_options.check(replace(case, stroke=stroke or 0.5 * case.largest_stroke))
+    if derive or scatter_options:  # refuse what is wrong before the run
+        some = replace(case, stroke=stroke or 0.5 * case.largest_stroke)
+        check_derived(some, derive)
+        scatter_options.check(some)
     if bottoming:
         check_press(angle, table, angles, budget, stroke, force_per_metre, travel)
         case = case if travel is None else with_travel(case, travel)
@@ -230,7 +230,7 @@ def bend(
             if budget:
                 from umform.processes.air_bending.budget import error_budget
 
-                done = replace(done, budget=error_budget(done.case, done.measures, processes=processes))
+                done = replace(done, budget=error_budget(done, processes=processes))
             done, more = derived(done, done.case, derive, place, None if angle is None else {"angle": "stroke"})
             done, scatter = scatter_options.added_to(done, done.case, place)
             done, wanted = goals.added_to(done, place)

@@ -113,6 +113,14 @@ def derive(
     say_written(found.write(place))
 
 
+def check_derived(case: Any, by: Sequence[str] | None) -> None:
+    """Refuse what is no parameter before the run."""
+    if by:
+        from umform.studies.derivatives.derive import known_parameters
+
+        known_parameters(case, by, "--derive")
+
+
 def derived(
     outcome: _Outcome, case: Any, by: Sequence[str] | None, place: Path, hold: Mapping[str, str] | None = None
 ) -> tuple[_Outcome, list[Path]]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from umform.cli.compensate import By, Goals, Want, compensated
-from umform.cli.derive import Derive, derived
+from umform.cli.derive import Derive, check_derived, derived
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
 from umform.cli.options import (
@@ -283,8 +283,8 @@ def _run(
 
     print_warnings_once()
     case = goals.case
-    if scatter_options:  # refuse what is wrong before the run
-        scatter_options.check(case)
+    check_derived(case, derive)
+    scatter_options.check(case)
     curve = _limit(limit)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results") / name, FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from umform.cli.derive import Derive, derived, sloped
+from umform.cli.derive import Derive, check_derived, derived, sloped
 from umform.cli.drawn_tools import named_tools
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
@@ -88,12 +88,14 @@ def hem(
     sheet = acute(**{name: value for name, value in given.items() if value is not None}, material=law)
     case = Hemming(**of_hem, sheet=sheet)
     by_slopes = bool(derive) and jumps(case)
-    if by_slopes:
-        planned_runs(case, derive or ())
     if scatter_options:
         refuse_jumps(case)
-    if scatter_options:  # refuse what is wrong before the run
-        scatter_options.check(replace(case, sheet=replace(sheet, stroke=0.5 * sheet.largest_stroke)))
+    if derive or scatter_options:  # refuse what is wrong before the run
+        some = case if by_slopes else replace(case, sheet=replace(sheet, stroke=0.5 * sheet.largest_stroke))
+        check_derived(some, derive)
+        scatter_options.check(some)
+    if by_slopes:
+        planned_runs(case, derive or ())
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/hem"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     with staging(place, FILES):

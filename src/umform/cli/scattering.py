@@ -56,8 +56,9 @@ class ScatterOptions:
 
     def check(self, subject: Any) -> None:
         """Refuse all that can be wrong without a run."""
-        with self._refusals():
-            self._plan(subject)
+        if self:
+            with self._refusals():
+                self._plan(subject)
 
     def run(self, subject: Any) -> Scattered:
         """The scatter of a problem or a case."""

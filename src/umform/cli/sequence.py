@@ -40,7 +40,7 @@ def run_sequence(
 
     Of a file with outside dimensions, flat length and bend lines are printed first; ``flat_only``: nothing else.
     """
-    from umform.cli.derive import derived
+    from umform.cli.derive import check_derived, derived
     from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.processes.bend_sequence import bend_sequence
@@ -52,7 +52,9 @@ def run_sequence(
         return
     goals = compensated(made, want, by)
     sequence = goals.case
-    if scatter_options:  # refuse what is wrong before the run
+    if derive:  # refuse what is wrong before the run
+        check_derived(sequence.some_strokes, derive)
+    if scatter_options:
         scatter_options.check(sequence.some_strokes)
     say = partial(typer.echo, err=True)
     tell = partial(folder_for, out, Path("results/sequence"), RESULTS, overwrite=overwrite)

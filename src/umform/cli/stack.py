@@ -54,22 +54,3 @@ def stacked(texts: Sequence[str]) -> list[StackedSheet]:
                 error.where = f"--on-top, {error.where}"
             raise
     return sheets
-
-
-def check_single(budget: object, derive: object, identified: object, wanted: object, scatter: object) -> None:
-    """Refuse studies, whose parameters and errors of meshes are those of a single sheet."""
-    given = {
-        "--budget": budget,
-        "--derive": derive,
-        "--find, --quantity": identified,
-        "--want, --by": wanted,
-        "--scatter": scatter,
-    }
-    named = [name for name, value in given.items() if value]
-    if named:
-        raise InvalidValue(
-            "this study is one of a single sheet",
-            where=", ".join(named),
-            cause="--on-top beside it: parameters and errors of meshes are those of one sheet",
-            remedy="leave one of them out",
-        )

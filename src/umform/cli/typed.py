@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from umform.errors import InvalidValue, UmformError
+from umform.errors import InvalidPath, InvalidValue, UmformError
 
 #: A number, a word, or a word in quotes.
 _VALUE = r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?|\w+|'[^']*'"
@@ -37,12 +37,14 @@ def _written(match: re.Match[str], options: Mapping[str, str]) -> str:
 def message(error: UmformError, options: Mapping[str, str]) -> str:
     """The message of an error that names options in place of parameters, which are given by name.
 
-    Keys of files stay as they are.
+    Keys of files and paths of numbers stay as they are.
     """
     if error.id.startswith("deck"):
         return str(error)
     if isinstance(error, InvalidValue):  # a file may be called as a parameter is
         error.where = options.get(error.where, error.where)
+    if isinstance(error, InvalidPath):
+        return str(error)
     error.what, error.cause, error.remedy = (
         as_typed(text, options) for text in (error.what, error.cause, error.remedy)
     )

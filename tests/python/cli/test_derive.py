@@ -99,3 +99,14 @@ def test_a_bend_to_an_angle_has_derivatives_at_that_angle(tmp_path):
     # a stronger sheet springs back farther, so that the stroke must be larger
     assert float(found["stroke", "material.hardening.strength"]["value"]) > 0.0
     assert 0.8 < float(found["springback", "material.hardening.strength"]["relative"]) < 1.1
+
+
+@pytest.mark.parametrize("words", [["bend", "--angle", 150], ["draw", "cup"], ["draw", "u"], ["bead"], ["hem"]])
+def test_what_is_no_parameter_is_refused_before_the_run(words, tmp_path):
+    """Names of a process stay as they are typed: they are no options there."""
+    done = run(*words, "--out", tmp_path / "out", "--derive", "friktion")
+    assert done.exit_code == 1
+    for text in ("where:  --derive", "did you mean friction?", "remedy: one of ", "material.hardening.strength"):
+        assert text in done.stderr
+    assert "--die" not in done.stderr
+    assert not (tmp_path / "out").exists()

@@ -40,7 +40,7 @@ def bend():
 
 @pytest.fixture(scope="module")
 def errors(bend):
-    return error_budget(TINY, bend.measures, processes=1, progress=False)
+    return error_budget(bend, processes=1, progress=False)
 
 
 def test_each_refinement_changes_one_parameter():
@@ -113,7 +113,7 @@ def test_a_refined_run_that_fails_says_so(bend, monkeypatch):
         raise ValueError("no")
 
     monkeypatch.setattr(budget_module, "_run", fails)
-    errors = error_budget(TINY, bend.measures, processes=1, progress=False)
+    errors = error_budget(bend, processes=1, progress=False)
     assert set(errors.failures) == set(refinements(TINY))
     assert np.isnan(errors.total("angle"))
 

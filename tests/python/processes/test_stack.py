@@ -13,6 +13,7 @@ from umform.cli.stack import stacked
 from umform.errors import InvalidValue
 from umform.materials import J2, Voce
 from umform.processes.air_bending import AirBending, StackedSheet, air_bending
+from umform.processes.air_bending.budget import error_budget
 from umform.processes.air_bending.files import record
 from umform.processes.air_bending.formulas import _bending, shop_forces
 from umform.processes.air_bending.outcome import outcome_of
@@ -66,6 +67,17 @@ def test_each_sheet_has_its_numbers(free):
     assert json.dumps(rows)
     assert [row["thickness"] for row in rows] == [1.0, 1.0]
     assert len(free.tables["Sheets"]) == 3
+
+
+def test_the_error_budget_of_a_stack_has_the_numbers_of_each_sheet(free, monkeypatch):
+    deeper = replace(free.case, penetration=0.05)
+    monkeypatch.setattr("umform.processes.air_bending.budget.refinements", lambda case: {"depth": deeper})
+    found = replace(free, budget=error_budget(free, processes=1, progress=False))
+    other = air_bending(deeper, progress=False)
+    for name in ("angle", "sheet1_gap", "sheet2_angle", "sheet2_radius"):
+        change = abs(other[name].value - free[name].value)
+        assert found[name].band.error == pytest.approx(change, abs=1e-9)
+        assert change > 0.0
 
 
 def test_the_problem_of_a_stack_is_a_deck(free):

@@ -154,13 +154,14 @@ class AirBend(Outcome):
     @property
     def quantities(self) -> list[Quantity]:
         """The measures, and the force on the length of the bend or on the width."""
-        found = quantities_of(self.measures, None if self.budget is None else self.budget.bands)
+        bands = None if self.budget is None else self.budget.bands
+        found = quantities_of(self.measures, bands)
         if self.total_force is not None:
             wide = self.bend_length is None
             label, name = ("force on the width", "force_on_width") if wide else ("total force", "total_force")
             found.insert(3, Quantity(label, "kN", 2, name=name, value=self.total_force / 1e3, leading=True))
         found = self._with_strokes(self.banded(found))
-        return of_this_mesh(self.case, [*found, *quantities_of_stack(self.stack)])
+        return of_this_mesh(self.case, [*found, *quantities_of_stack(self.stack, bands)])
 
     def _with_strokes(self, found: list[Quantity]) -> list[Quantity]:
         """The same with the error of a stroke found for an angle: that of the angle over its change with the stroke."""

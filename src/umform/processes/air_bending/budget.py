@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import fields, replace
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 from umform.elements import element
 from umform.pool import run_all
@@ -13,9 +14,14 @@ from umform.processes.air_bending.goal import needed_stroke
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.problem import touching
 from umform.processes.air_bending.spec import AirBending
+from umform.processes.air_bending.stacked import SheetOfStack, quantities_of_stack, stack_of
 from umform.progress import progress_bar
 from umform.results.budget import Budget
+from umform.results.quantity import quantities_of
 from umform.spec import parameters
+
+if TYPE_CHECKING:
+    from umform.processes.air_bending.bend import AirBend
 
 #: Element of the reference stack for the layers, and its points through the thickness of each element.
 _STACK, _STACK_POINTS = element("EAS3DEAS", thickness_order=2, tie_E33=True), 4
@@ -84,26 +90,22 @@ def _contacts(case: AirBending) -> dict[str, AirBending]:
     return cases | {"depth/2": replace(case, penetration=0.5 * allowed)}
 
 
-def error_budget(
-    case: AirBending, base: Measures, *, processes: int | None = None, progress: bool | None = None
-) -> Budget:
-    """Run the case again with each refinement, at the same stroke.
+def error_budget(bend: AirBend, *, processes: int | None = None, progress: bool | None = None) -> Budget:
+    """Run a bend again with each refinement, at the same stroke.
 
     The runs go in parallel processes, which are spawned: a script that calls this needs
     ``if __name__ == "__main__":``.
 
     Parameters
     ----------
-    case : AirBending
-        The parameters.
-    base : Measures
-        Its measures.
+    bend : AirBend
+        The bend.
     processes : int, optional
         Number of processes; default: that of the processors.
     progress : bool, optional
         Show a progress bar; default: only on a terminal.
     """
-    cases = refinements(case)
+    cases, base = refinements(bend.case), _numbers(bend.measures, bend.stack)
     with progress_bar(progress) as tick:
         answers = run_all(
             _run,
@@ -113,21 +115,28 @@ def error_budget(
             processes=processes,
             tick=lambda done: tick("budget", done),
         )
-    names = [field.name for field in fields(Measures)]
     changes = {
         name: {
-            key: getattr(answer, key) - getattr(base, key) if isinstance(answer, Measures) else math.nan
-            for key in names
+            key: answer.get(key, math.nan) - value if isinstance(answer, dict) else math.nan
+            for key, value in base.items()
         }
         for name, answer in zip(cases, answers, strict=True)
     }
     return Budget(changes, {n: a for n, a in zip(cases, answers, strict=True) if isinstance(a, str)}, _RUNS)
 
 
-def _run(case: AirBending) -> Measures | str:
+def _run(case: AirBending) -> dict[str, float]:
     brake = Brake(case)
     brake.load(needed_stroke(case))
-    return brake.unload()
+    loaded = brake.model.u.copy()
+    measures = brake.unload()
+    return _numbers(measures, stack_of(case, brake.run.result, loaded))
+
+
+def _numbers(measures: Measures, stack: Sequence[SheetOfStack]) -> dict[str, float]:
+    """The measures, and those of each of several sheets, by name; NaN for unknown ones."""
+    found = [*quantities_of(measures), *quantities_of_stack(stack)]
+    return {one.name: math.nan if one.value is None else one.value for one in found}
 
 
 def _cost(case: AirBending) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,7 +12,7 @@ from umform.analysis.run import Result
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.air_bending.stack import name_of, of_sheet
-from umform.results.quantity import Quantity, in_rows
+from umform.results.quantity import Band, Quantity, in_rows
 
 Floats = NDArray[np.float64]
 
@@ -85,10 +85,11 @@ def of_stack(number: int, sheet: SheetOfStack) -> list[Quantity]:
     ]
 
 
-def quantities_of_stack(stack: Sequence[SheetOfStack]) -> list[Quantity]:
-    """Quantities of all sheets."""
+def quantities_of_stack(stack: Sequence[SheetOfStack], bands: Mapping[str, Band] | None = None) -> list[Quantity]:
+    """Quantities of all sheets, with their errors by name."""
+    known = bands or {}
     return [
-        replace(one, label=f"sheet {number + 1}: {one.label}")
+        replace(one, label=f"sheet {number + 1}: {one.label}", band=known.get(one.name))
         for number, sheet in enumerate(stack)
         for one in of_stack(number, sheet)
         if one.value is not None

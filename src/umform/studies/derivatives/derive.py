@@ -11,7 +11,7 @@ from typing import Any
 from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.run import Result
 from umform.analysis.shadows import Shadowed, resume_with_shadows, solve_stages_with_shadows, solve_with_shadows
-from umform.errors import InvalidValue, UmformError
+from umform.errors import InvalidPath, InvalidValue, UmformError
 from umform.problem.errors import slip
 from umform.problem.problem import Problem
 from umform.processes.problems import has_operations
@@ -33,6 +33,8 @@ from umform.studies.derivatives.subjects import (
 
 #: Change of a parameter relative to its value.
 STEP = 3e-5
+#: Numbers of a thing of which a message lists all; more are those of a problem, which `umform paths` lists.
+_FEW = 40
 #: Tables of a problem whose numbers are no parameters of the part: their effect is an error of the solution.
 _OF_THE_SOLUTION = ("solution.", "output.")
 
@@ -188,32 +190,39 @@ def paths_of(name: str, known: Mapping[str, Scalar]) -> list[str]:
     return [name] if name in known else [one for one in known if one.split(".")[-len(parts) :] == parts]
 
 
-def known_parameter(path: str, known: Mapping[str, Scalar]) -> Scalar:
+def known_parameter(path: str, known: Mapping[str, Scalar], where: str = "by") -> Scalar:
     """The number of a path, or of the last parts of one, if that is unique.
 
     Raises
     ------
-    InvalidValue
-        There is none, there are several, or it is no parameter of the part.
+    InvalidPath
+        There is none, there are several, or it is no parameter of the part; ``where`` is the argument with the path.
     """
     found = paths_of(path, known)
     if len(found) != 1:
-        raise InvalidValue(
+        all_of_them = f"one of {', '.join(known)}" if len(known) <= _FEW else "one of the paths that umform paths lists"
+        raise InvalidPath(
             "a path is ambiguous" if found else "there is no number of this path",
-            where="by",
+            where=where,
             value=path,
-            cause=slip(path, known) if not found else ", ".join(found),
-            remedy="one of the paths that umform paths lists" if not found else f"write more of it, as {found[0]}",
+            cause=slip(path, [*known, *(one.split(".")[-1] for one in known)]) if not found else ", ".join(found),
+            remedy=f"write more of it, as {found[0]}" if found else all_of_them,
         )
     one = known[found[0]]
     why, remedy = "", "umform sweep varies it"
     if found[0].startswith(_OF_THE_SOLUTION):
         why = "its effect is an error of the solution, not a change of the part"
     elif isinstance(one.value, int):
-        why, remedy = "it is a whole number", f"{one.value}.0, if it is none; else {remedy}"
+        why, remedy = "it is a whole number", f"{one.value}.0 in a deck, if it is no count; else {remedy}"
     if why:
-        raise InvalidValue("this number has no derivative", where=found[0], value=one.value, cause=why, remedy=remedy)
+        raise InvalidPath("this number has no derivative", where=found[0], value=one.value, cause=why, remedy=remedy)
     return one
+
+
+def known_parameters(subject: Any, by: Sequence[str], where: str = "by") -> list[Scalar]:
+    """The numbers of some paths of a subject, each once; it raises what `known_parameter` does."""
+    known = {one.path: one for one in subject_of(subject, by, None, None).parameters()}
+    return list({one.path: one for one in (known_parameter(name, known, where) for name in by)}.values())
 
 
 def _shadow(thing: Subject, one: Scalar, lead: Built) -> tuple[tuple[Subject, Built], float]:

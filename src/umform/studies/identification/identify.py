@@ -14,7 +14,6 @@ from umform.errors import InvalidValue
 from umform.progress import Show
 from umform.sheet_metals import Fit
 from umform.sheet_metals.least_squares import uncertainty
-from umform.spec import Scalar
 from umform.studies.derivatives.derive import known_parameter, subject_of
 from umform.studies.derivatives.subjects import OfFunction
 from umform.studies.identification.data import Measured
@@ -103,7 +102,7 @@ def identify(
     known = {one.path: one for one in thing.parameters()}
     sought: dict[str, Sought] = {}
     for name, given in find.items():
-        path = _path(name, known)
+        path = known_parameter(name, known, "find").path
         if path in sought:
             raise InvalidValue("a number is looked for twice", where="find", value=f"{path}, {name}", remedy="once")
         sought[path] = Sought.of(given, path)
@@ -118,14 +117,6 @@ def identify(
     if runs.refusal is not None and (values == start).all():
         raise runs.refusal
     return _identified(search, values, at_bound, before, enough=enough)
-
-
-def _path(name: str, known: Mapping[str, Scalar]) -> str:
-    try:
-        return known_parameter(name, known).path
-    except InvalidValue as error:
-        error.where = "find" if error.where == "by" else error.where
-        raise
 
 
 class _Search:

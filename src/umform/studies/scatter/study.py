@@ -27,8 +27,6 @@ from umform.studies.scatter.source import Scatter, Source
 from umform.studies.scatter.spread import Spread
 
 Floats = NDArray[np.float64]
-#: Number of paths that fit into a message.
-_FEW = 40
 #: What a result may be named by.
 Wanted = Sequence[str | Callable[[Result], float | Quantity]]
 
@@ -169,9 +167,9 @@ class Plan:
         allowed = {name: Limits.of(one) for name, one in (limits or {}).items()}
         thing = subject_of(subject, values, settings.get("options"), settings.get("solver"))
         numbers = {one.path: one for one in thing.parameters()}
-        held = {name: _parameter(path, numbers, "hold").path for name, path in (hold or {}).items()}
+        held = {name: known_parameter(path, numbers, "hold").path for name, path in (hold or {}).items()}
         made = _sources(sources, numbers, held)
-        matrix = covariance(made, correlations or {}, lambda name: _parameter(name, numbers, "correlations").path)
+        matrix = covariance(made, correlations or {}, lambda name: known_parameter(name, numbers, "correlations").path)
         by: Any = [*(one.path for one in made), *held.values()]
         if values is not None:
             subject = partial(subject, **{name: value for name, value in values.items() if name not in by})
@@ -211,18 +209,6 @@ class Plan:
         return list(spreads.values())
 
 
-def _parameter(name: str, numbers: Mapping[str, Scalar], where: str) -> Scalar:
-    """The parameter of a name that stands in an argument of :func:`scatter`."""
-    try:
-        return known_parameter(name, numbers)
-    except InvalidValue as error:
-        if error.where == "by":
-            error.where = where
-        if "umform paths" in error.remedy and len(numbers) <= _FEW:  # of a process, whose paths it does not list
-            error.remedy = f"one of {', '.join(numbers)}"
-        raise
-
-
 def _sources(
     given: Mapping[str, Scatter | float | str], numbers: Mapping[str, Scalar], held: Mapping[str, str]
 ) -> list[Source]:
@@ -235,7 +221,7 @@ def _sources(
     """
     found: dict[str, Source] = {}
     for name, one in given.items():
-        parameter = _parameter(name, numbers, "sources")
+        parameter = known_parameter(name, numbers, "sources")
         if parameter.path in found or parameter.path in held.values():
             raise InvalidValue(
                 "a parameter cannot scatter twice"
