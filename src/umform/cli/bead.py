@@ -91,15 +91,16 @@ def bead(
 
     print_warnings_once()
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
-    goals = compensated(DrawBead(**given, material=law), want, by)
-    case = goals.case
+    case = DrawBead(**given, material=law)
     if deck:
-        print_deck(case)
+        print_deck(compensated(case, want, by).case)
         return
     check_derived(case, derive)
     scatter_options.check(case)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/bead"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
+    goals = compensated(case, want, by)
+    case = goals.case
     with staging(place, FILES):
         with _what_was_reached(place):
             drawn = extrapolated(case) if extrapolate else drawn_through(case)
@@ -118,6 +119,7 @@ def bead(
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(drawn.result.timing)
+    goals.end()
 
 
 @contextmanager

@@ -13,7 +13,7 @@ import typer
 from umform.cli import bend_correct, bend_table  # noqa: F401  (they add their commands)
 from umform.cli.bends import alone, bends
 from umform.cli.check import Force
-from umform.cli.compensate import By, Want, compensated
+from umform.cli.compensate import By, Want, check_wanted, compensated
 from umform.cli.deflection import deflected, press_brake
 from umform.cli.derive import Derive, check_derived, derived
 from umform.cli.drawn_tools import drawn_tools, named_tools
@@ -45,6 +45,7 @@ from umform.cli.options import (
     print_deck,
 )
 from umform.cli.outcome_screen import show_outcome
+from umform.cli.plausible import refuse_implausible, refuse_implausible_bend
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, console, printing
 from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.sequence import run_sequence
@@ -59,7 +60,6 @@ from umform.studies.deflection.press_brake import PressBrake
 
 if TYPE_CHECKING:
     from umform.analysis.run import Result
-    from umform.model import Model
     from umform.processes.air_bending.bend import AirBend
     from umform.processes.air_bending.branches import Brake
     from umform.processes.air_bending.measures import Measures
@@ -184,36 +184,44 @@ def bend(
             flat_only=flat_only,
             derive=derive,
             scatter_options=scatter_options,
+            force=force,
+            timing=timing,
         )
         return
     check_flat_only(flat_only)
+    if find or quantity:
+        check_measured(angle, table, angles, force_per_metre, budget, derive, scatter_options or None, want, by, deck)
+    check_wanted(want, by, stroke is None and travel is None)
+    held = {"angle": "stroke"} if angle is not None else {} if force_per_metre is None else {"force": "stroke"}
     if derive or scatter_options:  # refuse what is wrong before the run
         some = replace(case, stroke=stroke or 0.5 * case.largest_stroke)
-        check_derived(some, derive)
+        check_derived(some, derive, held)
         scatter_options.check(some)
     if bottoming:
         check_press(angle, table, angles, budget, stroke, force_per_metre, travel)
         case = case if travel is None else with_travel(case, travel)
         check_value(Goal, "force_per_metre", force_per_metre)
-    goals = compensated(case, want, by)
-    case = goals.case
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
-    if find or quantity:
-        check_measured(angle, table, angles, force_per_metre, budget, derive)
-        identify_case(case, find or (), None, quantity, out, Path("results/bend-identified"), MOST, overwrite)
-        return
-    if deck:
-        _print_deck(case, angle, force_per_metre, tolerance)
-        return
     for one in [*others, angle]:
         if one is not None:
             check_angle(case, one)
+    if find or quantity or want:
+        refuse_implausible_bend(case, force=force)
+    if find or quantity:
+        identify_case(case, find or (), None, quantity, out, Path("results/bend-identified"), MOST, overwrite)
+        return
     said: list[str] = []
-    place = folder_for(out, Path("results/bend"), RESULTS, overwrite=overwrite, say=said.append)
+    place = None if deck else folder_for(out, Path("results/bend"), RESULTS, overwrite=overwrite, say=said.append)
+    goals = compensated(case, want, by)
+    case = goals.case
+    if place is None:
+        _print_deck(case, angle, force_per_metre, tolerance)
+        return
     with timings() as spent:
         brake = Brake(case, frames=FRAMES)
-    _refuse_implausible(brake.model, force=force)
+    if not want:
+        refuse_implausible(brake.model, force=force)
     for text in said:  # only of a run that starts
         typer.echo(f"umform: {text}", err=True)
     with staging(place, FILES):
@@ -231,7 +239,7 @@ def bend(
                 from umform.processes.air_bending.budget import error_budget
 
                 done = replace(done, budget=error_budget(done, processes=processes))
-            done, more = derived(done, done.case, derive, place, None if angle is None else {"angle": "stroke"})
+            done, more = derived(done, done.case, derive, place, held)
             done, scatter = scatter_options.added_to(done, done.case, place)
             done, wanted = goals.added_to(done, place)
             done, along = deflected(done, brake_frame, place)
@@ -246,6 +254,7 @@ def bend(
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
+    goals.end()
 
 
 def _print_deck(case: AirBending, angle: float | None, force_per_metre: float | None, tolerance: float) -> None:
@@ -273,15 +282,6 @@ def _bent(
     if angle is not None:
         return find_stroke(case, angle, tolerance=tolerance, brake=brake).bend
     return air_bending(case, brake=brake)
-
-
-def _refuse_implausible(model: Model, *, force: bool) -> None:
-    """Refuse numbers that are certainly wrong, and warn of unusual ones, before the run."""
-    from umform.problem.findings import accept
-    from umform.problem.plausible import of_model
-
-    for warning in accept(of_model(model, millimetres=True), force=force):
-        typer.echo(f"umform: {warning}", err=True)
 
 
 @contextmanager

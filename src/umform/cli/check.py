@@ -80,11 +80,13 @@ def read(path: Path, changes: Sequence[str], trust: bool) -> Problem:
 
 
 @contextmanager
-def deck_errors() -> Iterator[None]:
-    """Print the mistakes in a deck in terms of its keys, and exit with code 1."""
+def deck_errors(*options: str) -> Iterator[None]:
+    """Print the mistakes in a deck in terms of its keys, those in some options by their names, and exit with code 1."""
     try:
         yield
     except UmformError as error:
+        if isinstance(error, InvalidValue) and error.where in options:
+            error.where = f"--{error.where}"
         say_of(error)
         raise typer.Exit(1) from error
 

@@ -99,7 +99,7 @@ def compensate(
 
     print_warnings_once()
     said: list[str] = []
-    with deck_errors():
+    with deck_errors("by", "want"):
         problem = read(deck, changes or (), trust)
         default = Path("results") / f"{deck.stem}-compensated"
         place = folder_for(out, default, (TABLE,), overwrite=overwrite, say=said.append)
@@ -144,19 +144,49 @@ class Goals:
             return outcome, []
         return outcome.with_annex(self.found.annex), self.found.write(place)
 
+    def end(self) -> None:
+        """Exit with code 1 if the wanted results are not reached."""
+        if self.found is not None and not self.found.reached:
+            raise typer.Exit(1)
+
+
+def check_wanted(want: Sequence[str] | None, by: Sequence[str] | None, searched: bool = False) -> None:
+    """Refuse wanted results that are wrong before a run.
+
+    Parameters
+    ----------
+    want, by : sequence of str, optional
+        Those of the command line.
+    searched : bool
+        Whether the stroke, which is the start, is not known.
+    """
+    if not want and not by:
+        return
+    if not want or not by:
+        raise InvalidValue(
+            "a wanted result needs a parameter that follows, and a parameter a wanted result",
+            where="--want and --by",
+            remedy="both, such as --want NAME=VALUE+-TOLERANCE --by PATH",
+        )
+    if searched:
+        raise InvalidValue(
+            "a wanted result starts from a stroke",
+            where="--want",
+            value=", ".join(want),
+            cause="--angle, --angles or a force beside it, which look for a stroke of their own",
+            remedy="--stroke beside it, and --by stroke where the stroke follows",
+        )
+    wanted(want)
+    bounded(by)
+
 
 def compensated(case: Any, want: Sequence[str] | None, by: Sequence[str] | None) -> Goals:
     """The case of a process with parameters for wanted results; the case itself without any."""
     from umform.studies.goals import compensate as find
 
-    if not want and not by:
-        return Goals(case)
+    check_wanted(want, by)
     if not want or not by:
-        raise InvalidValue(
-            "a wanted result needs a parameter that follows, and a parameter a wanted result",
-            where="--want and --by",
-            remedy="both, such as --want angle=90+-0.05 --by stroke",
-        )
+        return Goals(case)
     paths, bounds = bounded(by)
     found = find(case, wanted(want), paths, bounds=bounds)
     return Goals(found.subject, found)
@@ -166,7 +196,7 @@ def wanted(texts: Sequence[str]) -> dict[str, Wanted]:
     """Wanted results of the command line."""
     from umform.studies.goals import Wanted
 
-    found = {}
+    found: dict[str, Wanted] = {}
     for text in texts:
         parts = _WANT.fullmatch(text)
         if parts is None:
@@ -175,22 +205,29 @@ def wanted(texts: Sequence[str]) -> dict[str, Wanted]:
                 where="--want",
                 value=text,
                 cause="a name, a value or a tolerance is missing",
-                remedy="write NAME=VALUE+-TOLERANCE, as angle=90+-0.05",
+                remedy="write NAME=VALUE+-TOLERANCE, as springback=2+-0.05",
             )
-        found[parts["name"].strip()] = Wanted(float(parts["value"]), float(parts["tolerance"]))
+        name = parts["name"].strip()
+        if name in found:
+            raise InvalidValue("a result is wanted twice", where="--want", value=text, remedy="once")
+        found[name] = Wanted(float(parts["value"]), float(parts["tolerance"]))
     return found
 
 
 def bounded(texts: Sequence[str]) -> tuple[list[str], dict[str, tuple[float, float]]]:
     """Paths of the command line, and the bounds of some."""
-    paths, bounds = [], {}
+    paths: list[str] = []
+    bounds: dict[str, tuple[float, float]] = {}
     for text in texts:
         parts = _BOUNDS.fullmatch(text)
         if parts is None and "=" in text:
             raise InvalidValue(
                 "these are no bounds", where="--by", value=text, remedy="write PATH=LOW:HIGH, as holder_force=2000:8000"
             )
-        paths.append(text.strip() if parts is None else parts["path"].strip())
+        path = text.strip() if parts is None else parts["path"].strip()
+        if path in paths:
+            raise InvalidValue("a parameter follows twice", where="--by", value=text, remedy="once")
+        paths.append(path)
         if parts is not None:
             bounds[paths[-1]] = (float(parts["low"]), float(parts["high"]))
     return paths, bounds

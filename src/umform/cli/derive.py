@@ -86,7 +86,7 @@ def derive(
 
     print_warnings_once()
     said: list[str] = []
-    with deck_errors():
+    with deck_errors("by", "of", "hold"):
         problem = read(deck, changes or (), trust)
         table = problem.contents.derivatives
         paths, held = by or (table.by if table else []), dict(_pair(text) for text in hold or ())
@@ -113,12 +113,12 @@ def derive(
     say_written(found.write(place))
 
 
-def check_derived(case: Any, by: Sequence[str] | None) -> None:
-    """Refuse what is no parameter before the run."""
+def check_derived(case: Any, by: Sequence[str] | None, hold: Mapping[str, str] | None = None) -> None:
+    """Refuse what is no parameter, or follows a result, before the run."""
     if by:
         from umform.studies.derivatives.derive import known_parameters
 
-        known_parameters(case, by, "--derive")
+        known_parameters(case, by, "--derive", hold)
 
 
 def derived(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from umform.cli.compensate import By, Goals, Want, compensated
+from umform.cli.compensate import By, Want, compensated
 from umform.cli.derive import Derive, check_derived, derived
 from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
@@ -136,12 +136,12 @@ def cup(
     typed: dict[str, Any] = {"punch": punch, "opening": opening, "blank": blank}
     radii = {radius: typed[name] and 0.5 * typed[name] for radius, name in Cup.diameters.items()}
     case = Cup(**given | radii | {"holder_force": given["holder_force"] or None}, material=law)
-    goals = compensated(case, want, by)
     if deck:
-        print_deck(goals.case)
+        print_deck(compensated(case, want, by).case)
         return
     _run(
-        goals,
+        case,
+        (want, by),
         draw,
         out,
         "cup",
@@ -201,15 +201,16 @@ def u(
 
     given = _on_mesh(UBend, given, coarse, fine)
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
-    goals = compensated(UBend(**given, material=law), want, by)
+    case = UBend(**given, material=law)
     if deck:
-        print_deck(goals.case)
+        print_deck(compensated(case, want, by).case)
         return
-    one_mesh = coarse or goals.found is not None  # wanted results are those of the mesh of the case
+    one_mesh = coarse or bool(want)  # wanted results are those of the mesh of the case
     two = not one_mesh if extrapolate is None else extrapolate
     how = extrapolated if two else draw
     _run(
-        goals,
+        case,
+        (want, by),
         how,
         out,
         "u-bend",
@@ -262,7 +263,8 @@ def _why(error: Exception) -> str:
 
 
 def _run(
-    goals: Goals,
+    case: Cup | UBend,
+    wanted_by: tuple[list[str] | None, list[str] | None],
     how: Callable[..., Drawn],
     out: str | None,
     name: str,
@@ -282,12 +284,13 @@ def _run(
     from umform.processes.draw.words import before_the_run
 
     print_warnings_once()
-    case = goals.case
     check_derived(case, derive)
     scatter_options.check(case)
     curve = _limit(limit)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results") / name, FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
+    goals = compensated(case, *wanted_by)
+    case = goals.case
     say(f"umform: {before_the_run(case)}")
     with staging(place, FILES):
         picture, blank = draw_blank(place, case)
@@ -311,3 +314,4 @@ def _run(
         show_timing(drawn.result.timing)
     if drawn.released is None:
         raise typer.Exit(1)
+    goals.end()

@@ -82,9 +82,10 @@ def check_measured(*goals: object) -> None:
     """Refuse goals beside what was measured at a stroke."""
     if any(goal is not None and goal is not False for goal in goals):
         raise InvalidValue(
-            "a measured bend has a stroke",
+            "numbers of a measured bend are sought at its stroke, without other goals and studies",
             where="--find",
-            cause="--angle, --table, --angles, --force-per-metre, --budget or --derive beside it",
+            cause="--angle, --table, --angles, --force-per-metre, --budget, --derive, --scatter, --want or "
+            "--print-deck beside it",
             remedy="--stroke 6.1 --find strength=400:700 --quantity angle=91.6+-.1; find the stroke of the next bend "
             "with the corrected metal",
         )

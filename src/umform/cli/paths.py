@@ -8,6 +8,7 @@ import typer
 
 from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read
 from umform.cli.root import Debug, Verbose, app, console
+from umform.errors import InvalidValue
 
 
 @app.command()
@@ -29,6 +30,10 @@ def paths(
 
     with deck_errors():
         found = [one for one in read(deck, changes or (), trust).paths() if within in one.path]
+    if not found:
+        raise InvalidValue(
+            "no path contains this text", where="TEXT", value=within, remedy="umform paths DECK lists all"
+        )
     table = Table("path", box=box.SIMPLE_HEAD)
     table.add_column("value", justify="right")
     table.add_column("unit")

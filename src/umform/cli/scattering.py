@@ -100,9 +100,18 @@ class ScatterOptions:
             except InvalidValue as error:
                 error.where = name
                 raise
+        sources = self._pairs("sources")
+        twice = sorted(sources.keys() & tolerances.keys())
+        if twice:
+            raise InvalidValue(
+                "a parameter cannot scatter twice",
+                where="--scatter, --tolerance-of",
+                value=", ".join(twice),
+                remedy="a standard deviation or a tolerance",
+            )
         return Plan.of(
             subject,
-            self._pairs("sources") | tolerances,
+            sources | tolerances,
             self.typed["of"],
             correlations={
                 _two(pair): _number(text, f"{pair}={text}") for pair, text in self._pairs("correlations").items()

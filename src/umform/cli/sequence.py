@@ -13,7 +13,9 @@ import typer
 from umform.cli.compensate import compensated
 from umform.cli.developed import sequence_of
 from umform.cli.outcome_screen import show_outcome
+from umform.cli.plausible import refuse_implausible_bend
 from umform.cli.root import console, printing
+from umform.cli.timing import show_timing
 
 if TYPE_CHECKING:
     from umform.cli.scattering import ScatterOptions
@@ -35,6 +37,8 @@ def run_sequence(
     flat_only: bool = False,
     derive: Sequence[str] | None = None,
     scatter_options: ScatterOptions | None = None,
+    force: bool = False,
+    timing: bool = False,
 ) -> None:
     """Bend the part of a file, print the results and write them; a part that collides ends with exit code 1.
 
@@ -46,24 +50,27 @@ def run_sequence(
     from umform.processes.bend_sequence import bend_sequence
     from umform.processes.bend_sequence.files import FILES, RESULTS, write_files
     from umform.processes.bend_sequence.foreseen import foreseen_collisions, foreseen_text
+    from umform.timing import Timing, timings
 
     made = sequence_of(file, sheet, flat_only=flat_only)
     if flat_only:
         return
-    goals = compensated(made, want, by)
-    sequence = goals.case
-    if derive:  # refuse what is wrong before the run
-        check_derived(sequence.some_strokes, derive)
+    some = made.some_strokes  # refuse what is wrong before the run
+    check_derived(some, derive, made.strokes)
     if scatter_options:
-        scatter_options.check(sequence.some_strokes)
+        scatter_options.check(some)
+    refuse_implausible_bend(some.case(some.bends[0]), force=force)
     say = partial(typer.echo, err=True)
     tell = partial(folder_for, out, Path("results/sequence"), RESULTS, overwrite=overwrite)
     place = tell(say=lambda text: say(f"umform: {text}"))
+    goals = compensated(made, want, by)
+    sequence = goals.case
     for number, hits in foreseen_collisions(sequence).items():
         for hit in hits:
             say(f"umform: {foreseen_text(sequence, number, hit)}")
     with staging(place, FILES):
-        part = replace(bend_sequence(sequence, tolerance=tolerance), bend_length=length)
+        with timings() as spent:
+            part = replace(bend_sequence(sequence, tolerance=tolerance), bend_length=length)
         more: list[Path] = []
         try:
             part, wanted = goals.added_to(part, place)
@@ -78,7 +85,10 @@ def run_sequence(
         finally:  # even if the table cannot be printed
             files = [*write_files(place, part, note), *more]
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+    if timing:
+        show_timing(Timing.sum(spent))
     if part.collisions:
         text = "umform: this part cannot be bent so: " + "; ".join(part.collisions)
         typer.secho(text, fg=typer.colors.RED, err=True)
         raise typer.Exit(1)
+    goals.end()

@@ -93,6 +93,8 @@ def _axes(texts: list[str]) -> dict[str, str]:
                 cause="the sign = is missing, or nothing stands before it",
                 remedy="write key=0.8:1.2:0.1 (first:last:step) or key=0.8,0.9",
             )
+        if key.strip() in axes:
+            raise InvalidValue("a key is varied twice", where="--vary", value=text, remedy="all its values at once")
         axes[key.strip()] = values
     return axes
 

@@ -8,8 +8,10 @@ from typing import Any
 
 from umform.errors import InvalidPath, InvalidValue, UmformError
 
-#: A number, a word, or a word in quotes.
-_VALUE = r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?|\w+|'[^']*'"
+#: A number, a word, or a word in quotes; no value of an option of pairs, such as --want angle=90+-0.05.
+_VALUE = r"(?:[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?|\w+|'[^']*')(?![\d.]|[+]-|[:@])"
+#: A call of Python, which stays as it is.
+_CALL = re.compile(r"(\w+\([^()]*\))")
 
 
 def options_of(command: Any) -> dict[str, str]:
@@ -19,13 +21,20 @@ def options_of(command: Any) -> dict[str, str]:
 
 
 def as_typed(text: str, options: Mapping[str, str]) -> str:
-    """A text in which settings of Python, such as bottoming=True, and names such as die_radius are options."""
+    """A text in which settings of Python, such as bottoming=True, and names such as die_radius are options.
+
+    Calls of Python, and pairs such as angle=90+-0.05, stay as they are.
+    """
+    return "".join(one if _CALL.fullmatch(one) else _options_in(one, options) for one in _CALL.split(text))
+
+
+def _options_in(text: str, options: Mapping[str, str]) -> str:
     names = sorted(options, key=len, reverse=True)
     joined = [name for name in names if "_" in name]
     if names:
-        text = re.sub(rf"(?<![\w.-])({'|'.join(names)})=({_VALUE})", lambda match: _written(match, options), text)
+        text = re.sub(rf"(?<![\w.@-])({'|'.join(names)})=({_VALUE})", lambda match: _written(match, options), text)
     if joined:
-        text = re.sub(rf"(?<![\w.-])({'|'.join(joined)})\b(?![(=.\w])", lambda match: options[match[1]], text)
+        text = re.sub(rf"(?<![\w.@-])({'|'.join(joined)})\b(?![(=.\w])", lambda match: options[match[1]], text)
     return text
 
 

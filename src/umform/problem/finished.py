@@ -93,7 +93,7 @@ def _file_of(path: Path) -> Path:
             "the run has left no state",
             where=str(path),
             cause="its deck has no state = true under [output], or it ended early",
-            remedy="run it again with --set output.state=true",
+            remedy="umform run DECK --set output.state=true, where DECK is the deck in this folder",
         )
     raise FileProblem("this is no folder of a run", where=str(path), remedy="the folder that umform run has written")
 

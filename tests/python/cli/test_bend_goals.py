@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
@@ -73,3 +74,41 @@ def test_the_folder_of_a_run_that_does_not_start_is_not_named(refused, tmp_path,
     done = CliRunner().invoke(app, ["bend", *refused])
     assert done.exit_code == 1
     assert "this run writes to" not in done.stderr
+
+
+GPA = ["--young", "210", "--poisson", "0.3", "--curve", "Swift,520,0.004,0.22"]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--stroke", "4", *GPA, "--want", "angle=120+-1", "--by", "stroke"], "E of steel is 210e3"),
+        (["--stroke", "4", *GPA, "--find", "E", "--quantity", "angle=120+-1"], "E of steel is 210e3"),
+        (["--sequence", "part.toml", *GPA], "E of steel is 210e3"),
+        (["--stroke", "4", "--want", "angle=120+-1", "--want", "angle=110+-1", "--by", "stroke"], "wanted twice"),
+        (["--stroke", "4", "--want", "angle=120+-1", "--by", "stroke", "--by", "stroke=2:3"], "follows twice"),
+        (["--stroke", "4", "--want", "angle=120+-1", "--by", "stroke=5:3"], "the two exchanged"),
+        (["--angle", "120", "--want", "radius=3+-1", "--by", "punch_radius"], "starts from a stroke"),
+        (["--stroke", "4", "--want", "angle=120", "--by", "stroke"], "as springback=2+-0.05"),
+        (["--stroke", "4", "--want", "angle=120+-1", "--by", "stroke", "--table", "3:9:1"], "beyond air bending"),
+        (["--stroke", "4", "--find", "E", "--scatter", "thickness=1%"], "--scatter"),
+        (["--stroke", "4", "--scatter", "thickness=1%", "--tolerance-of", "thickness=0.1"], "cannot scatter twice"),
+    ],
+)
+def test_what_is_wrong_with_studies_is_said_before_the_first_run(words, said, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("part.toml").write_text("length = 45.0\n[[bends]]\nposition = 20.0\nstroke = 4.0\n")
+    monkeypatch.setattr("umform.analysis.run.open_run.OpenRun.take", lambda *given: pytest.fail("a run"))
+    done = CliRunner().invoke(app, ["bend", *words])
+    assert done.exit_code == 1
+    assert said in done.stderr
+    assert not Path("results").exists()
+
+
+def test_wanted_results_that_are_not_reached_end_with_code_1(tmp_path):
+    coarse = ["--layers", "1", "--elements-per-thickness", "1", "--increment", "0.05", "--out", str(tmp_path / "out")]
+    words = ["bend", "--stroke", "1", "--want", "angle=100+-1", "--by", "stroke=0.9:1.1", *coarse]
+    done = CliRunner().invoke(app, words)
+    assert done.exit_code == 1
+    assert "not reached in 2 runs" in done.stderr
+    assert (tmp_path / "out" / "bend.json").is_file()

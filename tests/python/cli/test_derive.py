@@ -110,3 +110,27 @@ def test_what_is_no_parameter_is_refused_before_the_run(words, tmp_path):
         assert text in done.stderr
     assert "--die" not in done.stderr
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "path", "kept"),
+    [
+        (["bend", "--angle", 150], "stroke", "angle"),
+        (["bend", "--bottoming", "--force-per-metre", 400], "stroke", "force"),
+        (["hem", "--form", "open"], "sheet.stroke", "first_angle"),
+    ],
+)
+def test_a_parameter_that_follows_has_no_derivative(words, path, kept, tmp_path):
+    done = run(*words, "--out", tmp_path / "out", "--derive", path)
+    assert done.exit_code == 1
+    assert "a parameter that follows has no derivative" in done.stderr
+    assert f"it is adjusted to keep {kept}" in done.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_the_force_of_bottoming_is_held(tmp_path):
+    coarse = ["--layers", 1, "--elements-per-thickness", 1, "--increment", 0.05, "--out", tmp_path]
+    done = run("bend", "--bottoming", "--force-per-metre", 300, *coarse, "--derive", "thickness")
+    assert done.exit_code == 0, done.output
+    assert "force is constant: stroke follows" in done.stdout
+    assert abs(float(rows(tmp_path)["force", "thickness"]["value"])) < 1e-9

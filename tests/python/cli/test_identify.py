@@ -120,5 +120,5 @@ def test_a_measured_bend_has_no_other_goal(tmp_path):
     words = ["--find", "strength", "--quantity", "force=100+-1", "--out", str(tmp_path / "out")]
     refused = CliRunner().invoke(cli.app, ["bend", "--angle", "90", *words])
     assert refused.exit_code == 1
-    assert "a measured bend has a stroke" in refused.output
+    assert "without other goals and studies" in refused.output
     assert not (tmp_path / "out").exists()

@@ -86,3 +86,10 @@ def test_a_finer_mesh_is_asked_for_with_its_limit(tmp_path):
     done = CliRunner().invoke(app, ["check", str(tmp_path / "deck.toml"), "--set", "mesh.cells=[6, 1]"])
     assert "the warning begins at" in " ".join(done.stdout.split())
     assert "pace" not in done.stdout
+
+
+@pytest.mark.parametrize(
+    "text", ["--want angle=90+-0.05", "angle=91.6+-.1@stroke=3", "angle=90:120", "AirBending(die_angle=88, stroke=6.0)"]
+)
+def test_pairs_and_calls_stay_as_they_are(text):
+    assert as_typed(text, {name: f"--{name}" for name in ("angle", "stroke", "die_angle")}) == text

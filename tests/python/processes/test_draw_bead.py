@@ -99,6 +99,7 @@ def test_files(drawn, tmp_path):
         ({"height": 0.0}, "height"),
         ({"groove": 8.0}, "no room"),
         ({"gap": -0.1}, "gap"),
+        ({"gap": 20.0}, "does not reach the sheet"),
         ({"friction": 12.0}, "friction"),
         ({"draw": 5.0}, "steady"),
         ({"elements": 1.0}, "quarter turn"),

@@ -172,6 +172,8 @@ def test_an_inner_sheet_is_clamped_between_flange_and_base(tmp_path):
         ({"form": "flat", "gap": 0.5}, "a flat hem has no gap"),
         ({"form": "rope", "gap": 0.0, "loop": 13.0}, "ends before its flange"),
         ({"loop": 3.0}, "ends before its flange"),
+        ({"insert_from": 100.0}, "lies below the flange"),
+        ({"form": "open", "insert_from": 3.0}, "the form of the hem is open"),
         ({"force": -4.0}, "must be positive"),
         ({"form": "closed"}, "flat"),
         ({"base": 8.0, "flange": 12.0}, "longer than its flange"),

@@ -111,8 +111,7 @@ class Part(Outcome):
     @property
     def strokes(self) -> dict[str, str]:
         """Paths of the strokes that were found for angles, by the names of these angles."""
-        bends = enumerate(self.sequence.bends)
-        return {f"bend {k + 1}: angle": f"bends.{k}.stroke" for k, bend in bends if bend.angle is not None}
+        return self.sequence.strokes
 
     @property
     def strip(self) -> Strip:

@@ -113,6 +113,12 @@ class BendSequence:
         )
         return replace(self, bends=tuple(bends))
 
+    @property
+    def strokes(self) -> dict[str, str]:
+        """Paths of the strokes that are looked for, by the names of the angles that they give."""
+        bends = enumerate(self.bends)
+        return {f"bend {k + 1}: angle": f"bends.{k}.stroke" for k, bend in bends if bend.angle is not None}
+
     def case(self, bend: Bend) -> AirBending:
         """Sheet and tools of a bend."""
         return replace(self.sheet, **dict(bend.tools), stroke=bend.stroke)  # type: ignore[arg-type]

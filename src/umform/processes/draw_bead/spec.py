@@ -198,6 +198,14 @@ def _check_geometry(case: DrawBead) -> None:
             cause=f"bead and two thicknesses take {least:.4g}",
             remedy="a wider groove, or omit it",
         )
+    if case.closing <= 0.0:
+        raise InvalidValue(
+            "the closed bead does not reach the sheet",
+            where="gap",
+            value=case.air,
+            cause=f"the bead is {case.height:g} high; the distance of the flats instead of the air beside the sheet",
+            remedy="less than the height of the bead, or omit it",
+        )
     if case.draw is not None and case.draw < 1.2 * case.through:
         raise InvalidValue(
             "the strip is not drawn far enough for a steady force",

@@ -127,7 +127,7 @@ class Hem(Outcome):
     @property
     def strokes(self) -> dict[str, str]:
         """Path of the stroke that was found for the angle of the first bend, by the name of this angle."""
-        return {} if self.case.sheet.stroke is not None else {"first_angle": "sheet.stroke"}
+        return self.case.strokes
 
     @property
     def quantities(self) -> list[Quantity]:

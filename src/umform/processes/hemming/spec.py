@@ -140,7 +140,7 @@ class Hemming:
             raise
 
     def _check_gap(self) -> None:
-        """Refuse a gap and a loop that the form does not have."""
+        """Refuse a gap, a loop and an edge of a sheet that the form does not have."""
         found = f"the form of the hem is {self.form}"
         if self.form == "flat" and self.gap > 0.0:
             raise InvalidValue(
@@ -163,14 +163,27 @@ class Hemming:
                 "only a rope hem has a loop, which ends before its flange does",
                 where="loop",
                 value=self.loop,
-                cause=found,
+                cause=found if self.form != "rope" else f"the flange is {self.flange:g} long",
                 remedy="a rope hem, and less than its flange",
+            )
+        if self.insert_edge >= self.flange if self.is_filled else self.insert_from is not None:
+            raise InvalidValue(
+                "only a hem with an inner sheet or an insert has its edge, which lies below the flange",
+                where="insert_from",
+                value=self.insert_edge,
+                cause=f"the flange is {self.flange:g} long" if self.is_filled else found,
+                remedy="the form inner or insert, and less than its flange",
             )
 
     @property
     def is_closed(self) -> bool:
         """Whether the flange ends on the base or on the inner sheet."""
         return self.form in CLOSED
+
+    @property
+    def is_filled(self) -> bool:
+        """Whether a sheet or a rigid insert lies in the fold."""
+        return self.form in ("inner", "insert")
 
     @property
     def touches_itself(self) -> bool:
@@ -182,7 +195,7 @@ class Hemming:
         """Process of the studies of errors that has such hems: a sheet or plate in the fold makes it another one."""
         if self.force is not None:
             return "hem by force"
-        return "hem, filled" if self.form in ("inner", "insert") else f"hem, {self.form}"
+        return "hem, filled" if self.is_filled else f"hem, {self.form}"
 
     @property
     def loop_length(self) -> float:
@@ -198,6 +211,11 @@ class Hemming:
     def insert_edge(self) -> float:
         """Distance of inner sheet or insert from the inner face at the bend line."""
         return 3.0 * self.sheet.thickness if self.insert_from is None else self.insert_from
+
+    @property
+    def strokes(self) -> dict[str, str]:
+        """Path of the stroke that is looked for, by the name of the angle of the first bend."""
+        return {} if self.sheet.stroke is not None else {"first_angle": "sheet.stroke"}
 
     @property
     def first(self) -> BendSequence:

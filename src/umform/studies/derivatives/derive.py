@@ -110,6 +110,9 @@ def derivatives(
     held = {name: known_parameter(path, known).path for name, path in (hold or {}).items()}
     names = list(dict.fromkeys([*by, *held.values()]))
     parameters = list({one.path: one for one in (known_parameter(name, known) for name in names)}.values())
+    if parameters and {one.path for one in parameters} <= set(held.values()):
+        refuse_followers(parameters, held, "by")
+    of = None if of is None else [*of, *(name for name in held if name not in of)]
     lead = thing.build()
     shadows, sizes = {}, {}
     for one in parameters:
@@ -219,10 +222,39 @@ def known_parameter(path: str, known: Mapping[str, Scalar], where: str = "by") -
     return one
 
 
-def known_parameters(subject: Any, by: Sequence[str], where: str = "by") -> list[Scalar]:
-    """The numbers of some paths of a subject, each once; it raises what `known_parameter` does."""
+def known_parameters(
+    subject: Any, by: Sequence[str], where: str = "by", hold: Mapping[str, str] | None = None
+) -> list[Scalar]:
+    """The numbers of some paths of a subject, each once.
+
+    Raises
+    ------
+    InvalidPath
+        As of `known_parameter`, or one of them follows a result that is held.
+    """
     known = {one.path: one for one in subject_of(subject, by, None, None).parameters()}
-    return list({one.path: one for one in (known_parameter(name, known, where) for name in by)}.values())
+    found = list({one.path: one for one in (known_parameter(name, known, where) for name in by)}.values())
+    refuse_followers(found, hold or {}, where)
+    return found
+
+
+def refuse_followers(parameters: Sequence[Scalar], hold: Mapping[str, str], where: str) -> None:
+    """Refuse derivatives by a parameter that is adjusted to keep a result.
+
+    Raises
+    ------
+    InvalidPath
+    """
+    kept = {path: name for name, path in hold.items()}
+    for one in parameters:
+        if one.path in kept:
+            raise InvalidPath(
+                "a parameter that follows has no derivative",
+                where=where,
+                value=one.path,
+                cause=f"it is adjusted to keep {kept[one.path]}",
+                remedy="another parameter, or a value of its own for this one in place of the result",
+            )
 
 
 def _shadow(thing: Subject, one: Scalar, lead: Built) -> tuple[tuple[Subject, Built], float]:

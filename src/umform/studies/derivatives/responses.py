@@ -77,12 +77,14 @@ def _response(wanted: str | Callable, known: Mapping[str, Quantity], result: Res
         return Response(known[wanted])
     if wanted.partition(":")[0] in result.columns():
         return Response(Quantity(wanted, value=column_number(result, wanted), digits=6), column=wanted)
+    names = [*known, *result.columns()]
+    between = "; " if any("," in name for name in names) else ", "
     raise InvalidValue(
         "the run has no such quantity or column",
         where="of",
         value=wanted,
-        cause=slip(wanted, [*known, *result.columns()]),
-        remedy=f"one of {', '.join([*known, *result.columns()])}",
+        cause=slip(wanted, names),
+        remedy=f"one of {between.join(names)}",
     )
 
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.run import Result
-from umform.errors import InvalidValue, SolveError, UmformError
+from umform.errors import InvalidPath, InvalidValue, SolveError, UmformError
 from umform.io.tables import write_csv
 from umform.progress import Tick, progress_bar, silent
 from umform.results.outcome import Annex, Study
@@ -186,7 +186,10 @@ class Compensated(Study):
         """What was not reached, and derivatives that did not foretell the results."""
         found = []
         if not self.reached:
-            found.append("the wanted results are not reached: more runs, wider bounds, or other parameters")
+            runs = f"{len(self.trials)} runs" if len(self.trials) > 1 else "a single run"
+            found.append(
+                f"the wanted results are not reached in {runs}: wider bounds, another start or other parameters"
+            )
         if self.missed:
             found.append(
                 "a step changed the results otherwise than their derivatives say, by "
@@ -308,13 +311,47 @@ def compensate(
     >>> found.reached, len(found.trials) <= 4
     (True, True)
     """
+    _check_wanted(want, most)
     start = _steady(subject_of(subject, by, options, solver))
     known = {one.path: one for one in start.parameters()}
     parameters = [known_parameter(name, known) for name in by]
+    _check_parameters(parameters, want)
     limits = {known_parameter(name, known).path: limit for name, limit in (bounds or {}).items()}
     search = _Search(start, parameters, dict(want), _limits(parameters, limits))
-    with progress_bar(progress) as tick:
-        return search.run(most, tick)
+    try:
+        with progress_bar(progress) as tick:
+            return search.run(most, tick)
+    except InvalidValue as error:
+        error.where = "want" if error.where == "of" else error.where  # as an argument of `derivatives`
+        raise
+
+
+def _check_wanted(want: Mapping[str, Wanted], most: int) -> None:
+    others = [name for name, one in want.items() if not isinstance(one, Wanted)]
+    if not want or others:
+        raise InvalidValue(
+            "wanted results have values and tolerances" if want else "no result is wanted",
+            where="want",
+            value=", ".join(others) or None,
+            remedy='want={"angle": Wanted(90.0, 0.05)}',
+        )
+    if not most >= 1:
+        raise InvalidValue("one run at least is needed", where="most", value=most, remedy="8, for instance")
+
+
+def _check_parameters(parameters: Sequence[Scalar], want: Mapping[str, Wanted]) -> None:
+    paths = [one.path for one in parameters]
+    twice = sorted({path for path in paths if paths.count(path) > 1})
+    if twice:
+        raise InvalidValue("a parameter follows twice", where="by", value=", ".join(twice), remedy="once")
+    if not paths or len(paths) > len(want):
+        raise InvalidValue(
+            "the wanted results do not determine the parameters" if paths else "no parameter follows",
+            where="by",
+            value=", ".join(paths) or None,
+            cause="more parameters than results" if paths else "",
+            remedy="fewer parameters, or more wanted results" if paths else 'by=["stroke"], for instance',
+        )
 
 
 class _Search:
@@ -356,6 +393,14 @@ class _Search:
                 break  # at a bound
             x_new, y_new = self._next(x, step, most)
             moved, found = (x_new - x) / self.scale, y_new - y
+            if not found.any():
+                raise InvalidValue(
+                    "a step changes no wanted result",
+                    where="by",
+                    value=", ".join(one.path for one in self.parameters),
+                    cause="the part does not respond, as with numbers in other units",
+                    remedy="look at a run without wanted results first",
+                )
             missed = self._distance(found - slopes @ moved)
             good = missed <= _EXPECTED * self._distance(found)
             gain = self._distance(y_new - self.goal) / self._distance(y - self.goal)
@@ -411,7 +456,7 @@ class _Search:
                 "the wanted results do not determine the parameters",
                 where="by",
                 value=", ".join(one.path for one in self.parameters),
-                cause="more parameters than results, one without an effect, or two with the same effect",
+                cause="one without an effect, or two with the same effect",
                 remedy="fewer parameters, or more wanted results",
             )
         open_ended = box[0] < box[1]
@@ -526,12 +571,21 @@ def _limits(parameters: Sequence[Scalar], bounds: Mapping[str, tuple[float, floa
     limits = []
     for one in parameters:
         low, high = bounds.get(one.path, (-np.inf, np.inf))
-        if not low <= one.value <= high:
+        if not low < high:
             raise InvalidValue(
+                "the least value is below the largest one",
+                where="by",
+                value=f"{one.path}, {low:g} to {high:g}",
+                cause="the two exchanged" if high < low else "both are equal",
+                remedy="the least value first",
+            )
+        if not low <= one.value <= high:
+            raise InvalidPath(
                 "a parameter starts outside of its bounds",
                 where=one.path,
                 value=one.value,
-                cause=f"{low:g} to {high:g}",
+                cause=f"they are {low:g} and {high:g}",
+                remedy="a start between them, or wider bounds",
             )
         limits.append((low, high))
     return np.array(limits, dtype=float)

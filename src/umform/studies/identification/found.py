@@ -67,6 +67,8 @@ class Identified(Study):
         Why the search has stopped before its end; empty if it has not.
     given : bool
         Whether standard deviations of the measurements were given.
+    unknown_errors : bool
+        Whether there are none, and so few measurements that the misfit does not tell them.
 
     Examples
     --------
@@ -92,6 +94,7 @@ class Identified(Study):
     refused: int
     unfinished: str
     given: bool
+    unknown_errors: bool
 
     @property
     def values(self) -> Mapping[str, float]:
@@ -123,7 +126,7 @@ class Identified(Study):
         units = {one.path: one.unit for one in self.last[0].parameters}
         for path, value in self.values.items():
             error = self.deviations[path]
-            sure = "no" if path in self.fit.undetermined else "yes"
+            sure = UNKNOWN if self.unknown_errors else "no" if path in self.fit.undetermined else "yes"
             text = UNKNOWN if math.isinf(error) else f"{error:.2g}"
             rows.append([path, f"{self.start[path]:.6g}", f"{value:.6g}", text, units[path], sure])
         return rows
@@ -147,7 +150,13 @@ class Identified(Study):
             )
         if self.unfinished:
             yield f"the search has stopped before its end: {self.unfinished}"
-        yield from vague("measurements", self.fit)
+        if self.unknown_errors:
+            yield (
+                "as many numbers as measurements, which have no standard deviations: the standard errors are unknown; "
+                "give the measurements deviations, or measure more"
+            )
+        else:
+            yield from vague("measurements", self.fit)
         for path, one in self.sought.items():
             if one.deviation is not None and self.deviations[path] > _LITTLE * one.deviation:
                 yield f"{path} is hardly measured: standard deviation {self.deviations[path]:.2g}, known before "
@@ -188,7 +197,7 @@ class Identified(Study):
                 "value": value,
                 "standard_error": None if math.isinf(self.deviations[path]) else self.deviations[path],
                 "before": self.start[path],
-                "determined": path not in self.fit.undetermined,
+                "determined": None if self.unknown_errors else path not in self.fit.undetermined,
             }
             for path, value in self.values.items()
         }

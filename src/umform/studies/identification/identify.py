@@ -98,6 +98,8 @@ def identify(
             remedy="bounds by path, and at least one measured curve or number",
         )
     _refuse_mixed(data)
+    if not most >= 1:
+        raise InvalidValue("one trial at least is needed", where="most", value=most, remedy="30, for instance")
     thing = subject_of(subject, dict.fromkeys(find, 0.0), options, solver)
     known = {one.path: one for one in thing.parameters()}
     sought: dict[str, Sought] = {}
@@ -215,10 +217,11 @@ def _identified(search: _Search, values: Floats, at_bound: Floats, before: Float
     x = (values - search.start) / search.scale
     residual, jacobian = search.residuals(x)[:-1], search.jacobian(x)[:-1] / search.scale
     free = len(residual) - len(values)
-    scatter = float(residual @ residual) / max(free, 1)
     given = all(one.known for one in runs.data)
-    spread, correlation = uncertainty(jacobian * search.scale, 1.0 if given else scatter)
-    spread = np.where(at_bound, np.inf, spread * search.scale)
+    unknown = not given and free <= 0  # the residual is round-off
+    scatter = 1.0 if given or unknown else float(residual @ residual) / free
+    spread, correlation = uncertainty(jacobian * search.scale, scatter)
+    spread = np.where(np.logical_or(at_bound, unknown), np.inf, spread * search.scale)
     names = list(search.sought)
     stopped = "" if runs.refusal is None else str(runs.refusal).splitlines()[0]
     number, _, last = runs.at(values)
@@ -243,4 +246,5 @@ def _identified(search: _Search, values: Floats, at_bound: Floats, before: Float
         refused=runs.refused,
         unfinished=stopped or ("" if enough else "more trials are needed"),
         given=given,
+        unknown_errors=unknown,
     )

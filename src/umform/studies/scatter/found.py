@@ -30,6 +30,8 @@ TABLE, RECORD, PICTURE = FILES = ("scatter.csv", "scatter.json", "scatter.png")
 SHARES = "Shares of the variance in %"
 #: Capability above which a process is usually called capable.
 CAPABLE = 1.33
+#: Share of the largest result of its unit below which a result is round-off.
+_ROUND_OFF = 1e-9
 
 
 @dataclass(frozen=True, repr=False)
@@ -146,8 +148,14 @@ class Scattered(Study):
         return rows
 
     def _of_run(self, run: SecondRun) -> list[Spread]:
-        """Results whose largest source is that of a run."""
-        return [one for one in self if one.largest == run.path]
+        """Results whose largest source is that of a run, but for round-off."""
+        return [one for one in self if one.largest == run.path and not self._is_round_off(one)]
+
+    def _is_round_off(self, spread: Spread) -> bool:
+        """Whether a result is tiny beside another one of its unit, such as the bow of a leg that is straight."""
+        sizes = [abs(one.response.value or 0.0) for one in self if one.response.unit == spread.response.unit]
+        own = abs(spread.response.value or 0.0) + abs(spread.deviation.value or 0.0)
+        return own < _ROUND_OFF * max(sizes)
 
     @property
     def warnings(self) -> list[str]:

@@ -55,6 +55,10 @@ def test_a_held_response(beam):
     assert [one.path for one in held.parameters] == ["thickness"]
     assert held["tip_force:last", "thickness"].value == 0.0
     assert held["E", "thickness"].relative == pytest.approx(-beam["tip_force:last", "thickness"].relative, rel=1e-4)
+    other = uf.derivatives(cantilever, by=BEAM, of=["tip:last"], hold={"tip_force:last": "E"}, progress=False)
+    assert other["tip_force:last", "thickness"].value == 0.0  # a held one is a response without being named
+    with pytest.raises(InvalidValue, match="a parameter that follows has no derivative"):
+        uf.derivatives(cantilever, by={"E": BEAM["E"]}, hold={"tip_force:last": "E"}, progress=False)
     with pytest.raises(InvalidValue, match="cannot be held"):
         uf.derivatives(cantilever, by=BEAM, of=["tip:last"], hold={"tip:last": "E"}, progress=False)
 

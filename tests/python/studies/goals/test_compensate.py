@@ -75,7 +75,9 @@ def test_a_bound_is_kept_and_said(tmp_path):
     found = uf.compensate(BEND, {"angle": uf.Wanted(128.0, 0.02)}, ["stroke"], bounds={"stroke": (2.5, 3.1)})
     assert not found.reached
     assert found.parameters["stroke"].value == pytest.approx(3.1, abs=1e-9)
-    assert found.warnings == ["the wanted results are not reached: more runs, wider bounds, or other parameters"]
+    assert found.warnings == [
+        "the wanted results are not reached in 2 runs: wider bounds, another start or other parameters"
+    ]
     found.write(tmp_path)
     assert "not all results are reached" in (tmp_path / "compensation.html").read_text()
 
@@ -146,6 +148,33 @@ def test_a_height_of_a_hem_is_reached_by_its_insert():
     found = uf.compensate(HEM, {"height": uf.Wanted(3.2, 0.01)}, ["gap"])
     assert found.reached
     assert len(found.trials) <= 3
+
+
+@pytest.mark.parametrize(
+    ("change", "where"),
+    [
+        ({"want": {}}, "want"),
+        ({"want": {"angle": (128.0, 0.02)}}, "want"),
+        ({"want": {"angel": uf.Wanted(128.0, 0.02)}}, "want"),
+        ({"by": []}, "by"),
+        ({"by": ["stroke", "stroke"]}, "by"),
+        ({"by": ["stroke", "punch_radius"]}, "by"),
+        ({"bounds": {"stroke": (5.0, 2.0)}}, "by"),
+        ({"most": 0}, "most"),
+    ],
+)
+def test_what_cannot_be_wanted_is_refused_by_name(change, where):
+    given = {"want": {"angle": uf.Wanted(128.0, 0.02)}, "by": ["stroke"]} | change
+    with pytest.raises(InvalidValue) as refused:
+        uf.compensate(BEND, **given)
+    assert refused.value.where == where
+
+
+def test_a_part_that_does_not_respond_is_refused(monkeypatch):
+    search = sys.modules["umform.studies.goals.compensate"]._Search
+    monkeypatch.setattr(search, "_plain", lambda self, x: np.array(self.trials[0].results))
+    with pytest.raises(InvalidValue, match="changes no wanted result"):
+        uf.compensate(BEND, {"angle": uf.Wanted(128.0, 0.02)}, ["stroke"])
 
 
 def test_a_start_outside_of_its_bounds_is_refused():

@@ -3,6 +3,7 @@
 import csv
 import json
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -77,6 +78,15 @@ def test_errors_follow_from_the_scatter_if_no_deviations_are_given(tension):
     ratio = scattered.deviations["modulus"] / given.deviations["modulus"]
     assert ratio == pytest.approx(given.fit.misfit * np.sqrt(12 / 10), rel=1e-3)
     assert "per cent" in str(scattered)
+
+
+def test_errors_are_unknown_without_deviations_and_more_measurements_than_numbers(tension):
+    number = [uf.MeasuredNumber("pull_force:last", tension[1][-1])]
+    found = uf.identify(partial(bar, modulus=2000.0), {"yield_stress": (100.0, 400.0)}, number)
+    assert np.isinf(found.deviations["yield_stress"])
+    assert "the standard errors are unknown" in str(found)
+    assert "more than half" not in str(found)
+    assert found.table[1][-1] == "–"
 
 
 def test_a_curve_and_a_number_of_another_bar(tension):
