@@ -60,7 +60,12 @@ def _alike(word: str, other: str) -> bool:
         return word == other
 
 
-@pytest.mark.parametrize("page", WITH_BLOCKS, ids=lambda page: str(page.relative_to(ROOT)))
+#: Pages that take longest; other tests run their commands on coarser meshes.
+LONG = {ROOT / "docs" / name for name in ("bend-tables.md", "identification.md", "tutorials/9-which-tolerance.md")}
+RUN = [pytest.param(page, marks=[pytest.mark.long] * (page in LONG)) for page in WITH_BLOCKS]
+
+
+@pytest.mark.parametrize("page", RUN, ids=lambda page: str(page.relative_to(ROOT)))
 def test_blocks_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     bin_folder = tmp_path / "bin"
     bin_folder.mkdir()

@@ -235,7 +235,7 @@ def of_metal(case, strength, exponent):
 @pytest.fixture(scope="module")
 def bend():
     """A bend of the metal of the card, and the same of the coil: 12 % stronger, exponent 5 % smaller."""
-    card = AirBending(stroke=6.1, elements_per_thickness=1.0, layers=1)
+    card = AirBending(stroke=6.1, elements_per_thickness=1.0, layers=1, increment=0.025)
     return card, of_metal(card, 1.12 * 520.0, 0.95 * 0.22)
 
 
