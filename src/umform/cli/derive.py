@@ -86,7 +86,8 @@ def derive(
 
     print_warnings_once()
     said: list[str] = []
-    with deck_errors("by", "of", "hold"):
+    typed = {"by": by, "of": of, "hold": hold}
+    with deck_errors(*(name for name, values in typed.items() if values)):
         problem = read(deck, changes or (), trust)
         table = problem.contents.derivatives
         paths, held = by or (table.by if table else []), dict(_pair(text) for text in hold or ())

@@ -11,12 +11,19 @@ if TYPE_CHECKING:
     from umform.processes.air_bending.spec import AirBending
 
 
-def refuse_implausible(model: Model, *, force: bool = False) -> None:
+def refuse_implausible(model: Model, *, force: bool | None = None) -> None:
     """Refuse numbers that are certainly wrong, and warn of unusual ones.
+
+    Parameters
+    ----------
+    model : Model
+        The sheet in its tools.
+    force : bool, optional
+        Warn only; None where no option --force does it.
 
     Raises
     ------
-    InvalidValue
+    DeckError
         With what to change.
     """
     from umform.problem.findings import accept
@@ -26,7 +33,7 @@ def refuse_implausible(model: Model, *, force: bool = False) -> None:
         typer.echo(f"umform: {warning}", err=True)
 
 
-def refuse_implausible_bend(case: AirBending, *, force: bool = False) -> None:
+def refuse_implausible_bend(case: AirBending, *, force: bool | None = None) -> None:
     """The same of the sheet in the tools of a bend."""
     from umform.processes.air_bending.problem import build
 

@@ -64,15 +64,15 @@ def error(about: str, text: str, remedy: str) -> Finding:
     return Finding(Level.ERROR, about, text, remedy)
 
 
-def accept(findings: Iterable[Finding], *, force: bool = False) -> list[str]:
+def accept(findings: Iterable[Finding], *, force: bool | None = None) -> list[str]:
     """Warnings of findings, as text; errors among them are raised.
 
     Parameters
     ----------
     findings : iterable of Finding
         Findings of a check.
-    force : bool
-        Treat errors as warnings.
+    force : bool, optional
+        Treat errors as warnings; None where no option --force does it.
 
     Returns
     -------
@@ -86,13 +86,14 @@ def accept(findings: Iterable[Finding], *, force: bool = False) -> list[str]:
     """
     found = [finding for finding in findings if finding.level is not Level.OK]
     errors = [finding for finding in found if finding.level is Level.ERROR]
+    overruled = "" if force is None else "; --force runs it all the same"
     if errors and not force:
         raise DeckError(
             Implausible(
                 finding.text,
                 where=finding.about,
                 cause=finding.cause,
-                remedy=f"{finding.remedy}; --force runs it all the same",
+                remedy=f"{finding.remedy}{overruled}",
             )
             for finding in errors
         )

@@ -147,7 +147,7 @@ def refuse_folder(solver: str, out: str | Path | None, *, overwrite: bool = Fals
         _on_first(solver, partial(chosen_folder, out, RESULTS, overwrite=overwrite))
 
 
-def refuse_implausible(deck: Problem, problem: Prepared, *, force: bool = False) -> None:
+def refuse_implausible(deck: Problem, problem: Prepared, *, force: bool | None = None) -> None:
     """Refuse numbers that are certainly wrong, and log warnings of unusual ones, before the run.
 
     Parameters
@@ -156,8 +156,8 @@ def refuse_implausible(deck: Problem, problem: Prepared, *, force: bool = False)
         The deck.
     problem : Prepared
         The problem of the deck; its model is unchanged.
-    force : bool
-        Warn only.
+    force : bool, optional
+        Warn only; None where no option --force does it.
 
     Raises
     ------

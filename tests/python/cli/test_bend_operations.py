@@ -160,3 +160,14 @@ def test_the_scatter_of_a_hem_is_refused_before_the_run(tmp_path, monkeypatch):
     assert done.exit_code == 1
     assert "there is no number of this path" in done.stderr
     assert not Path("results").exists()
+
+
+def test_a_hem_in_other_units_is_refused(tmp_path, monkeypatch):
+    """Without the remedy of other commands: its --force is that of the plate."""
+    monkeypatch.chdir(tmp_path)
+    words = ["--young", "210", "--poisson", "0.3", "--curve", "Swift,520,0.004,0.22"]
+    done = CliRunner().invoke(app, ["hem", *words])
+    assert done.exit_code == 1
+    assert "E of steel is 210e3" in done.stderr
+    assert "--force" not in done.stderr
+    assert not Path("results").exists()

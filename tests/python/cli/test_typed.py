@@ -93,3 +93,10 @@ def test_a_finer_mesh_is_asked_for_with_its_limit(tmp_path):
 )
 def test_pairs_and_calls_stay_as_they_are(text):
     assert as_typed(text, {name: f"--{name}" for name in ("angle", "stroke", "die_angle")}) == text
+
+
+def test_a_text_that_no_path_contains_is_said(tmp_path):
+    (tmp_path / "deck.toml").write_text(template("free-bending"))
+    done = CliRunner().invoke(app, ["paths", str(tmp_path / "deck.toml"), "zzz"])
+    assert done.exit_code == 1
+    assert "no path contains this text" in done.stderr

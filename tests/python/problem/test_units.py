@@ -93,9 +93,12 @@ def test_a_stiff_penalty(texts, found):
 def test_errors_are_refused_together_unless_forced():
     findings = [ok("a", "fine"), warning("b", "odd", "look"), error("c", "off", "mend"), error("d", "wild", "tame")]
     with pytest.raises(DeckError) as caught:
-        accept(findings)
+        accept(findings, force=False)
     assert [(told.where, told.what) for told in caught.value.errors] == [("c", "off"), ("d", "wild")]
     assert all("--force" in told.remedy for told in caught.value.errors)
+    with pytest.raises(DeckError) as caught:  # where nothing overrules
+        accept(findings)
+    assert not any("--force" in told.remedy for told in caught.value.errors)
     assert [line.split(":")[0] for line in accept(findings, force=True)] == ["b", "c", "d"]
     assert len(accept(findings[:2])) == 1
 
