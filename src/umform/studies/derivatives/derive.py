@@ -112,7 +112,9 @@ def derivatives(
     parameters = list({one.path: one for one in (known_parameter(name, known) for name in names)}.values())
     if parameters and {one.path for one in parameters} <= set(held.values()):
         refuse_followers(parameters, held, "by")
-    of = None if of is None else [*of, *(name for name in held if name not in of)]
+    if of is not None:  # held results are among the responses
+        named = [one if isinstance(one, str) else getattr(one, "__name__", "") for one in of]
+        of = [*of, *(name for name in held if name not in named)]
     lead = thing.build()
     shadows, sizes = {}, {}
     for one in parameters:

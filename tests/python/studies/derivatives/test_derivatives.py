@@ -57,6 +57,12 @@ def test_a_held_response(beam):
     assert held["E", "thickness"].relative == pytest.approx(-beam["tip_force:last", "thickness"].relative, rel=1e-4)
     other = uf.derivatives(cantilever, by=BEAM, of=["tip:last"], hold={"tip_force:last": "E"}, progress=False)
     assert other["tip_force:last", "thickness"].value == 0.0  # a held one is a response without being named
+
+    def pull(result):
+        return result["tip_force"][-1]
+
+    own = uf.derivatives(cantilever, by=BEAM, of=[pull], hold={"pull": "E"}, progress=False)
+    assert own["E", "thickness"].value == pytest.approx(held["E", "thickness"].value, rel=1e-6)
     with pytest.raises(InvalidValue, match="a parameter that follows has no derivative"):
         uf.derivatives(cantilever, by={"E": BEAM["E"]}, hold={"tip_force:last": "E"}, progress=False)
     with pytest.raises(InvalidValue, match="cannot be held"):
