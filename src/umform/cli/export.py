@@ -12,6 +12,8 @@ from umform.cli.root import Debug, Overwrite, app
 
 #: Formats of fields of all states, or of the last one.
 _FIELDS = ("vtu", "pvd", "xdmf")
+#: Points through shells and layers of solids, unless others are asked for.
+_POINTS, _LAYERS = 9, 6
 
 
 @app.command()
@@ -50,8 +52,8 @@ def export(
             metavar="shells|solids", help="Middle surface, or layers of solids; default: what the format has."
         ),
     ] = None,
-    points: Annotated[int, typer.Option(help="Points through the thickness of shells.")] = 9,
-    layers: Annotated[int, typer.Option(help="Layers of solids through each element.")] = 6,
+    points: Annotated[int, typer.Option(help="Points through the thickness of shells.")] = _POINTS,
+    layers: Annotated[int, typer.Option(help="Layers of solids through each element.")] = _LAYERS,
     mirror: Annotated[
         bool, typer.Option("--mirror", help="Add the mirror images of a modelled half or quarter.")
     ] = False,
@@ -72,6 +74,23 @@ def export(
     from umform.report.state_files import PROGRAMS, export_state
 
     if to in _FIELDS:
+        of_states = {
+            "--stage": stage,
+            "--mesh": mesh,
+            "--points": points != _POINTS,
+            "--layers": layers != _LAYERS,
+            "--mirror": mirror,
+            "--units": units,
+        }
+        typed = [name for name, value in of_states.items() if value]
+        if typed:
+            raise InvalidValue(
+                "the fields of a run are written as they are",
+                where=", ".join(typed),
+                value=f"--to {to}",
+                cause="an option of the state of a part",
+                remedy=f"leave it out, or --to {', '.join(PROGRAMS)}",
+            )
         _export_fields(run, to, out, overwrite)
         return
     if to not in PROGRAMS:

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from umform.cli.root import Debug, app, console
+from umform.errors import InvalidValue
 
 
 @app.command()
@@ -22,6 +23,13 @@ def new(
     """Print a template deck: `umform new air-bending > deck.toml`."""
     from umform.problem import templates
 
+    if out is not None and (schema or template is None):
+        raise InvalidValue(
+            "only a template is written to a file" if schema else "there is no template to write",
+            where="--out",
+            value=str(out),
+            remedy="umform new --schema > deck-schema.json" if schema else "umform new TEMPLATE --out FILE",
+        )
     if schema:
         from umform.problem.contents import json_schema  # without the rest of umform, which the list does not need
 

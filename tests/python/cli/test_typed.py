@@ -100,3 +100,19 @@ def test_a_text_that_no_path_contains_is_said(tmp_path):
     done = CliRunner().invoke(app, ["paths", str(tmp_path / "deck.toml"), "zzz"])
     assert done.exit_code == 1
     assert "no path contains this text" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("typed", "said"),
+    [
+        ("new --schema --out schema.json", "umform new --schema > deck-schema.json"),
+        ("new --out deck.toml", "umform new TEMPLATE --out FILE"),
+        ("export results --to vtu --mirror --points 3", "--points, --mirror"),
+    ],
+)
+def test_options_that_would_do_nothing_are_refused(typed, said, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    done = CliRunner().invoke(app, typed.split(), prog_name="umform")
+    assert done.exit_code == 1
+    assert said in done.stderr
+    assert not list(tmp_path.iterdir())
