@@ -401,7 +401,7 @@ def test_a_u_bend_that_cannot_be_drawn_is_refused(wrong):
 @pytest.mark.parametrize(("command", "kind", "usual"), [("cup", "Cup", 1.2), ("u", "UBend", 1.0 / 0.78)])
 def test_the_default_opening_follows_the_thickness(monkeypatch, command, kind, usual):
     cases = []
-    monkeypatch.setattr("umform.cli.draw._run", lambda goals, *_, **__: cases.append(goals.case))
+    monkeypatch.setattr("umform.cli.draw._run", lambda case, *_, **__: cases.append(case))
     for more in ([], ["--thickness", "1.5"], ["--punch", "40", "--thickness", "2"]):
         assert CliRunner().invoke(app, ["draw", command, "--material", "DP600", *more]).exit_code == 0
     assert [type(case).__name__ for case in cases] == 3 * [kind]
