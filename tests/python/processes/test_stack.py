@@ -7,8 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import umform as uf
+from umform.cli import app
 from umform.cli.stack import stacked
 from umform.errors import InvalidValue
 from umform.materials import J2, Voce
@@ -166,3 +168,11 @@ def test_the_stroke_of_an_angle_takes_the_stiffness_of_bonded_sheets():
     case = AirBending(**COARSE | {"thickness": 0.1, "material": foil, "opening": 12.0, "on_top": [above]})
     found = find_stroke(case, 120.0, tolerance=0.1, progress=False)
     assert found.measures.angle == pytest.approx(120.0, abs=0.1)
+
+
+def test_a_study_of_the_command_takes_numbers_of_further_sheets(tmp_path):
+    coarse = ["--layers", "1", "--elements-per-thickness", "1", "--increment", "0.05"]
+    words = ["--thickness", "1", "--stroke", "0.5", "--on-top", "DC04,0.5,bonded", "--derive", "on_top.0.thickness"]
+    done = CliRunner().invoke(app, ["bend", *words, *coarse, "--out", str(tmp_path)])
+    assert done.exit_code == 0, done.output
+    assert "on_top.0.thickness" in (tmp_path / "derivatives.csv").read_text()
