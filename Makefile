@@ -242,7 +242,7 @@ $(VENV)/.docs: $(VENV)/.tools
 	@mv $@.new $@
 
 docs: env $(VENV)/.docs  ## the documentation as a site in build/docs; every warning is an error
-	$(SAY) 'Making the site in $(DOCS)/$(VERSION) (some 80 s of CPU the first time)'
+	$(SAY) 'Making the site in $(DOCS)/$(VERSION) (some 2 minutes of CPU the first time)'
 	@rm -rf docs/site/api/generated
 	@mkdir -p build; ls docs/site/api > build/docs-pages.new  # Sphinx misses new pages of the API in an old cache
 	@cmp -s build/docs-pages.new build/docs-pages || { rm -rf build/docs-cache; mv build/docs-pages.new build/docs-pages; }

@@ -192,7 +192,8 @@ def bend(
     if find or quantity:
         check_measured(angle, table, angles, force_per_metre, budget, derive, scatter_options or None, want, by, deck)
     check_wanted(want, by, stroke is None and travel is None)
-    held = {"angle": "stroke"} if angle is not None else {} if force_per_metre is None else {"force": "stroke"}
+    goal = "angle" if angle is not None else "force" if force_per_metre is not None else ""
+    held = {goal: "stroke"} if goal else {}
     if derive or scatter_options:  # refuse what is wrong before the run
         some = replace(case, stroke=stroke or 0.5 * case.largest_stroke)
         check_derived(some, derive, held)

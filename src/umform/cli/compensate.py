@@ -224,10 +224,7 @@ def bounded(texts: Sequence[str]) -> tuple[list[str], dict[str, tuple[float, flo
             raise InvalidValue(
                 "these are no bounds", where="--by", value=text, remedy="write PATH=LOW:HIGH, as holder_force=2000:8000"
             )
-        path = text.strip() if parts is None else parts["path"].strip()
-        if path in paths:
-            raise InvalidValue("a parameter follows twice", where="--by", value=text, remedy="once")
-        paths.append(path)
+        paths.append(text.strip() if parts is None else parts["path"].strip())
         if parts is not None:
             bounds[paths[-1]] = (float(parts["low"]), float(parts["high"]))
     return paths, bounds

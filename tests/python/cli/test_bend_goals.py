@@ -92,6 +92,10 @@ GPA = ["--young", "210", "--poisson", "0.3", "--curve", "Swift,520,0.004,0.22"]
         (["--stroke", "4", "--want", "angle=120", "--by", "stroke"], "as springback=2+-0.05"),
         (["--stroke", "4", "--want", "angle=120+-1", "--by", "stroke", "--table", "3:9:1"], "beyond air bending"),
         (["--stroke", "4", "--find", "E", "--scatter", "thickness=1%"], "--scatter"),
+        (
+            ["draw", "u", "--want", "theta1=90+-1", "--by", "friction", "--limit-curve", "no.csv"],
+            "forming limit cannot",
+        ),
         (["--stroke", "4", "--scatter", "thickness=1%", "--tolerance-of", "thickness=0.1"], "cannot scatter twice"),
     ],
 )
@@ -99,7 +103,7 @@ def test_what_is_wrong_with_studies_is_said_before_the_first_run(words, said, tm
     monkeypatch.chdir(tmp_path)
     Path("part.toml").write_text("length = 45.0\n[[bends]]\nposition = 20.0\nstroke = 4.0\n")
     monkeypatch.setattr("umform.analysis.run.open_run.OpenRun.take", lambda *given: pytest.fail("a run"))
-    done = CliRunner().invoke(app, ["bend", *words])
+    done = CliRunner().invoke(app, words if words[0] == "draw" else ["bend", *words])
     assert done.exit_code == 1
     assert said in done.stderr
     assert not Path("results").exists()

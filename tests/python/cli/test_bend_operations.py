@@ -107,8 +107,9 @@ def one_bend(tmp_path, monkeypatch):
 
 
 def test_derivatives_of_a_part(one_bend):
-    done = CliRunner().invoke(app, [*one_bend, "--derive", "strength"], env={"COLUMNS": "160"})
+    done = CliRunner().invoke(app, [*one_bend, "--derive", "strength", "--timing"], env={"COLUMNS": "160"})
     assert done.exit_code == 0, done.output
+    assert "Where the time went" in done.stdout
     assert "bend 1: angle is constant: bends.0.stroke follows" in done.stdout
     assert "derivatives-history.csv" in done.stdout
     assert "bends.0.stroke" in Path("results/sequence/derivatives.csv").read_text()

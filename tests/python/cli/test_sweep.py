@@ -72,3 +72,9 @@ def test_a_sweep_of_failures_only_ends_with_an_error(deck):
     done = umform(deck, *SMALL, "--vary", "name=NONE,NOTHING")
     assert done.exit_code == 1
     assert [row["outcome"] for row in rows(deck)] == ["refused", "refused"]
+
+
+def test_a_key_that_is_varied_twice_is_refused(deck):
+    done = umform(deck, *SMALL, "--vary", "thickness=0.1:0.2:0.1", "--vary", "thickness=0.3")
+    assert done.exit_code == 1
+    assert "a key is varied twice" in done.stderr

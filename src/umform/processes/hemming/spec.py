@@ -166,7 +166,8 @@ class Hemming:
                 cause=found if self.form != "rope" else f"the flange is {self.flange:g} long",
                 remedy="a rope hem, and less than its flange",
             )
-        if self.insert_edge >= self.flange if self.is_filled else self.insert_from is not None:
+        wrong = self.insert_edge >= self.flange if self.is_filled else self.insert_from is not None
+        if wrong:
             raise InvalidValue(
                 "only a hem with an inner sheet or an insert has its edge, which lies below the flange",
                 where="insert_from",

@@ -346,10 +346,9 @@ def _check_parameters(parameters: Sequence[Scalar], want: Mapping[str, Wanted]) 
         raise InvalidValue("a parameter follows twice", where="by", value=", ".join(twice), remedy="once")
     if not paths or len(paths) > len(want):
         raise InvalidValue(
-            "the wanted results do not determine the parameters" if paths else "no parameter follows",
+            "more parameters follow than results are wanted" if paths else "no parameter follows",
             where="by",
             value=", ".join(paths) or None,
-            cause="more parameters than results" if paths else "",
             remedy="fewer parameters, or more wanted results" if paths else 'by=["stroke"], for instance',
         )
 
@@ -451,7 +450,7 @@ class _Search:
         box = np.maximum(low, -self.longest), np.minimum(high, self.longest)
         matrix = slopes / self.tolerance[:, None]
         sizes = np.linalg.svd(matrix, compute_uv=False)
-        if len(sizes) < len(x) or sizes[-1] <= _DETERMINED * sizes[0]:
+        if sizes[-1] <= _DETERMINED * sizes[0]:
             raise InvalidValue(
                 "the wanted results do not determine the parameters",
                 where="by",

@@ -118,7 +118,7 @@ def test_an_unknown_derivative_is_a_secant_of_one_run_more(monkeypatch):
 
 def test_more_parameters_than_results_are_refused():
     by = {"way": 0.5, "E": 210e3}
-    with pytest.raises(InvalidValue, match="do not determine the parameters"):
+    with pytest.raises(InvalidValue, match="more parameters follow than results are wanted"):
         uf.compensate(cantilever, {"tip_force": uf.Wanted(-2.0, 1e-6)}, by)
 
 

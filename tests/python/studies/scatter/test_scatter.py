@@ -29,6 +29,11 @@ def steep(result):
     return math.exp(300.0 * force(result).value)
 
 
+def bow(result):
+    """As far from linear, and nothing but round-off beside the force."""
+    return Quantity("bow", "N", 4, value=1e-20 * steep(result))
+
+
 def scatter(sources, of=(force,), function=build, **rest):
     return uf.scatter(function, sources, of, **{"values": VALUES, "progress": False} | rest)
 
@@ -39,6 +44,13 @@ def test_standard_deviation_and_shares_of_a_product():
     assert [one.value for one in found.shares.values()] == pytest.approx([36.0, 64.0], abs=0.1)
     assert found.largest == "deflection"
     assert found.deviation.unit == "N"
+
+
+def test_round_off_is_no_warning():
+    found = scatter({"E": "3%"}, of=(force, steep, bow))
+    warned = " ".join(found.warnings)
+    assert "changes steep" in warned
+    assert "bow" not in warned
 
 
 @pytest.mark.parametrize("r", [-0.5, 0.8, 1.0])
