@@ -241,7 +241,7 @@ def bend(
 
                 done = replace(done, budget=error_budget(done, processes=processes))
             done, more = derived(done, done.case, derive, place, held)
-            done, scatter = scatter_options.added_to(done, done.case, place)
+            done, scatter = scatter_options.added_to(done, done.case, place, goal)
             done, wanted = goals.added_to(done, place)
             done, along = deflected(done, brake_frame, place)
             with printing(f"the files of the bend are in {place}"):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
@@ -65,17 +65,21 @@ class ScatterOptions:
         with self._refusals():
             return self._plan(subject).run()
 
-    def added_to(self, outcome: _Outcome, case: Any, place: Path) -> tuple[_Outcome, list[Path]]:
+    def added_to(self, outcome: _Outcome, case: Any, place: Path, goal: str = "") -> tuple[_Outcome, list[Path]]:
         """The outcome of a process with the scatter of its results, which widens their bands, and the files.
 
-        Without any scatter, the outcome itself.
+        Without any scatter, the outcome itself. A note says that the stroke of a goal is constant, unless it is held.
         """
         if not self:
             return outcome, []
+        from umform.studies.scatter.found import RESULTS
+
         found = self.run(case)
         outcome = outcome.with_deviations({one.name: one.deviation.value or 0.0 for one in found})
+        constant = [f"the stroke is constant: --hold {goal}=stroke keeps the {goal}"] if goal else []
         for annex in found.annexes:
-            outcome = outcome.with_annex(annex)
+            notes = [*annex.notes, *constant * (annex.title == RESULTS and not self.typed["hold"])]
+            outcome = outcome.with_annex(replace(annex, notes=notes))
         return outcome, found.write(place)
 
     @staticmethod

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 #: Files: all numbers, the same with the sources, the picture.
 TABLE, RECORD, PICTURE = FILES = ("scatter.csv", "scatter.json", "scatter.png")
-#: Heading of the table of shares.
-SHARES = "Shares of the variance in %"
+#: Headings of the tables of results and of shares.
+RESULTS, SHARES = "Scatter of the results", "Shares of the variance in %"
 #: Capability above which a process is usually called capable.
 CAPABLE = 1.33
 #: Share of the largest result of its unit below which a result is round-off.
@@ -87,7 +87,7 @@ class Scattered(Study):
     @property
     def tables(self) -> dict[str, list[list[str]]]:
         """Tables for people by their headings: a header, then rows of cells."""
-        found = {"Parameters that scatter": self._table_of_sources, "Scatter of the results": self._table_of_results}
+        found = {"Parameters that scatter": self._table_of_sources, RESULTS: self._table_of_results}
         if len(self.sources) > 1:
             found[SHARES] = self._table_of_shares
         return found | {f"{one.place}: changes": self._table_of_run(one) for one in self.second_runs}

@@ -127,3 +127,11 @@ def test_a_drawn_part_is_that_of_a_run_of_its_problem():
     found, drawn = outcome_of(case, run).values, draw(case, progress=False).values
     of_frames = "forming limit used, by paths"  # strain paths are those of the frames that are kept
     assert {**found, of_frames: 0.0} == {**drawn, of_frames: 0.0}
+
+
+def test_a_bend_to_an_angle_says_that_its_stroke_is_constant(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    coarse = ["--layers", "1", "--elements-per-thickness", "1", "--increment", "0.05", "--tolerance", "0.5"]
+    done = call("bend", "--angle", "160", *coarse, "--scatter", "thickness=1%")
+    assert done.exit_code == 0, done.output
+    assert "the stroke is constant: --hold angle=stroke keeps the angle" in done.stdout
