@@ -19,6 +19,7 @@ from umform.cli.derive import Derive, check_derived, derived
 from umform.cli.drawn_tools import drawn_tools, named_tools
 from umform.cli.given import Given, given_by
 from umform.cli.goals import (
+    check_budgeted,
     check_flat_only,
     check_goal,
     check_length,
@@ -161,6 +162,7 @@ def bend(
         from umform.pool import check_processes  # the import is slow
 
         check_processes(processes)
+        check_budgeted(processes, budget)
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
     given = named_tools(context, given, punch, die)
     tools = drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer)
@@ -190,7 +192,8 @@ def bend(
         return
     check_flat_only(flat_only)
     if find or quantity:
-        check_measured(angle, table, angles, force_per_metre, budget, derive, scatter_options or None, want, by, deck)
+        others_given = [table, angles, force_per_metre, budget, derive, scatter_options or None, want, by]
+        check_measured(angle, *others_given, deck, everything, timing)
     check_wanted(want, by, stroke is None and travel is None)
     goal = "angle" if angle is not None else "force" if force_per_metre is not None else ""
     held = {goal: "stroke"} if goal else {}

@@ -95,7 +95,7 @@ def compensate(
     from umform.io.folders import folder_for
     from umform.studies.goals import compensate as find
     from umform.studies.goals import compensate_shape as find_shape
-    from umform.studies.goals.compensate import TABLE
+    from umform.studies.goals.found import TABLE
 
     print_warnings_once()
     said: list[str] = []

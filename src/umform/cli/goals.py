@@ -67,6 +67,18 @@ def check_no_goal(option: str, *goals: object) -> None:
         )
 
 
+def check_budgeted(processes: int, budget: bool) -> None:
+    """Refuse a number of runs at a time where one follows the other."""
+    if not budget:
+        raise InvalidValue(
+            "only the runs of an error budget go side by side",
+            where="--processes",
+            value=processes,
+            cause="--budget is missing",
+            remedy="--budget beside it, or leave it out",
+        )
+
+
 def check_flat_only(flat_only: bool) -> None:
     """Refuse the option of outside dimensions without their file."""
     if flat_only:
@@ -84,8 +96,8 @@ def check_measured(*goals: object) -> None:
         raise InvalidValue(
             "numbers of a measured bend are sought at its stroke, without other goals and studies",
             where="--find",
-            cause="--angle, --table, --angles, --force-per-metre, --budget, --derive, --scatter, --want or "
-            "--print-deck beside it",
+            cause="--angle, --table, --angles, --force-per-metre, --budget, --derive, --scatter, --want, "
+            "--print-deck, --all or --timing beside it",
             remedy="--stroke 6.1 --find strength=400:700 --quantity angle=91.6+-.1; find the stroke of the next bend "
             "with the corrected metal",
         )

@@ -92,6 +92,8 @@ GPA = ["--young", "210", "--poisson", "0.3", "--curve", "Swift,520,0.004,0.22"]
         (["--stroke", "4", "--want", "angle=120", "--by", "stroke"], "as springback=2+-0.05"),
         (["--stroke", "4", "--want", "angle=120+-1", "--by", "stroke", "--table", "3:9:1"], "beyond air bending"),
         (["--stroke", "4", "--find", "E", "--scatter", "thickness=1%"], "--scatter"),
+        (["--stroke", "4", "--find", "E", "--timing"], "--all or --timing beside it"),
+        (["--stroke", "4", "--processes", "2"], "--budget is missing"),
         (
             ["draw", "u", "--want", "theta1=90+-1", "--by", "friction", "--limit-curve", "no.csv"],
             "forming limit cannot",

@@ -24,8 +24,9 @@ from umform.progress import Show, progress_bar
 from umform.report.symmetry import mirrors
 from umform.results.forming.tool_distance import pose_in
 from umform.results.outcome import Annex, Study
-from umform.studies.goals.compensate import TABLE
 from umform.studies.goals.deviation import SmoothFace, deviations
+from umform.studies.goals.files import write_text
+from umform.studies.goals.found import DECK, TABLE
 from umform.surfaces import OffsetByField, OffsetField, Placed
 from umform.surfaces import Tool as Shape
 
@@ -166,8 +167,7 @@ class CompensatedShape(Study):
         write_csv(folder / DEVIATIONS, places | ends)
         files = [folder / TABLE, folder / DEVIATIONS]
         if isinstance(self.subject, Problem):
-            files.append(folder / "compensated.toml")
-            files[-1].write_text(self.subject.toml(), encoding="utf-8")
+            files.append(write_text(folder / DECK, self.subject.toml()))
         return files
 
 
