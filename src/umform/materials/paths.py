@@ -153,6 +153,14 @@ def tension(
     ((2,), (2, 6))
     """
     along = np.asarray(strains, dtype=float)
+    if along.ndim != 1 or not np.isfinite(along).all():
+        raise InvalidValue(
+            "a bar has finite strains, one after the other",
+            where="tension",
+            value=strains,
+            cause="a gap in measured data",
+            remedy="leave it out",
+        )
     path = np.full((len(along), 6), np.nan)
     path[:, component] = along
     found = point_path(material, path, np.zeros_like(path), angle, time=time)

@@ -118,11 +118,10 @@ class Mesh:
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "cells", {name: cells})
         object.__setattr__(
-            self, "sets", {key: unique(np.asarray(ids, dtype=np.int32)) for key, ids in self.sets.items()}
+            self, "sets", {key: unique(_as_ids(ids, len(points), f"set {key}")) for key, ids in self.sets.items()}
         )
-        object.__setattr__(
-            self, "faces", {key: np.asarray(rows, dtype=np.int32).reshape(-1, 2) for key, rows in self.faces.items()}
-        )
+        object.__setattr__(self, "faces", {key: _as_rows(rows, f"set {key}") for key, rows in self.faces.items()})
+        _refuse_twice(cells)
         check_cells(points, cells)
 
     @property
@@ -166,7 +165,7 @@ class Mesh:
             else:
                 raise _unknown("node", selector, [*self.sets, *self.faces])
         elif callable(selector):
-            ids = np.flatnonzero(np.asarray(selector(*self.points.T), dtype=bool)).astype(np.int32)
+            ids = np.flatnonzero(self._chosen(selector)).astype(np.int32)
         else:
             ids = unique(_as_ids(selector, len(self.points)))
         if len(ids) == 0:
@@ -205,7 +204,7 @@ class Mesh:
                 raise _unknown("face", selector, list(self.faces))
             rows = np.asarray(self.faces[selector], dtype=np.int32)
         elif callable(selector):
-            inside = np.asarray(selector(*self.points.T), dtype=bool)
+            inside = self._chosen(selector)
             rows = np.concatenate(
                 [
                     np.stack([hit, np.full(len(hit), number)], axis=1)
@@ -214,7 +213,7 @@ class Mesh:
                 ]
             ).astype(np.int32)
         else:
-            rows = np.asarray(selector, dtype=np.int32).reshape(-1, 2)
+            rows = _as_rows(selector)
         if len(rows) == 0:
             raise EmptySet(
                 "a set selects no face",
@@ -231,6 +230,17 @@ class Mesh:
                 remedy="faces are numbered " + ", ".join(f"{k} {name}" for k, name in enumerate(FACES)),
             )
         return rows
+
+    def _chosen(self, predicate: Callable[[Floats, Floats, Floats], ArrayLike]) -> NDArray[np.bool_]:
+        """Whether a predicate holds at each node, shape (n,)."""
+        found = np.asarray(predicate(*self.points.T))
+        if found.dtype != bool or found.shape not in ((), (len(self.points),)):
+            raise InvalidValue(
+                "a predicate of x, y, z returns True or False for each node",
+                value=f"{found.dtype} of shape {found.shape}",
+                remedy="lambda x, y, z: x > 9.99",
+            )
+        return np.broadcast_to(found, len(self.points))
 
     def facets(self, selector: Selector) -> Ids:
         """Nodes of lower and upper faces, ordered so that x,r x x,s points out of the body; shape (k, 4) or (k, 9).
@@ -273,7 +283,7 @@ class Mesh:
         return unique(np.concatenate(parts))
 
 
-def _as_ids(selector: ArrayLike, count: int) -> Ids:
+def _as_ids(selector: ArrayLike, count: int, where: str = "") -> Ids:
     """Ids from integers or from a mask over all `count` items; anything else is refused."""
     array = np.asarray(selector)
     if array.dtype == bool and array.shape == (count,):
@@ -281,9 +291,40 @@ def _as_ids(selector: ArrayLike, count: int) -> Ids:
     if array.size and not np.issubdtype(array.dtype, np.integer):
         raise InvalidValue(
             "a set is a name, a predicate of x, y, z, integer ids, or a mask over all nodes",
+            where=where,
             value=f"{array.dtype} of shape {array.shape}",
         )
     return array.astype(np.int32)
+
+
+def _as_rows(faces: ArrayLike, where: str = "") -> Ids:
+    """Rows (cell, face) from integers; anything else is refused."""
+    array = np.asarray(faces)
+    if array.size and (not np.issubdtype(array.dtype, np.integer) or array.size % 2):
+        raise InvalidValue(
+            "faces are a set by its name, a predicate of x, y, z, or pairs (cell, number of the face)",
+            where=where,
+            value=f"{array.dtype} of shape {array.shape}",
+        )
+    return array.astype(np.int32).reshape(-1, 2)
+
+
+def _refuse_twice(cells: Ids) -> None:
+    """Refuse cells of the same nodes, which would be twice as stiff and as strong."""
+    nodes = np.sort(cells, axis=1)
+    powers = np.cumprod(np.full(nodes.shape[1], 0x9E3779B97F4A7C15, dtype=np.uint64))  # a hash: few cells share one
+    order = np.argsort(nodes.astype(np.uint64) @ powers, kind="stable")
+    same = (nodes[order[1:]] == nodes[order[:-1]]).all(axis=1)
+    if same.any():
+        first = int(np.flatnonzero(same)[0])
+        one, other = sorted((int(order[first]), int(order[first + 1])))
+        raise InvalidValue(
+            "two cells have the same nodes",
+            where=f"cells {one} and {other}",
+            value=f"{int(same.sum())} cells stand twice",
+            cause="a mesh file that lists the cells of each of its groups",
+            remedy="each cell once",
+        )
 
 
 def _unknown(kind: str, name: str, known: Sequence[str]) -> UnknownSet:

@@ -47,6 +47,9 @@ Floats = NDArray[np.float64]
 _P = ParamSpec("_P")
 _R = TypeVar("_R")
 
+#: Element of a model without bodies.
+_USUAL = "ANS3DEAS"
+
 
 def _of(part: str, method: Callable[Concatenate[Any, _P], _R]) -> Callable[Concatenate[Model, _P], _R]:
     """The method of a part as one of the model, with its text."""
@@ -61,16 +64,34 @@ def _of(part: str, method: Callable[Concatenate[Any, _P], _R]) -> Callable[Conca
     return thin
 
 
+def _refuse_beside_bodies(**given: Any) -> None:
+    """Refuse what bodies have themselves."""
+    beside = {name: one for name, one in given.items() if one is not None and (name, one) != ("element", _USUAL)}
+    if beside:
+        raise InvalidValue(
+            "give bodies, or element and material, with their options",
+            where="Model",
+            value=", ".join(beside),
+            cause="bodies beside it: each has its own",
+            remedy="give it to the bodies, or leave bodies out",
+        )
+
+
 def _told_of_pending(
     method: Callable[Concatenate[System, _P], Evaluation],
 ) -> Callable[Concatenate[Model, _P], Evaluation]:
-    """An evaluation of the system as a method of the model; it warns once of enhanced parameters of another state."""
+    """An evaluation of the system as a method of the model; it warns once of enhanced parameters of another state.
+
+    The residual is NaN where a cell cannot be evaluated.
+    """
 
     @wraps(method)
     def evaluate(self: Model, /, *arguments: _P.args, **named: _P.kwargs) -> Evaluation:
         recovered = self.system.recovered
         # the system of a rank has a method of its own, which tells all ranks of a failure
         found: Evaluation = getattr(self.system, method.__name__)(*arguments, **named)
+        if found.failed >= 0:
+            found.residual.fill(np.nan)
         if self.system.ranks is ONE and not recovered and not self._told:
             self._told = warn_of_pending(self.system, found)
         return found
@@ -150,7 +171,7 @@ class Model(ShownModel):
     def __init__(
         self,
         mesh: Mesh,
-        element: str | Element = "ANS3DEAS",
+        element: str | Element = _USUAL,
         *,
         material: Material | None = None,
         bodies: Sequence[Body] | None = None,
@@ -159,8 +180,8 @@ class Model(ShownModel):
     ) -> None:
         if bodies is None:
             bodies = [Body(element, material=material, rolling=rolling, **options)]  # type: ignore[arg-type]
-        elif material is not None:
-            raise InvalidValue("give bodies, or element and material", where="Model", remedy="leave one of them away")
+        else:
+            _refuse_beside_bodies(element=element, material=material, rolling=rolling, **options)
         self._consist_of(System(Parts.on(mesh, Bodies.on(mesh, bodies))))
         self.system.whole.described = self
 
@@ -197,6 +218,14 @@ class Model(ShownModel):
 
     @u.setter
     def u(self, value: Floats) -> None:
+        if np.shape(value) != self.system.u.shape:
+            raise InvalidValue(
+                "a displacement has three components for each node, in one row",
+                where="Model.u",
+                value=np.shape(value),
+                cause="a row for each node, or the unknowns behind the displacement",
+                remedy=f"shape {self.system.u.shape}; u.ravel() of rows",
+            )
         self.system.u = value
 
     @property

@@ -178,6 +178,9 @@ class System(Evaluated):
                 term.restore(snapshot.terms[term.key])
             else:
                 term.revert()
+        for tool in self.tools:
+            if tool.open and tool.key not in snapshot.terms:  # it is a term since a step has opened it
+                tool.stay_open(False)
 
     def check(self, gauge: Support | None = None) -> None:
         """Reject a model that cannot be solved, before the run starts, see `check_model`."""

@@ -116,6 +116,12 @@ class History(InNotebook):
         if whole is not None:
             self.frames.append(whole)
 
+    def complete(self) -> None:
+        """Columns of the loads that a later step has added to the model: they are zero so far."""
+        columns = [column for control in self.model.controls for column in (control.name, f"{control.name}_force")]
+        if self.rows and not all(column in self.rows[0] for column in columns):
+            self.rows = [{name: row.get(name, 0.0) for name in ("step", "time", *columns)} | row for row in self.rows]
+
     def _term_columns(self, evaluation: Evaluation) -> dict[str, float]:
         """Columns of tools and of the pairs that touch them, then of all other terms."""
         model, row = self.model, dict[str, float]()

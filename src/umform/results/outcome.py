@@ -85,8 +85,8 @@ class Study(InNotebook):
         return [self.annex]
 
     def __repr__(self) -> str:
-        first, *others = [row[0] for row in self.annexes[0].table[1:]]
-        names = [first, *others[:_NAMED], *(["..."] if len(others) > _NAMED else [])]
+        found = [row[0] for row in self.annexes[0].table[1:]]
+        names = [*found[: _NAMED + 1], *(["..."] if len(found) > _NAMED + 1 else [])]
         return f"{type(self).__name__}({', '.join(names)})"
 
     def _display(self) -> Display:

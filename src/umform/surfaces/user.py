@@ -48,6 +48,15 @@ class UserSurface(Tool):
     function: GapFunction
     name: str = "user surface"
 
+    def __post_init__(self) -> None:
+        if not callable(self.function):
+            raise InvalidValue(
+                "a surface of one's own is a function of positions",
+                where="UserSurface",
+                value=type(self.function).__name__,
+                remedy="UserSurface(function), which returns distance, normal and Hessian",
+            )
+
     def __call__(self, x: Floats) -> tuple[Floats, Floats, Floats]:
         """Evaluate the function and check what it returns.
 

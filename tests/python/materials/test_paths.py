@@ -99,3 +99,8 @@ def test_what_is_no_law_is_refused():
     for thing in (uf.J2, 3.0, uf.sheet_metals.get("DC04")):
         with pytest.raises(InvalidValue, match="a path needs a law"):
             tension(thing, [0.01])
+
+
+def test_a_gap_in_the_strains_of_a_bar_is_refused():
+    with pytest.raises(uf.errors.InvalidValue, match="finite strains"):
+        tension(J2, [0.01, np.nan, 0.05])

@@ -112,6 +112,22 @@ def test_cells_without_the_name_of_their_type_are_refused():
         Mesh(made.points, made.connectivity)
 
 
+def test_cells_that_stand_twice_are_refused():
+    made = strip(6.0, 2.0, 1.0, (3, 2))
+    cells = np.vstack([made.connectivity, made.connectivity[4, [4, 5, 6, 7, 0, 1, 2, 3]]])
+    with pytest.raises(InvalidValue, match="two cells have the same nodes") as caught:
+        Mesh(made.points, {"hex8": cells})
+    assert caught.value.where == "cells 4 and 6"
+
+
+@pytest.mark.parametrize("wrong", [{"sets": {"end": [0.5, 1.9]}}, {"faces": {"top": [[0.7, 0.9]]}}])
+def test_sets_of_numbers_that_are_not_whole_are_refused(wrong):
+    made = strip(2.0, 1.0, 1.0, (2, 1))
+    with pytest.raises(InvalidValue) as caught:
+        Mesh(made.points, made.cells, **wrong)
+    assert caught.value.where.startswith("set ")
+
+
 # Selection --------------------------------------------------------------------------------------------------
 
 
@@ -121,6 +137,24 @@ def test_nodes_are_selected_by_name_predicate_and_ids():
     np.testing.assert_array_equal(made.nodes(lambda x, y, z: x < 1e-9), by_name)
     np.testing.assert_array_equal(made.nodes(by_name[::-1]), by_name)
     np.testing.assert_array_equal(made.nodes([3, 1, 3]), [1, 3])
+    np.testing.assert_array_equal(made.nodes(lambda x, y, z: True), np.arange(len(made.points)))
+    masked = Mesh(made.points, made.cells, {"end": made.points[:, 0] < 1e-9})
+    np.testing.assert_array_equal(masked.nodes("end"), by_name)
+
+
+@pytest.mark.parametrize(
+    "predicate",
+    [
+        lambda x, y, z: np.flatnonzero(x > 1.0),
+        lambda x, y, z: x - 1.0,
+        lambda x, y, z: (x > 1.0)[:3],
+    ],
+)
+def test_predicates_return_truth_values(predicate):
+    made = strip(6.0, 4.0, 0.6, (3, 2))
+    for select in (made.nodes, made.face_set):
+        with pytest.raises(InvalidValue, match="returns True or False for each node"):
+            select(predicate)
 
 
 @pytest.mark.parametrize("cell", CELLS)

@@ -165,6 +165,14 @@ def test_each_cell_belongs_to_one_body():
         Model(mesh, bodies=[Body(material=MILD, cells=[0, 16])])
     with pytest.raises(InvalidValue, match="bodies, or element and material"):
         Model(mesh, material=MILD, bodies=[Body(material=MILD)])
+    with pytest.raises(InvalidValue, match="element, thickness_points"):
+        Model(mesh, "BEND8", bodies=[Body(material=MILD)], thickness_points=7)
+    with pytest.raises(InvalidValue, match="a list of bodies"):
+        Model(mesh, bodies=Body(material=MILD))
+    shared = Body(material=MILD)
+    Model(mesh, bodies=[shared])
+    with pytest.raises(InvalidValue, match="a body belongs to one model"):
+        Model(mesh, bodies=[shared])
 
 
 def test_what_only_one_body_has_is_refused_by_name():

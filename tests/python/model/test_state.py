@@ -88,6 +88,32 @@ def test_a_state_without_a_control_of_the_model_is_refused_by_name(run):
         model.evaluate(replace(model.state, controls={"spring": 1.0}))
 
 
+@pytest.mark.parametrize("wrong", [{"sprnig": 1.0}, {"spring": float("nan")}])
+def test_a_state_goes_toward_finite_values_of_known_controls(run, wrong):
+    model, _ = run
+    with pytest.raises(InvalidValue, match=f"control {next(iter(wrong))}") as caught:
+        model.state.toward(wrong)
+    assert "spring" in caught.value.remedy
+
+
+def test_where_a_cell_is_turned_inside_out_there_is_no_residual():
+    model, _ = pressed()
+    x = model.state.x.copy()
+    x[3 * model.mesh.nodes("x1")] = -30.0
+    at = model.evaluate(x)
+    assert at.failed == 11
+    assert np.isnan(at.residual).all()
+    assert np.isfinite(model.evaluate(model.state).residual).all()
+    with pytest.raises(InvalidValue, match="78 displacements, 1 scalar unknowns"):
+        model.evaluate(model.u)
+
+
+def test_a_displacement_has_a_row_of_its_own_shape():
+    model, _ = pressed()
+    with pytest.raises(InvalidValue, match="three components for each node"):
+        model.u = np.zeros((len(model.mesh.points), 3))
+
+
 # Names of a model ---------------------------------------------------------------------------------------------
 
 

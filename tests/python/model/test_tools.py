@@ -82,6 +82,17 @@ def test_rows_columns_and_corner_of_the_border_are_derivatives(moved, friction, 
     assert border.corner[0, 0] == pytest.approx(column[-1], rel=1e-7)
 
 
+def test_tools_of_another_model_are_refused():
+    model, _ = beam()
+    _, tool = beam()
+    for call in (lambda: model.drive(tool, "z"), lambda: model.press(tool.pairs[0], "z")):
+        with pytest.raises(InvalidValue, match="the model has no such tool"):
+            call()
+    with pytest.raises(InvalidValue, match="the model has no such tool"):
+        model.contact("lower", tool)
+    assert [one.name for one in model.tools] == ["punch"]
+
+
 def test_a_spring_shares_the_force_with_the_sheet():
     model, punch = beam(mt.SVK(E=210e3, nu=0.3))
     force = model.spring(punch, "-z", stiffness=40.0, preload=30.0, name="pad")

@@ -22,7 +22,7 @@ from umform.analysis.steps.loop import Run
 from umform.analysis.steps.move import Move
 from umform.analysis.steps.moving import loop_of
 from umform.analysis.steps.release import Release, Releasing
-from umform.errors import NoConvergence
+from umform.errors import InvalidValue, NoConvergence
 from umform.progress import Show, Tick, progress_bar
 from umform.results.bottoming import warn_of_bottoming
 from umform.results.coarse import warn_of_volume
@@ -41,6 +41,13 @@ _LOOPS: dict[type, Any] = {Release: Releasing, Arc: Following, Free: Freeing, Cl
 
 def ready(result: Result, solver: str, options: NewtonOptions | None, frames: int, steps: Sequence[Step] = ()) -> Run:
     """Refuse an invalid model, and make the run at its first state; a first step may hold the sheet."""
+    if not isinstance(options, NewtonOptions | None):
+        raise InvalidValue(
+            "options are those of Newton's method",
+            where="options",
+            value=options,
+            remedy="NewtonOptions(residual=1e-9)",
+        )
     model, timing = result.model, result.timing
     model.system.timing = timing
     first = steps[0] if steps else None

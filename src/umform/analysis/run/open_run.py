@@ -15,6 +15,7 @@ from umform.analysis.run.going import begun, taken
 from umform.analysis.run.result import Result
 from umform.analysis.steps import Step
 from umform.analysis.steps.trail import Trail
+from umform.errors import InvalidValue
 from umform.model import Evaluation, Model
 from umform.model.terms.state import Snapshot
 from umform.progress import Tick, silent
@@ -51,6 +52,8 @@ class Mark:
         State of the sparse solver.
     statistics : StrategyStatistics
         Statistics of earlier increments that select the first strategy.
+    result : Result
+        Result of the run.
     """
 
     snapshot: Snapshot
@@ -60,6 +63,7 @@ class Mark:
     history: HistoryMark
     factors: int | None
     statistics: StrategyStatistics
+    result: Result
 
 
 class OpenRun:
@@ -144,6 +148,7 @@ class OpenRun:
         """
         run = self._run
         self.steps += checked(run.model, list(steps))
+        self.result.complete()
         whole = self.result.timing.run
         with whole:
             taken(run, self.steps, tick)
@@ -162,10 +167,25 @@ class OpenRun:
             self.result.mark(),
             factors,
             replace(run.statistics),
+            self.result,
         )
 
     def go_back(self, mark: Mark) -> None:
-        """Return to a state of any branch, with its steps and result."""
+        """Return to a state of any branch, with its steps and result.
+
+        Raises
+        ------
+        InvalidValue
+            The mark is none of this run.
+        """
+        if not isinstance(mark, Mark) or mark.result is not self.result:
+            raise InvalidValue(
+                "a run goes back to a mark of its own",
+                where="go_back",
+                value=type(mark).__name__,
+                cause="it belongs to another run, or is none",
+                remedy="what mark() of this run returned",
+            )
         run, solver = self._run, self._run.newton.ready_solver().solver.solver
         run.model.system.restore(mark.snapshot)
         run.evaluation = run.model.system.repeat(mark.before)
@@ -174,6 +194,7 @@ class OpenRun:
             solver.recall(mark.factors)
         run.statistics = replace(mark.statistics)
         self.result.go_back(mark.history)
+        self.result.complete()
         self.steps = list(mark.steps)
 
     def close(self) -> Result:

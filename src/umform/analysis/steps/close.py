@@ -266,10 +266,10 @@ class Closing:
             self._shorten(run, step, 0.25, _touches(run, press), failure)
             return
         self.done = True
-        name = f"step {run.number}: close"
-        run.keep(converged, [step.control], name=name, fraction=1.0, frame=run.frames > 0)
         held = f"pressed with {step.control.name} = {step.force:.6g}, stands at {press.way.name}"
         run.result.note(f"step {run.number}: tool {press.way.tool.name}, {held} = {press.way.value:.6g}")
+        name = f"step {run.number}: close"
+        run.keep(converged, [step.control], name=name, fraction=1.0, frame=run.frames > 0)
 
     def _shorten(self, run: Run, step: Close, part: float, touched: bool, failure: Failed) -> None:
         """Reduce the next increment, or end the run."""

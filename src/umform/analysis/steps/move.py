@@ -57,12 +57,19 @@ class Move:
     def __post_init__(self) -> None:
         check_fields(self)
         for target in self.targets():
-            if not callable(target) and not (np.isscalar(target) and np.isrealobj(target) and np.isfinite(target)):
+            if not callable(target) and not (isinstance(target, int | float | np.number) and math.isfinite(target)):
                 raise InvalidValue("a control is moved to a finite number or along a function", value=target)
         if len(self.targets()) != len(self._given()):
             raise InvalidValue(
                 "give one target for each control",
                 value=f"{len(self._given())} controls, {len(self.targets())} targets",
+            )
+        if not isinstance(self.follow, Mapping):
+            raise InvalidValue(
+                "followers are controls with their tables",
+                where="Move, follow",
+                value=self.follow,
+                remedy="{hold: table}",
             )
         for control, law in self.follow.items():
             _check_law(control, law)
@@ -94,7 +101,7 @@ class Move:
 
     def targets(self) -> list[float | Callable[[float], float]]:
         """Their targets."""
-        return list(self.to) if isinstance(self.to, Sequence) else [self.to]
+        return list(self.to) if isinstance(self.to, list | tuple | np.ndarray) else [self.to]  # type: ignore[list-item]
 
     def values(self, fraction: float, starts: Sequence[float]) -> list[float]:
         """Values of the controls within the step.

@@ -192,18 +192,19 @@ class Releasing:
         self.done = zero or target == 0.0
         if self.bound is None and abs(2.0 * self.size) <= step.largest(self.start_value) and _at_ease(converged):
             self.size *= 2.0
-        part = 1.0 if self.done else 1.0 - min(1.0, abs(force) / self.scale)
-        name = f"step {run.number}: release"
-        run.keep(converged, [control], name=name, fraction=part, frame=run.frames > 0 and self.done)
         if self.done:
             how = "contact has lifted off" if lifted else "the force is zero" if zero else "the way back is complete"
             run.result.note(f"step {run.number}: {how} at {control.name} = {control.value:.6g}")
+        part = 1.0 if self.done else 1.0 - min(1.0, abs(force) / self.scale)
+        name = f"step {run.number}: release"
+        run.keep(converged, [control], name=name, fraction=part, frame=run.frames > 0 and self.done)
 
     def follow(self, run: Run, step: Release, lead: Run, take: Take) -> None:
-        """Repeat the last accepted increment of the loop of a leading run, to the same force. eq. (5.163)
+        """Repeat the last accepted increment of the loop of a leading run: of the same way, at last to the same force.
 
-        Near the end the force is an equation. Where contact is about to be lost it determines no value any more: the
-        distance from the leading run then stays. A sheet that other forces keep in its tools loses no contact.
+        Near the end the force is an equation, eq. (5.163). Where contact is about to be lost it determines no value any
+        more: the distance from the leading run then stays. A sheet that other forces keep in its tools loses no
+        contact.
         """
         assert isinstance(lead.loop, Releasing)
         model, control, led = run.model, _retracted(run, step), lead.loop
@@ -213,11 +214,14 @@ class Releasing:
         target, slope = led_to + before[0] - led.before[0], (wanted - led.before[1]) / (led_to - led.before[0])
         held = abs(wanted) > _LEFT * led.scale or not run.evaluation.touching(ranks) or _clamped(run, led.scale)
         held = (held or (led.done and lead.evaluation.touching(ranks))) and slope != 0.0 and led_to != 0.0
-        if led.done and abs(wanted) <= _LEFT * abs(led.before[1]):  # it snaps off: no tool near it any more
+        if led.done and led_to == 0.0:  # the way back is complete, in any run
+            target = 0.0
+        lost = led.done and run.evaluation.touching(ranks) and not lead.evaluation.touching(ranks)
+        if lost and abs(wanted) <= _LEFT * abs(led.before[1]):  # it snaps off: no tool near it any more
             held, target = False, target + math.copysign(_AWAY * led.start_value, led_to - led.before[0])
-        if held:
-            target += (led.before[1] - self.force) / slope
         near = held and (led.done or abs(wanted) < _NEAR_END * led.scale)
+        if near:
+            target += (led.before[1] - self.force) / slope
         start = control.value
         for left in reversed(range(_CLOSER if near else 1)):
             try:

@@ -140,7 +140,16 @@ class Body(Term):
             If the element needs another cell type.
         EmptySet
             If no cell is selected.
+        InvalidValue
+            If the body belongs to another model.
         """
+        if "cells" in vars(self):
+            raise InvalidValue(
+                "a body belongs to one model",
+                where=f"body {self.name}",
+                cause="another model was made with it",
+                remedy="a new Body for each model",
+            )
         if self.element.cell != mesh.cell:
             raise WrongCellType(
                 f"{self.element.name} stands on {self.element.cell} cells, the mesh has {mesh.cell}",

@@ -75,6 +75,14 @@ class Contacts(list[Contact]):
                 cause="the columns of the history and the fields go by it",
                 remedy="contact(..., name=...) with another one",
             )
+        if isinstance(tool, Tool) and tool not in self.tools:
+            raise InvalidValue(
+                "the model has no such tool",
+                where=f"contact {name}",
+                value=tool.name,
+                cause="it belongs to another model",
+                remedy="what tool() of this model returned, or a surface",
+            )
         surface = tool.surface if isinstance(tool, Tool) else tool
         rows = self.mesh.face_set(faces)
         if isinstance(surface, UserSurface):

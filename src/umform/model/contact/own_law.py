@@ -45,8 +45,8 @@ class ContactLaw:
     """
 
     function: PressureFunction
-    """Gaps (n,), negative in penetration and none larger than the reach; returns the pressures (n,) on the reference
-    area, zero or more, and their derivatives with respect to the gap (n,), negative or zero."""
+    """Function of the gaps (n,), negative in penetration and none larger than the reach; returns the pressures (n,) on
+    the reference area, zero or more, and their derivatives with respect to the gap (n,), negative or zero."""
     reach: Reach = 0.0
     """Largest gap at which there is a pressure; the pressure should be zero there."""
     name: str = "contact law"

@@ -68,7 +68,7 @@ class ContactOptions:
     """Contact points per direction of a face, by default 2: Gauss points, the nodes with their tributary areas, or as
     many as the contact length requires (auto) by eq. (4.31). Use at least 2 on 4-node and 3 on 9-node faces."""
     cells: Annotated[int, Ge(1), Le(MOST), _CELLS] | Literal["auto"] | None = None
-    """Instead of points: cells per direction of a face, over which a linear gap is integrated up to the moving edge of
+    """Cells per direction of a face in place of points: a linear gap is integrated over them up to the moving edge of
     contact, so that the force is smooth; auto: as many as the allowed ripple requires, eq. (4.122). Use at least 3 on
     4-node and 5 on 9-node faces. The tangent is unsymmetric. docs/cells.md"""
     ripple: Annotated[float, Gt(0.0), Lt(1.0), About(cause="per cent", remedy="0.001")] | None = None

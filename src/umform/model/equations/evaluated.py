@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.errors import UmformError
+from umform.errors import InvalidValue, UmformError
 from umform.model.contact.pair import Contact
 from umform.model.contact.sheets import SheetContact
 from umform.model.equations.assembled import Assembled, Parts
@@ -100,6 +100,14 @@ class Evaluated(Assembled):
         """
         state = state if isinstance(state, State) else self.state_at(state)
         unknowns, dofs, x = self.unknowns, self.u.size, state.x
+        if x.shape != (dofs + len(unknowns),):
+            raise InvalidValue(
+                "a state has the displacement and the scalar unknowns of its model",
+                where="evaluate",
+                value=f"shape {x.shape}",
+                cause="a row for each node, or the travels of pressed tools are missing",
+                remedy=f"shape ({dofs + len(unknowns)},): {dofs} displacements, {len(unknowns)} scalar unknowns",
+            )
         u, rates = x[:dofs], rates or {}
         if [term for term in self.others if not term.covers(u)]:  # all of them are asked
             self.now.restructured()

@@ -40,7 +40,7 @@ class Evaluation:
     force_scale : float
         Root of the sum of squares of all element forces, the scale of a residual. eq. (5.8)
     failed : int
-        First cell whose evaluation failed, or -1.
+        First cell whose evaluation failed, or -1. The residual of :meth:`umform.Model.evaluate` is then NaN.
     failure : str
         Cause of that failure.
     round_off : float

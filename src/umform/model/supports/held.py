@@ -150,6 +150,13 @@ class Held:
 
     def _new(self, kind: str, directions: str | None, nodes: Ids, base: bool, name: str) -> Support:
         """A support that is not active yet; used names are refused."""
+        if directions == "":
+            raise InvalidValue(
+                "a support holds in one direction at least",
+                where="supports",
+                value="''",
+                remedy="letters such as xz; without directions it holds in all",
+            )
         taken = {support.name for support in self._holders} | {control.name for control in self.controls}
         if name in taken:
             raise InvalidValue("the name of a support is taken", value=name, remedy="give it another name")

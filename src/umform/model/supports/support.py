@@ -119,7 +119,7 @@ def _twin(thing: Any, twins: Twins) -> Any:
 
 def direction_number(name: str) -> int:
     """0, 1 or 2 for x, y or z."""
-    if name not in DIRECTIONS:
+    if not isinstance(name, str) or name not in DIRECTIONS:
         raise InvalidValue(
             "a direction is x, y or z",
             where="supports",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from umform.errors import InvalidValue
 from umform.mesh import Selector
 from umform.mesh.numbers import unique
 from umform.model.supports.axes import GLOBAL, Axes
@@ -57,6 +58,14 @@ class Supports(Held):
         InvalidValue
             If a direction is unknown, a displacement is prescribed or tied already, or the name is taken.
         """
+        if normals is not None and (axes is not None or directions is not None):
+            raise InvalidValue(
+                "normals are directions of their own",
+                where="fix",
+                value=directions or type(axes).__name__,
+                cause="directions or axes beside them",
+                remedy="leave one of them out",
+            )
         ids = self.mesh.nodes(nodes)
         support = self._new(HELD, directions, ids, here, name)
         if axes is None and normals is None:
@@ -78,6 +87,7 @@ class Supports(Held):
         normal : str
             Normal of the plane: x, y or z.
         """
+        direction_number(normal)  # refuses what is none
         return self.fix(nodes, normal)
 
     def hinge(

@@ -24,9 +24,12 @@ DIRECTIONS = {"x": 0, "y": 1, "z": 2}
 
 def vector3(values: Vector, where: str) -> Floats:
     """Three finite numbers."""
-    vector = np.asarray(values, dtype=float)
+    try:
+        vector = np.asarray(values, dtype=float)
+    except (TypeError, ValueError):  # a letter, for instance
+        vector = np.empty(0)
     if vector.shape != (3,):
-        raise InvalidValue("a vector needs three components", where=where, value=values)
+        raise InvalidValue("a vector needs three components", where=where, value=values, remedy="(0.0, 0.0, -1.0)")
     if not np.isfinite(vector).all():
         raise NotFinite("a vector must be finite", where=where, value=values)
     return vector

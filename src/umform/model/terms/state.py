@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Self
@@ -9,6 +10,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.errors import InvalidValue
 from umform.model.terms.term import Tree
 
 Floats = NDArray[np.float64]
@@ -51,7 +53,22 @@ class State:
     since: float
 
     def toward(self, controls: Mapping[str, float], time: float | None = None) -> Self:
-        """The same unknowns with new values of some controls, and at another time."""
+        """The same unknowns with new values of some controls, by their names, and at another time.
+
+        Raises
+        ------
+        InvalidValue
+            The model had no control of a name, or a value is not finite.
+        """
+        for name, value in controls.items():
+            if name not in self.controls or not math.isfinite(value):
+                raise InvalidValue(
+                    "a state has finite values of the controls of its model",
+                    where=f"control {name}",
+                    value=value,
+                    cause="" if name in self.controls else "another name, or the control in place of its name",
+                    remedy=f"one of {', '.join(self.controls)}" if self.controls else "the model has no control",
+                )
         return replace(self, controls={**self.controls, **controls}, time=self.time if time is None else time)
 
 

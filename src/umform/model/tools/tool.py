@@ -231,8 +231,8 @@ class Tool(Term):
             value, held = tree["ways"][press.unknown.name]
             press.unknown.value, press.held = float(value), bool(held)
         if self.load is not None:
-            self.load.vector = np.array(tree["vector"])
-            self._open(bool(tree["open"]))
+            self.load.vector = np.array(tree.get("vector", np.zeros_like(self.load.vector)))
+            self._open(bool(tree.get("open", False)))  # a state from before it had forces that replace it
 
     def stay_open(self, open_now: bool) -> None:
         """Open it, or close it again; its travel is prescribed while it is open."""

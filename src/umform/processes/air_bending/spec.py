@@ -151,7 +151,8 @@ class AirBending:
             check_drawn(self.punch_section, self.die_section)
             for name, value in self.drawn_sizes.items():
                 object.__setattr__(self, name, value)
-        object.__setattr__(self, "on_top", tuple(self.on_top))
+        alone = isinstance(self.on_top, StackedSheet)
+        object.__setattr__(self, "on_top", (self.on_top,) if alone else tuple(self.on_top))
         check_fields(self)
         _check_consistency(self)
         if self.punch_section is not None:

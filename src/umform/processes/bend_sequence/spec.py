@@ -100,7 +100,7 @@ class BendSequence:
     """Bodies for the detection of collisions."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "bends", tuple(self.bends))
+        object.__setattr__(self, "bends", (self.bends,) if isinstance(self.bends, Bend) else tuple(self.bends))
         check_fields(self)
         refuse_stack(self.sheet, "sheet")
         _check_sequence(self)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import is_dataclass
 from functools import partial
 from os import PathLike
 from pathlib import Path
@@ -42,7 +43,7 @@ _OF_THE_SOLUTION = ("solution.", "output.")
 def derivatives(
     subject: Any,
     by: Sequence[str] | Mapping[str, float],
-    of: Sequence[str | Callable[[Result], float | Quantity]] | None = None,
+    of: str | Sequence[str | Callable[[Result], float | Quantity]] | None = None,
     *,
     hold: Mapping[str, str] | None = None,
     options: NewtonOptions | None = None,
@@ -113,6 +114,7 @@ def derivatives(
     if parameters and {one.path for one in parameters} <= set(held.values()):
         refuse_followers(parameters, held, "by")
     if of is not None:  # held results are among the responses
+        of = [of] if isinstance(of, str) or callable(of) else of
         named = [one if isinstance(one, str) else getattr(one, "__name__", "") for one in of]
         of = [*of, *(name for name in held if name not in named)]
     lead = thing.build()
@@ -170,7 +172,7 @@ def subject_of(subject: Any, by: Any, options: NewtonOptions | None = None, solv
     Raises
     ------
     InvalidValue
-        A function without the values of its parameters.
+        A function without the values of its parameters, or something else.
     """
     if isinstance(subject, OfProblem | OfCase | OfFunction):
         return subject
@@ -186,6 +188,14 @@ def subject_of(subject: Any, by: Any, options: NewtonOptions | None = None, solv
                 remedy='by={"radius": 2.0}',
             )
         return OfFunction(subject, dict(by), options, solver or "auto")
+    if not is_dataclass(subject) or isinstance(subject, type):
+        raise InvalidValue(
+            "parameters are those of a problem, of a case of a process, or of a function",
+            where="subject",
+            value=type(subject).__name__,
+            cause="a model, which forgets the numbers that it was made with",
+            remedy="a function that takes the numbers and returns model and steps",
+        )
     return OfChain(subject) if has_operations(subject) else OfCase(subject)
 
 

@@ -104,6 +104,13 @@ class Derivatives(Rates):
 
     def __getitem__(self, key: tuple[str, str]) -> Derivative:
         """The derivative of a response with respect to a parameter, each by its name."""
+        if not isinstance(key, tuple) or len(key) != 2:
+            raise InvalidValue(
+                "a derivative is that of a response by a parameter",
+                where="derivatives",
+                value=key,
+                remedy='found["angle", "thickness"]',
+            )
         response, path = key
         row = self._index([one.name for one in self.responses], response, "response")
         column = self._index([one.path for one in self.parameters], path, "parameter")

@@ -93,11 +93,14 @@ class Rates(Study):
     @property
     def annex(self) -> Annex:
         """Table and picture for the outcome of a process."""
+        title = "Changes for 1 % more of"
+        if not self.responses:
+            return Annex(title, self.table, self.notes, self.warnings)
         main = self._main
         label = next(one.label for one in self.responses if one.name == main)
         caption = f"Change of the {label} for 1 % more of each parameter."
         table, notes, warnings = self.table, self.notes, self.warnings
-        return Annex("Changes for 1 % more of", table, notes, warnings, lambda: self.plot(main), caption)
+        return Annex(title, table, notes, warnings, lambda: self.plot(main), caption)
 
     @property
     def _main(self) -> str:
@@ -110,6 +113,7 @@ class Rates(Study):
         """Bars of the relative derivatives of a response, the largest on top."""
         from umform.studies.derivatives.picture import tornado
 
+        self._index([one.name for one in self.responses], response, "response")
         return tornado([one for one in self if one.response.name == response], path)
 
 

@@ -223,7 +223,15 @@ class OfFunction:
 
     def build(self) -> Built:
         """What the function returns."""
-        model, steps = self.function(**self.values)
+        made = self.function(**self.values)
+        if not isinstance(made, tuple) or len(made) != 2 or not isinstance(made[0], Model):
+            raise InvalidValue(
+                "a function of parameters returns a model and its steps",
+                where=getattr(self.function, "__name__", "the function"),
+                value=type(made).__name__,
+                remedy="return model, [Move(...), Release(...)]",
+            )
+        model, steps = made
         return Built(model, [steps] if isinstance(steps, Step) else list(steps), self.solver, self.options)
 
     def quantities(self, built: Built, *results: Result) -> list[Quantity]:

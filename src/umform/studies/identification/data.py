@@ -151,6 +151,14 @@ class MeasuredCurve:
     at: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        if isinstance(self.points, str) or len(self.points) != 2:
+            raise InvalidValue(
+                "the points of a curve are its abscissae and its ordinates",
+                where=self.name,
+                value=self.points if isinstance(self.points, str) else f"{len(self.points)} rows",
+                cause="a file, or a row for each point",
+                remedy="MeasuredCurve.read for a file; np.transpose of rows",
+            )
         x, y = (np.asarray(one, dtype=float) for one in self.points)
         if x.ndim != 1 or x.shape != y.shape or len(x) < 2:
             raise InvalidValue(

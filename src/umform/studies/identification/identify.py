@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -34,7 +34,7 @@ _ENOUGH, _FLOOR, _STEP = 1e-3, 0.3, 1e-6
 def identify(
     subject: Any,
     find: Mapping[str, Any],
-    data: Sequence[Measured],
+    data: Sequence[Measured] | Measured,
     *,
     most: int = 30,
     options: NewtonOptions | None = None,
@@ -90,14 +90,15 @@ def identify(
     >>> round(found.values["E"], -1)
     206000.0
     """
-    if not find or not data:
+    measured = list(data) if isinstance(data, Iterable) else [data]
+    if not find or not measured:
         raise InvalidValue(
             "there is nothing to find, or nothing was measured",
             where="find" if not find else "data",
             cause="an empty list",
             remedy="bounds by path, and at least one measured curve or number",
         )
-    _refuse_mixed(data)
+    _refuse_mixed(measured)
     if not most >= 1:
         raise InvalidValue("one trial at least is needed", where="most", value=most, remedy="30, for instance")
     thing = subject_of(subject, dict.fromkeys(find, 0.0), options, solver)
@@ -111,7 +112,7 @@ def identify(
     present = {} if isinstance(thing, OfFunction) else {path: float(known[path].value) for path in sought}
     start = np.array([one.begin(present.get(path), path) for path, one in sought.items()])
     scale = np.array([one.scale(first) for one, first in zip(sought.values(), start, strict=True)])
-    runs = Runs(thing, list(sought), sorted(data, key=lambda one: repr(one.at)), known, progress, on_run)
+    runs = Runs(thing, list(sought), sorted(measured, key=lambda one: repr(one.at)), known, progress, on_run)
     search = _Search(runs, sought, start, scale)
     search.refuse_blind()
     before = runs.at(start)[0]

@@ -49,6 +49,10 @@ class Limits:
         if isinstance(given, Limits):
             return given
         if not isinstance(given, str):
+            if not isinstance(given, tuple | list) or len(given) != 2:
+                raise InvalidValue(
+                    "limits are two numbers", where="limits", value=given, remedy="(89.0, 91.0), or (None, 91.0)"
+                )
             return cls(*given)
         low, colon, high = given.partition(":")
         try:

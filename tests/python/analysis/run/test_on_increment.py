@@ -55,6 +55,50 @@ def test_an_exception_in_it_ends_the_run():
     assert tip.value == -2.0
 
 
+@pytest.mark.parametrize("rows", [2, 5])
+def test_a_stopped_arc_goes_on_along_the_same_path(rows, tmp_path):
+    def shallow_arch():
+        def rise(X):
+            return X + np.outer(0.02 * X[:, 0] * (20.0 - X[:, 0]), (0.0, 0.0, 1.0))
+
+        model = uf.Model(uf.mesh.strip(20.0, 2.0, 0.3, (10, 1)).transformed(rise), material=uf.SVK(E=2e5, nu=0.3))
+        for end in ("x0", "x1"):
+            model.hinge(end, "xz")
+        model.fix(lambda x, y, z: x > -1.0, "y")
+        return model, uf.Arc(model.force(lambda x, y, z: abs(x - 10.0) < 1e-6, (0.0, 0.0, -1.0), "f"), to=8.0, most=15)
+
+    whole, again = uf.solve(*shallow_arch(), progress=False), stopped(shallow_arch, rows, tmp_path)
+    np.testing.assert_array_equal(again["f"], whole["f"])
+    assert again.events == whole.events
+
+
+def test_a_run_that_is_stopped_at_the_end_of_a_step_keeps_its_notes(tmp_path):
+    def pressed():
+        model = uf.Model(uf.mesh.strip(20.0, 2.0, 1.0, (6, 1)), material=uf.SVK(E=2e5, nu=0.3))
+        model.fix("x0")
+        force = model.press(model.contact("upper", uf.Cylinder((15.0, 0.0, 5.8), "y", 5.0), penalty=2e3), "z", "f")
+        return model, [uf.Close(force, -20.0), uf.Release(force)]
+
+    whole = uf.solve(*pressed(), progress=False)
+    assert len(whole.events) == 2
+    for step in (1, 2):
+        rows = int(np.flatnonzero(whole["step"] == step)[-1]) + 1
+        assert stopped(pressed, rows, tmp_path).events == whole.events
+
+
+def stopped(build, rows, folder):
+    """A run that a function ends at a row, and that is resumed."""
+    path = folder / f"{rows}.h5"
+
+    def stop(result):
+        if len(result) == rows:
+            raise StopIteration
+
+    with pytest.raises(StopIteration):
+        uf.solve(*build(), progress=False, checkpoint=path, every=0.0, on_increment=stop)
+    return uf.resume(path, *build(), progress=False)
+
+
 def test_of_open_runs_and_resumed_ones(tmp_path):
     model, tip = bent()
     seen = []

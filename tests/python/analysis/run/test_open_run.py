@@ -9,7 +9,7 @@ import pytest
 
 import umform as uf
 from umform.analysis.run.open_run import OpenRun
-from umform.errors import NoConvergence
+from umform.errors import InvalidValue, NoConvergence
 from umform.results.records import Cause
 
 
@@ -69,6 +69,33 @@ def test_a_branch_that_is_left_leaves_no_trace(order):
     run.go_back(later)  # from another branch
     same(run.close(), straight)
     assert run.iterations > run.result["iterations"].sum()  # those of the branches count
+
+
+@pytest.mark.parametrize("what", ["support", "tool"])
+def test_back_before_a_step_that_frees(what):
+    """The support acts again, the tool is closed again, and all rows have the columns of their forces."""
+
+    def built():
+        model, punch = strip()
+        return model, punch, model.fix("x1_upper", "y") if what == "support" else model.tools[0]
+
+    model, punch, thing = built()
+    straight = uf.solve(model, [uf.Move(punch, to=-0.9, steps=4), uf.Free(thing, steps=2)], progress=False)
+    model, punch, thing = built()
+    run = OpenRun(model)
+    run.take(uf.Move(punch, to=-0.9, steps=4))
+    mark = run.mark()
+    for steps in (3, 2):
+        run.go_back(mark)
+        run.take(uf.Free(thing, steps=steps))
+    same(run.close(), straight)
+
+
+def test_a_mark_of_another_run_is_refused():
+    runs = [OpenRun(strip()[0]) for _ in range(2)]
+    for mark in (runs[0].mark(), None):
+        with pytest.raises(InvalidValue, match="a mark of its own"):
+            runs[1].go_back(mark)
 
 
 def test_what_ends_a_step_has_what_was_reached():

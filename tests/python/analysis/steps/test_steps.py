@@ -490,3 +490,14 @@ def test_chattering_is_a_warning_of_the_result(build, monkeypatch):
     assert "in a cycle" in result.warnings[0]
     assert "step 1" in result.warnings[0]
     assert result["punch"][-1] == -0.5
+
+
+@pytest.mark.parametrize("wrong", ["a", None, float("nan")])
+def test_a_target_is_a_number_or_an_array_of_numbers(wrong):
+    model = Model(strip(2.0, 1.0, 1.0, (2, 1)), material=mt.SVK(E=1.0, nu=0.3))
+    tip = model.prescribe("x1", "z", name="tip")
+    with pytest.raises(InvalidValue):
+        Move(tip, to=wrong)
+    assert Move([tip], to=np.array([0.5])).values(0.5, [0.0]) == [0.25]
+    with pytest.raises(InvalidValue, match="options are those of Newton"):
+        solve(model, Move(tip, to=1.0), options={"residual": 1e-6})

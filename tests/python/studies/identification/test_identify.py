@@ -196,6 +196,8 @@ def test_a_number_under_two_names_is_refused():
 
 
 def test_measurements_are_checked(tension):
+    with pytest.raises(UmformError, match="its abscissae and its ordinates"):
+        uf.MeasuredCurve("pull", "pull_force", "curve.csv")
     with pytest.raises(UmformError, match="some measurements have a standard deviation"):
         uf.identify(bar, BOUNDS, [curve(tension), uf.MeasuredNumber("pull_force:last", 200.0, 1.0)])
     with pytest.raises(UmformError, match="a curve is two or more pairs"):

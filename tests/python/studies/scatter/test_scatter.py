@@ -192,6 +192,7 @@ def test_how_a_scatter_is_written(text, expected):
         ({"E": "3%"}, {"limits": {"force": "91:89"}}, "limits", "a smaller and a larger number"),
         ({"E": "3%"}, {"limits": {"force": "89"}}, "limits", "low: or :high"),
         ({"E": "3%"}, {"limits": {"force": "89,5:91"}}, "limits", "a decimal comma"),
+        ({"E": "3%"}, {"limits": {"force": 210.0}}, "limits", "limits are two numbers"),
         ({"E": "3%"}, {"limits": {"angle": "89:91"}}, "limits", "the run has no such quantity"),
     ],
 )

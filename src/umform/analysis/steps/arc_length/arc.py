@@ -173,20 +173,20 @@ class Following:
         run.evaluation = converged.evaluation
         self.count += 1
         fraction = path.state.fraction
+        adapted = self.length * min(max(math.sqrt(step.iterations / len(converged.iterations)), 0.5), 2.0)
+        self.length = min(adapted, step.grow * path.first)
+        self.critical.advance(path.state)
         ended = True
         try:
             ended = step.until is not None and step.until(run.model)
         finally:  # the state counts even if the user's function fails
             self.done = fraction == 1.0 or ended or self.count == step.most
+            if self.done:
+                _say_how_it_ended(run, step, run.number, path, ended)
             every = max(1, step.most // run.frames) if run.frames > 0 else 0
             frame = bool(every) and (self.count % every == 0 or self.done)
             part = min(max(fraction, 0.0), 1.0)
             run.keep(converged, step.moved(), name=f"step {run.number}", fraction=part, frame=frame)
-            self.critical.advance(path.state)
-        if self.done:
-            _say_how_it_ended(run, step, run.number, path, ended)
-        adapted = self.length * min(max(math.sqrt(step.iterations / len(converged.iterations)), 0.5), 2.0)
-        self.length = min(adapted, step.grow * path.first)
 
     def follow(self, run: Run, step: Arc, lead: Run, take: Take) -> None:
         """Repeat the last accepted increment of the loop of a leading run: on the plane across its path, at its end at
