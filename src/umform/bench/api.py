@@ -29,6 +29,7 @@ from umform.bench.wanted import Wanted
 from umform.errors import InvalidValue, UmformError
 from umform.flat_pattern import FILES as FLAT_FILES
 from umform.io.tables import CSV_STYLES
+from umform.problem.measured import OF_ONE
 from umform.problem.results import FILES as DECK_FILES
 from umform.processes.air_bending.files import RESULTS as BEND_FILES
 from umform.processes.draw.files import FILES as DRAW_FILES
@@ -253,7 +254,8 @@ class _Api:
 
     def remove(self, body: Any, request: Request) -> _Json:
         """Delete a job."""
-        self.queue.remove(self._job_of(request).id)
+        if not self.queue.remove(self._job_of(request).id):
+            raise InvalidValue("a job that runs is not deleted", where="job", remedy="stop it first")
         return {}
 
     def curve(self, request: Request) -> _Json:
@@ -299,4 +301,4 @@ class _Api:
 
 def _is_known(name: str) -> bool:
     """Whether jobs write files of this name."""
-    return name in _FILES or _OF_TABLES.fullmatch(name) is not None
+    return name in _FILES or any(pattern.fullmatch(name) for pattern in (_OF_TABLES, OF_ONE))

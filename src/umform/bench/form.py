@@ -29,9 +29,9 @@ MESHES: dict[str, dict[str, Any]] = {
     "usual": {},
     "fine": {"layers": 4, "thickness_points": 5},
 }
-#: Meshes of hems by the same names: with longer elements a closed fold inverts.
+#: Meshes of hems by the same names: with longer elements, or one layer, a closed fold inverts.
 HEM_MESHES = {
-    name: FOLDED | mesh | ({"elements_per_thickness": 2.0} if "elements_per_thickness" in mesh else {})
+    name: FOLDED | mesh | ({"layers": 2, "elements_per_thickness": 3.0} if name == "quick" else {})
     for name, mesh in MESHES.items()
 }
 #: Longest bend, and longest strip of several bends or a hem, in mm: a longer one would take the memory of the server.

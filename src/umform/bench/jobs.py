@@ -187,16 +187,17 @@ class Queue:
             self.index.change(name, "waiting")
         self._wake.set()
 
-    def remove(self, name: str) -> None:
-        """Delete a job that does not run, with its files."""
+    def remove(self, name: str) -> bool:
+        """Delete a job that does not run, with its files; whether it does not."""
         with self._lock:
             if self.index.job(name) is None or name in self._running:
-                return
+                return False
             self.index.remove(name)
             folder = self.folder_of(name)
             (folder / ORDER).unlink(missing_ok=True)  # first: a folder without it is no job
             shutil.rmtree(folder, ignore_errors=True)
             self.disk.expire()
+        return True
 
     def live(self, name: str) -> dict[str, Any]:
         """Live data of a running job."""

@@ -42,7 +42,7 @@ def _bent(values: Mapping[str, Any], goal: Goal) -> str:
     if work == "sequence":
         return " ".join(f"{row['angle']:g}°" for row in values["bends"] if "angle" in row)
     if work == "hem":
-        return f"hem {values['gap']:g} mm"
+        return f"{values['form']} hem"
     if work == "correct":
         return f"{die}, measured {values['measured_angle']:g}°"
     if work == "bottom":

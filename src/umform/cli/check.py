@@ -94,7 +94,10 @@ def deck_errors(*options: str) -> Iterator[None]:
 def _change(text: str) -> tuple[str, Any]:
     key, _, value = text.partition("=")
     try:
-        return key.strip(), tomllib.loads(f"value = {value}")["value"]
+        found = tomllib.loads(f"value = {value}")
+        if len(found) > 1:
+            raise ValueError
+        return key.strip(), found["value"]
     except (tomllib.TOMLDecodeError, RecursionError, ValueError):
         if key.strip() and _WORD.fullmatch(value.strip()):
             return key.strip(), value.strip()  # text without quotes; a key that needs a number refuses it

@@ -96,6 +96,14 @@ def export(
     if to not in PROGRAMS:
         known = ", ".join([*PROGRAMS, *_FIELDS])
         raise InvalidValue("unknown program", where="to", value=to, remedy=f"one of {known}")
+    solids = (mesh or PROGRAMS[to].meshes[0]) == "solids"
+    if (points != _POINTS) if solids else (layers != _LAYERS):
+        raise InvalidValue(
+            "solids have no points through the thickness of shells" if solids else "shells have no layers",
+            where="--points" if solids else "--layers",
+            value=points if solids else layers,
+            remedy="leave it out, or --mesh shells" if solids else "leave it out, or --mesh solids",
+        )
     with deck_errors():
         part = finished(run, stage, trust)
     path = out or Path(part.name).with_suffix(PROGRAMS[to].suffix)

@@ -28,6 +28,8 @@ def paths(
     from rich import box
     from rich.table import Table
 
+    from umform.problem.keys import plain
+
     with deck_errors():
         found = [one for one in read(deck, changes or (), trust).paths() if within in one.path]
     if not found:
@@ -39,5 +41,5 @@ def paths(
     table.add_column("unit")
     table.add_column("what it is")
     for one in found:
-        table.add_row(one.path, f"{one.value:.10g}", one.unit, one.sentence)
+        table.add_row(one.path, f"{one.value:.10g}", one.unit, plain(one.sentence))
     console().print(table)

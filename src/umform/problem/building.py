@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from umform.analysis.newton.newton import Newton
 from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.run import Result
+from umform.analysis.run.checked import check_step
 from umform.analysis.steps import Step
 from umform.model import Model
 from umform.model.contact import Contact
@@ -86,7 +88,7 @@ class _Builder(SheetBuilder):
         self._rest(model)
         options = self._options(model)
         self._raise()
-        steps = self._steps(Named(controls, supports, contacts))
+        steps = self._steps(model, Named(controls, supports, contacts))
         check_measures(self.contents, model, self.at)
         self._raise()
         return Prepared(
@@ -190,13 +192,14 @@ class _Builder(SheetBuilder):
             with self.at("supports"):
                 _ = model.system.pattern
         if not self.errors:
-            with self.at("solution", "solver"):
+            with self.at("solution", "solver") if self.solver == self.contents.solution.solver else nullcontext():
                 _ = Newton(model.system, options, self.solver).solver
         return options
 
-    def _steps(self, named: Named) -> list[Step]:
+    def _steps(self, model: Model, named: Named) -> list[Step]:
         steps: list[Step] = []
         for number, part in enumerate(self.contents.steps):
             with self.at("steps", number):
                 steps.append(part.build(named))
+                check_step(model, steps, len(steps) - 1)
         return steps

@@ -10,26 +10,30 @@ import numpy as np
 
 from umform.analysis.newton.newton import Newton
 from umform.analysis.run.loose import carried, carried_motions
-from umform.errors import NotFinite, RigidBodyMotion, SingularMatrix, ToolSwallowsSheet
+from umform.errors import NotFinite, RigidBodyMotion, SingularMatrix, ToolSwallowsSheet, UmformError
 from umform.materials import Plastic
 from umform.model.contact.encounter import sheet_thickness
+from umform.problem.before import STATE_KIND
 from umform.problem.clearance import away, clearances
 from umform.problem.contents import Contents
 from umform.problem.controls import ControlPart, Displacement, Drive, MidLine, Moment, Press, Spring, Turn
 from umform.problem.findings import Finding, error, ok, warning
 from umform.problem.floating import changed_thickness
+from umform.problem.kept import Kept
 from umform.problem.material import FromLibrary
 from umform.problem.placement import out_of_the_sheet
 from umform.problem.planes import planes
 from umform.problem.plausible import of_model
 from umform.problem.prepared import Prepared
-from umform.problem.problem import Problem
+from umform.problem.problem import Problem, load
 from umform.problem.references import references
 from umform.problem.resolution import resolution
 from umform.problem.steps import Move
 from umform.sheet_metals import get
 from umform.surfaces import CadTool, Offset, OffsetByField, Placed, Triangulated
 
+#: Tables of a deck that do not change its run.
+_SHOWS = ("title", "output", "measures", "derivatives", "scatter")
 #: Mean number of iterations of an increment.
 _ITERATIONS = 4
 
@@ -73,6 +77,7 @@ def before_run(deck: Problem, problem: Prepared) -> Iterator[Finding]:
         yield from planes(deck.contents, problem.model)
         yield from forming_limit(deck.contents, problem)
         yield from idle(deck)
+        yield from state_before(deck)
 
 
 def metal_of_thickness(deck: Problem, problem: Prepared) -> Iterator[Finding]:
@@ -134,6 +139,32 @@ def idle(deck: Problem) -> Iterator[Finding]:
     if before is not None and before.control is not None and ("controls", before.control) not in used:
         text = "no step moves it to 0: forces of the operation before stay on the part as dead loads"
         yield warning(f"control {before.control}", text, f"to = {{ {before.control} = 0.0 }} in the first step")
+    elif before is not None and before.control is not None:
+        name = before.control
+        ends = [step.to[name] for step in deck.contents.steps if isinstance(step, Move) and name in step.to]
+        if ends and ends[-1] != 0.0:
+            text = f"the last step moves it to {ends[-1]:g}: this part of the forces of the operation before stays"
+            yield warning(f"control {name}", text, f"to = {{ {name} = 0.0 }} in its last step, if the part is released")
+
+
+def state_before(deck: Problem) -> Iterator[Finding]:
+    """Warn of a state of the operation before that a run with other values has written."""
+    part = deck.contents.before
+    if part is None:
+        return
+    source, path = deck.source, deck.source.folder / part.state
+    try:
+        run = Kept.read(path, source.trust, STATE_KIND).deck.source.data
+    except UmformError:  # written without a deck
+        return
+    now = load(source.folder / part.deck, trust=source.trust).source.data
+    other = [name for name in sorted(run.keys() | now.keys()) if name not in _SHOWS and run.get(name) != now.get(name)]
+    if other:
+        yield warning(
+            "before",
+            f"{part.state} is of a run with other values than {part.deck} has now: {', '.join(other)}",
+            "run the deck before again, and name the state in the folder that this run writes to",
+        )
 
 
 def unmoved(about: str, part: ControlPart) -> Finding:

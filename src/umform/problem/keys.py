@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, is_dataclass
@@ -9,6 +10,9 @@ from typing import Any
 
 from umform.materials.laws import Law
 from umform.spec import OneOf, Parameter, entries, note_of
+
+#: A reference in a text, such as :class:`umform.Element`.
+_REFERENCE = re.compile(r":\w+:`~?([^`]*)`")
 
 
 def law_keys(law: object, rolling: object = None) -> dict[str, Any]:
@@ -65,8 +69,8 @@ def summary(spec: type) -> str:
 
 
 def plain(text: str) -> str:
-    """A text without marks of code."""
-    return text.replace("``", "")
+    """A text without marks of code and of references."""
+    return _REFERENCE.sub(r"\1", text).replace("``", "")
 
 
 def _table(value: Any) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -28,6 +29,8 @@ TABLE = "measures.csv"
 _FIRST, _LEADING = 3, 8
 #: Tables and pictures of single measures are named after them.
 _OF_ONE = "measure-{}"
+#: Their names.
+OF_ONE = re.compile(_OF_ONE.format(r"[A-Za-z][\w-]{0,100}") + r"\.(csv|png)", re.ASCII)
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,9 @@ from umform.model import Model
 from umform.model.contact.encounter import sheet_thickness
 from umform.problem.findings import Finding, error, ok, warning
 
+#: Young's modulus that is none in any unit.
+_NO_STIFFNESS = 1e-100
+
 #: Strain at first yield: metals have 3e-4 to 1e-2; beyond the outer pair, stresses are in different units.
 _USUAL_YIELD, _POSSIBLE_YIELD = (1e-4, 3e-2), (1e-5, 0.2)
 #: A sheet softer than this share of the stiffest is a foil of a polymer, whose first yield is at 1e-2 to 1e-1.
@@ -48,6 +51,9 @@ def units(model: Model, *, millimetres: bool = False) -> Iterator[Finding]:
     if not laws:
         return
     stiffest = max(laws, key=lambda law: law.E)  # a foil on a sheet may be as soft as rubber
+    if softest := [law for law in laws if law.E < _NO_STIFFNESS]:
+        yield error("units", f"E = {softest[0].E:.4g}: this is no stiffness", "E of steel is 210e3 MPa")
+        return
     yield elastic_constants(model, stiffest, millimetres=millimetres)
     for material in materials:
         if isinstance(material, Plastic):

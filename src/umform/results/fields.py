@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import _core
-from umform.errors import InvalidValue
+from umform.errors import InvalidValue, NoConvergence
 from umform.history_variables import columns, history_of
 from umform.mesh import FACE_NODES
 from umform.model import Body, Evaluation, Model
@@ -168,7 +168,17 @@ def _cell_fields(body: Body, u: Floats) -> dict[str, Floats]:
     eqps = columns(body.block.history_variables).get("eqps")
     if eqps is not None:
         names += ["plastic_strain_mean", "plastic_strain_max"]
-    return dict(zip(names, body.block.cell_fields(u, -1 if eqps is None else eqps.start), strict=True))
+    try:
+        found = body.block.cell_fields(u, -1 if eqps is None else eqps.start)
+    except ValueError as error:  # of a converged state
+        raise NoConvergence(
+            "the stresses of a converged state are beyond the law",
+            where=f"body {body.name}",
+            value=str(error),
+            cause="constants of the material in other units, or an increment of strain that is far too large",
+            remedy="look at the material; smaller increments",
+        ) from error
+    return dict(zip(names, found, strict=True))
 
 
 def _rolling(at: PointFields) -> Floats:

@@ -14,6 +14,8 @@ import umform as uf
 from umform import cli
 from umform.errors import UmformError
 from umform.problem import load
+from umform.problem.check import before_run
+from umform.problem.findings import Level
 
 FIXED = """
 [[supports]]
@@ -184,3 +186,28 @@ def test_mistakes_are_named(drawn, deck, change, said):
     with pytest.raises(UmformError) as caught:
         load(drawn / "trim.toml").build()
     assert said in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("deck", "change", "said"),
+    [
+        ("draw", ("to = { pull = 0.04 }", "to = { pull = 0.05 }"), "other values than draw.toml has now: steps"),
+        ("trim", ("to = { cut = 0.0 }", "to = { cut = 0.5 }"), "the last step moves it to 0.5"),
+        ("draw", ("report = false", "report = true"), ""),
+    ],
+)
+def test_a_state_of_other_values_and_forces_that_stay_are_warned_of(drawn, deck, change, said):
+    path = drawn / f"{deck}.toml"
+    assert change[0] in path.read_text()
+    path.write_text(path.read_text().replace(*change))
+    problem = load(drawn / "trim.toml")
+    warned = [found for found in before_run(problem, problem.build()) if found.level is Level.WARNING]
+    told = [found.text for found in warned if found.about in ("before", "control cut")]
+    assert [said in text for text in told] == [True] * bool(said)
+
+
+def test_the_remedy_for_a_missing_state_names_its_folder(drawn):
+    path = drawn / "trim.toml"
+    path.write_text(path.read_text().replace("draw/state.h5", "results/other/state.h5"))
+    with pytest.raises(UmformError, match=r"--out .*results/other"):
+        load(path).build()

@@ -4,6 +4,7 @@ from umform.mesh import strip as strip_mesh
 from umform.model.contact.encounter import sheet_thickness
 from umform.problem import Problem
 from umform.problem.check import check
+from umform.problem.errors import DeckError
 from umform.problem.findings import Level
 from umform.processes.air_bending import AirBending
 from umform.processes.problems import problem_of
@@ -93,6 +94,19 @@ def test_idle_tools_and_controls(texts, found):
     )
     assert levels(found(text, "tool spare")) == WARNING
     assert levels(found(text, "control spare")) == WARNING
+
+
+def test_steps_that_cannot_follow_each_other_are_refused_with_their_place(texts):
+    text = texts("wiping")
+    free = text[text.rindex("[[steps]]") : text.index("[measures.section]")]
+    with pytest.raises(DeckError, match=r"steps\[2\]") as caught:
+        Problem.read(text.replace(free, 2 * free)).build()
+    assert "free each support and each tool of this model once" in str(caught.value)
+
+
+def test_a_modulus_that_is_none_in_any_unit(texts, found):
+    text = texts("free-bending").replace("kappa = 175000.0\nmu = 80770.0", "E = 1e-300\nnu = 0.3")
+    assert levels(found(text, "units")) == ERROR
 
 
 def test_effort(texts, found):

@@ -170,13 +170,15 @@ def test_check(deck):
 
 
 def test_wrong_decks_and_changes(deck, tmp_path):
-    for change in ("mesh.cels=3", "mesh.cells", "mesh.cells=[", "mesh.cells=" + "[" * 5000):
+    two = "mesh.length=3\nmesh.width=2"
+    for change in ("mesh.cels=3", "mesh.cells", "mesh.cells=[", "mesh.cells=" + "[" * 5000, two):
         answer = umform("check", deck, "--set", change)
         assert answer.exit_code == 1
         assert "remedy" in answer.output
     answer = umform("run", deck, "--solver", "pardisso")
     assert answer.exit_code == 1
     assert "superlu" in answer.output
+    assert "pull.toml" not in answer.output  # it is not the deck that names it
     assert umform("check", tmp_path / "missing.toml").exit_code == 1
 
 
@@ -266,3 +268,24 @@ def test_a_forming_limit_that_is_not_sorted_or_in_per_cent_is_refused(deck, tmp_
     answer = umform("run", deck, "--out", tmp_path / "out", "--set", f"output.forming_limit={limit}")
     assert answer.exit_code == 1 and why in answer.output
     assert not (tmp_path / "out").exists()
+
+
+def test_a_checkpoint_does_not_replace_another_file(deck, tmp_path):
+    text = deck.read_text()
+    answer = umform("run", deck, "--checkpoint", deck, "--out", tmp_path / "out")
+    assert answer.exit_code == 1
+    assert "this file is no checkpoint" in answer.output
+    assert deck.read_text() == text
+    assert not (tmp_path / "out").exists()
+
+
+def test_forces_that_are_not_in_balance_are_warned_of(deck, tmp_path):
+    answer = umform("run", deck, "--set", "solution.residual=1e9", "--out", tmp_path / "out")
+    assert answer.exit_code == 1
+    assert "less than 1" in answer.output
+    law = "material.law=J2", 'material.hardening={curve="Linear", yield_stress=160.0, modulus=500.0}'
+    loose = "solution.residual=0.9", "solution.increment=0.9", "steps.0.to={pull=2.0}"
+    words = [word for change in (*law, *loose) for word in ("--set", change)]
+    answer = umform("run", deck, *words, "--out", tmp_path / "out")
+    assert answer.exit_code == 0, answer.output
+    assert "the forces are out of balance by up to" in " ".join(answer.output.split())

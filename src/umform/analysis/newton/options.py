@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Annotated, Literal
 
-from annotated_types import Le
+from annotated_types import Le, Lt
 
 from umform.spec import About, check_fields
 from umform.spec.types import Count, NotNegative, Positive
@@ -26,7 +26,7 @@ class NewtonOptions:
     >>> result = uf.solve(model, uf.Move(tip, to=-0.1, steps=2), options=options)
     """
 
-    residual: Positive = 1e-9
+    residual: Annotated[Positive, Lt(1.0), About(cause="a force in place of a part of the forces")] = 1e-9
     """Tolerance of the residual, relative to the element forces."""
     increment: Positive = 1e-6
     """Tolerance of the increment, relative to the largest displacement."""

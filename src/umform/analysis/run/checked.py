@@ -20,30 +20,39 @@ def checked(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
     """The steps, if they are valid for the model."""
     assert model is not None
     sequence = [steps] if isinstance(steps, Step) else list(steps)
-    for number, step in enumerate(sequence, start=1):
-        if isinstance(step, Arc):
-            refuse_on_an_arc(model, f"step {number}")
-        if not isinstance(step, Step):
-            raise InvalidValue(
-                "a step is a Move, a Release, an Arc, a Free or a Close", where=f"step {number}", value=step
-            )
-        if isinstance(step, Free):
-            _refuse_to_free(model, step, sequence[: number - 1], f"step {number}")
-            continue
-        for control in [step.control] if isinstance(step, Release) else step.moved():
-            if control not in model.controls:
-                raise InvalidValue(
-                    "a step moves a control that the model does not have",
-                    where=f"step {number}",
-                    value=control,
-                    cause="it belongs to another model",
-                    remedy="use what prescribe(), force(), pressure() or drive() of this model returned",
-                )
-            _refuse_a_way_that_is_found(model, control, sequence[: number - 1], f"step {number}")
+    for number in range(len(sequence)):
+        check_step(model, sequence, number)
     for step in sequence:
         if isinstance(step, Free):
             step.prepare(model)  # the history has the columns of its forces from the beginning
     return sequence
+
+
+def check_step(model: Model, steps: Sequence[Step], number: int) -> None:
+    """Reject a step of some, counted from 0, that the model cannot execute then.
+
+    Raises
+    ------
+    InvalidValue
+    """
+    step, earlier, where = steps[number], steps[:number], f"step {number + 1}"
+    if isinstance(step, Arc):
+        refuse_on_an_arc(model, where)
+    if not isinstance(step, Step):
+        raise InvalidValue("a step is a Move, a Release, an Arc, a Free or a Close", where=where, value=step)
+    if isinstance(step, Free):
+        _refuse_to_free(model, step, earlier, where)
+        return
+    for control in [step.control] if isinstance(step, Release) else step.moved():
+        if control not in model.controls:
+            raise InvalidValue(
+                "a step moves a control that the model does not have",
+                where=where,
+                value=control,
+                cause="it belongs to another model",
+                remedy="use what prescribe(), force(), pressure() or drive() of this model returned",
+            )
+        _refuse_a_way_that_is_found(model, control, earlier, where)
 
 
 def _refuse_a_way_that_is_found(model: Model, control: Control, earlier: Sequence[Step], where: str) -> None:
@@ -78,7 +87,7 @@ def _refuse_to_free(model: Model, step: Free, earlier: Sequence[Step], where: st
                 where=where,
                 value=thing if isinstance(thing, Support) else f"tool {thing.name}",
                 cause="it belongs to another model, or an earlier step has freed it",
-                remedy="use what fix(), symmetry(), hinge(), hold_director() or tool() of this model returned, once",
+                remedy="free each support and each tool of this model once",
             )
     if step.on is not None and (step.on not in model.supports.all or not step.on.removed or step.on in put):
         raise InvalidValue(
@@ -86,5 +95,5 @@ def _refuse_to_free(model: Model, step: Free, earlier: Sequence[Step], where: st
             where=where,
             value=step.on,
             cause="it belongs to another model, or is in place already",
-            remedy="what hold_rigid() of this model returned, once",
+            remedy="a rigid support of this model that waits, in one step",
         )

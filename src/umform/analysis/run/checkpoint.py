@@ -19,7 +19,7 @@ from umform.analysis.steps.loop import Run
 from umform.analysis.steps.trail import Trail
 from umform.errors import FileProblem, InvalidValue
 from umform.io.atomic import PendingFile
-from umform.io.trees import read_tree, write_tree
+from umform.io.trees import kind_of, read_tree, write_tree
 from umform.model import Evaluation, Snapshot
 from umform.model.contact import ContactPoints
 from umform.model.equations.frame import Frame
@@ -127,6 +127,22 @@ def read_note(path: str | PathLike[str], kind: str = CHECKPOINT_KIND) -> dict[st
         If the file cannot be read, or is no checkpoint.
     """
     return read_tree(path, kind, part="note")
+
+
+def refuse_other_file(path: Path) -> None:
+    """Refuse to write over a file that is no checkpoint.
+
+    Raises
+    ------
+    FileProblem
+    """
+    if path.is_file() and path.stat().st_size > 0 and kind_of(path) != CHECKPOINT_KIND:
+        raise FileProblem(
+            "this file is no checkpoint",
+            where=str(path),
+            cause="another file has this name, and would be lost",
+            remedy="another name, such as run.h5; or move the file away",
+        )
 
 
 def _problem_of_writing(path: Path) -> FileProblem | None:

@@ -27,6 +27,7 @@ from umform.progress import Show, Tick, progress_bar
 from umform.results.bottoming import warn_of_bottoming
 from umform.results.coarse import warn_of_volume
 from umform.results.drift import warn_of_drift
+from umform.results.imbalance import warn_of_imbalance
 from umform.results.penetration import warn_of_contact
 from umform.results.rest import tell_of_rest
 from umform.results.shared_faces import warn_of_shared_faces
@@ -112,6 +113,7 @@ def taken(
                 warn_of_contact(run.model, result)
                 warn_of_untouched(run.model, result)
                 warn_of_drift(run.model, result)
+                warn_of_imbalance(result, run.newton.options.residual)
                 warn_of_volume(run.model, result)
                 tell_of_rest(run.model, result)
             _pause(run, start, checkpoints, stop, last=last)
@@ -122,6 +124,7 @@ def taken(
                 warn_of_shared_faces(run.model, result, run.evaluation.found)
                 warn_of_contact(run.model, result)
                 warn_of_drift(run.model, result)
+                warn_of_imbalance(result, run.newton.options.residual)
             ended_early(run, checkpoints, error)
             error.result = result  # type: ignore[attr-defined]
             raise

@@ -23,6 +23,7 @@ from umform.results.coarse import warn_of_volume
 from umform.results.drift import warn_of_drift
 from umform.results.history import FRAMES
 from umform.results.history import Mark as HistoryMark
+from umform.results.imbalance import warn_of_imbalance
 from umform.results.penetration import warn_of_contact
 from umform.results.records import Iteration
 from umform.results.untouched import warn_of_untouched
@@ -202,5 +203,6 @@ class OpenRun:
         warn_of_contact(self._run.model, self.result)
         warn_of_untouched(self._run.model, self.result)
         warn_of_drift(self._run.model, self.result)
+        warn_of_imbalance(self.result, self._run.newton.options.residual)
         warn_of_volume(self._run.model, self.result)
         return self.result

@@ -81,9 +81,13 @@ class Free:
 
     @property
     def things(self) -> list[Support | Tool]:
-        """Supports and tools, in the given order."""
+        """Supports and tools, in the given order; contacts of one tool open it once."""
         given = list(self.support) if isinstance(self.support, Sequence) else [self.support]
-        return [thing.tool if isinstance(thing, Contact) else thing for thing in given]
+        found: list[Support | Tool] = []
+        for thing in given:
+            if not (isinstance(thing, Contact) and thing.tool in found):
+                found.append(thing.tool if isinstance(thing, Contact) else thing)
+        return found
 
     def prepare(self, model: Model) -> None:
         """Make the loads that replace the removed objects, so that the history has their columns."""

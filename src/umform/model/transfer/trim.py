@@ -194,7 +194,8 @@ class Trim:
             cause="a line that misses the sheet, other coordinates, or the wrong side of the line"
             if not kept.any()
             else "a line that misses the sheet, or other coordinates",
-            remedy="the part lies to the left of the direction of the line; profile.reversed() exchanges the sides",
+            remedy="the part lies to the left of the direction of the line: its corners in the reverse order, or "
+            "profile.reversed(), exchange the sides",
         )
 
     def _tool(self) -> Extruded:

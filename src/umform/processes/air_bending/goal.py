@@ -25,7 +25,9 @@ class Goal:
 
     angle: Degrees | None = None
     """Angle between the legs after springback; the stroke for it is found."""
-    force_per_metre: Annotated[Positive, About("kN/m", remedy="3 to 5 times that of air bending")] | None = None
+    force_per_metre: Annotated[Positive, Le(1e6), About("kN/m", remedy="3 to 5 times that of air bending")] | None = (
+        None
+    )
     """Force of bottoming."""
     travel: Annotated[float, About("mm")] | None = None
     """Way beyond the stroke at which tip and flanks are one thickness apart; of bottoming."""

@@ -113,10 +113,8 @@ def derivatives(
     parameters = list({one.path: one for one in (known_parameter(name, known) for name in names)}.values())
     if parameters and {one.path for one in parameters} <= set(held.values()):
         refuse_followers(parameters, held, "by")
-    if of is not None:  # held results are among the responses
-        of = [of] if isinstance(of, str) or callable(of) else of
-        named = [one if isinstance(one, str) else getattr(one, "__name__", "") for one in of]
-        of = [*of, *(name for name in held if name not in named)]
+    if isinstance(of, str) or callable(of):
+        of = [of]
     lead = thing.build()
     shadows, sizes = {}, {}
     for one in parameters:
@@ -127,7 +125,10 @@ def derivatives(
         lead, again, {path: built for path, (_, built) in shadows.items()}, checkpoint, frames=frames, progress=progress
     )
     runs = [one.run for one in found.values()]
-    wanted = responses(of, thing.quantities(lead, *runs), runs[-1])
+    quantities = thing.quantities(lead, *runs)
+    wanted = responses(of, quantities, runs[-1])
+    others = [name for name in held if name not in {one.name for one in wanted}]
+    wanted += responses(others, quantities, runs[-1], "hold")
 
     def measured(other: Subject, built: Built, results: Sequence[Result]) -> list[float | None]:
         numbers = {one.name: one.value for one in other.quantities(built, *results)}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from umform.analysis.run import Result
@@ -43,7 +43,7 @@ class Response:
 
 
 def responses(
-    wanted: Sequence[str | Function] | None, quantities: Sequence[Quantity], result: Result
+    wanted: Sequence[str | Function] | None, quantities: Sequence[Quantity], result: Result, where: str = "of"
 ) -> list[Response]:
     """The wanted numbers with their values in a run; by default all quantities, or forces of the controls.
 
@@ -56,7 +56,7 @@ def responses(
     if wanted is None:
         forces = [f"{control.name}_force" for control in result.model.controls]
         wanted = list(known) or [f"{name}:{stat}" for name in forces for stat in ("last", "peak")]
-    found = [_response(one, known, result) for one in wanted]
+    found = [_response(one, known, result, where) for one in wanted]
     names = [one.name for one in found]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
@@ -70,7 +70,7 @@ def responses(
     return found
 
 
-def _response(wanted: str | Callable, known: Mapping[str, Quantity], result: Result) -> Response:  # type: ignore[type-arg]
+def _response(wanted: str | Function, known: Mapping[str, Quantity], result: Result, where: str) -> Response:
     if not isinstance(wanted, str):
         return Response(_number(wanted, result), function=wanted)
     if wanted in known:
@@ -81,7 +81,7 @@ def _response(wanted: str | Callable, known: Mapping[str, Quantity], result: Res
     between = "; " if any("," in name for name in names) else ", "
     raise InvalidValue(
         "the run has no such quantity or column",
-        where="of",
+        where=where,
         value=wanted,
         cause=slip(wanted, names),
         remedy=f"one of {between.join(names)}",

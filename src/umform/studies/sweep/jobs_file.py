@@ -30,4 +30,10 @@ def read_jobs(path: str | PathLike[str]) -> list[dict[str, Written]]:
     if not rows or any(len(row) != len(header) for row in rows):
         cause = "a row with more or fewer cells than the header, or no row"
         raise FileProblem("this is no table of jobs", where=where, cause=cause, remedy=_REMEDY)
+    keys = [key.strip() for key in header]
+    if len(set(keys)) < len(keys):
+        twice = ", ".join(sorted({key for key in keys if keys.count(key) > 1}))
+        raise FileProblem(
+            "a key is varied twice", where=where, value=twice, cause="equal cells of the header", remedy="give it once"
+        )
     return [{key.strip(): Written(cell.strip()) for key, cell in zip(header, row, strict=True)} for row in rows]

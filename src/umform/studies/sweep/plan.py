@@ -123,6 +123,15 @@ def make_plan(
         None of the decks can be read.
     """
     data = deck.with_(changes).source.data
+    listed_too = sorted({name for values in jobs or () for name in values} & set(vary))
+    if listed_too:
+        raise InvalidValue(
+            "a key is varied twice",
+            where="vary",
+            value=", ".join(listed_too),
+            cause="it is a key of the list of jobs, too",
+            remedy="give it once",
+        )
     varied = list(dict.fromkeys([*(name for values in jobs or () for name in values), *vary]))
     keys = {name: find_key(name, data) for name in varied}
     _check_keys(keys)

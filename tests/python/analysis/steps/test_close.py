@@ -54,6 +54,13 @@ def test_a_holder_lands_on_its_force_and_keeps_it(friction):
     assert "hold_way" in result.events[0]
 
 
+def test_a_tool_that_is_closed_twice_with_a_force_stays():
+    model, hold = held()
+    result = solve(model, [Close(hold, force=-80.0), Close(hold, force=-80.0)])
+    assert result["step"].tolist().count(2) == 1
+    np.testing.assert_allclose(result["hold_way"][-2:], result["hold_way"][-1], rtol=1e-12)
+
+
 def test_the_last_increment_of_closing_converges_quadratically():
     model, punch = beam()
     result = solve(model, Close(model.press(punch, "z", "press"), force=-200.0), options=NewtonOptions(residual=1e-11))

@@ -202,6 +202,11 @@ def test_jobs_of_a_file(deck, tmp_path):
     path.write_text("thickness,E\n1.0\n", encoding="utf-8")
     with pytest.raises(FileProblem, match="no table of jobs"):
         sweep(deck, jobs=path)
+    path.write_text("thickness,thickness\n1.0,2.0\n", encoding="utf-8")
+    with pytest.raises(FileProblem, match="a key is varied twice"):
+        sweep(deck, jobs=path)
+    with pytest.raises(InvalidValue, match="it is a key of the list of jobs, too"):
+        sweep(deck, {"E": [1e5]}, jobs=[{"E": 2e5}])
 
 
 class Elsewhere(Executor):

@@ -1,0 +1,30 @@
+"""Warning of forces that are not in balance: Newton's method was asked for too little."""
+
+from __future__ import annotations
+
+from umform.results.balanced import balanced
+from umform.results.history import History
+
+#: Largest resultant of all external forces, relative to their magnitudes, that needs no warning.
+_LIMIT = 0.01
+
+
+def warn_of_imbalance(result: History, tolerance: float) -> None:
+    """Warn if the external forces of an increment are out of balance by more than a hundredth.
+
+    Parameters
+    ----------
+    result : History
+        The result.
+    tolerance : float
+        Tolerance of the residual.
+    """
+    found = balanced(result)
+    if found is None or not found.force_imbalance > _LIMIT:
+        return
+    message = (
+        f"the forces are out of balance by up to {100.0 * found.force_imbalance:.2g} %: the tolerance of the residual, "
+        f"{tolerance:g} of the forces of the elements, is too large; 1e-3 does for drawn parts, the default is 1e-9"
+    )
+    if message not in result.warnings:  # a run that was taken up at its end
+        result.warn(message)
