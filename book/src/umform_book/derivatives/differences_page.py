@@ -100,9 +100,9 @@ CASE = Case(
     reference="""
 Whole runs with a residual of 1e-12. "shadow": the change in the shadow beside that of a whole run with the same change
 of the parameter, 3e-5 of its value. "derivative": beside central differences over 1e-4 (1e-3 where the whole run ends
-at a force that is hardly defined; 2e-2 for an open hem, whose results have small jumps). Both are the largest over all
-parameters, columns and rows, relative to the largest derivative of the column. The derivative has the curvature over
-the change of the parameter, about 3e-5, as its error.
+at a force that is hardly defined; 2e-2 for a pressed tool that is released, and for an open hem, whose results have
+small jumps). Both are the largest over all parameters, columns and rows, relative to the largest derivative of the
+column. The derivative has the curvature over the change of the parameter, about 3e-5, as its error.
 Whole runs at a pace or with a growing penalty repeat the increments and the growth of the run. Releases end where the
 force is zero to a part of it, or where contact is lost to 1e-6 of the way: whole runs with slightly different
 parameters know their ends no better, and only the last rows are compared.

@@ -156,6 +156,23 @@ def in_time(Y: float, reference: float, exponent: float, duration: float) -> Bui
     return model, [uf.Move(tip, 0.8, 4, time=duration), uf.Move(tip, 0.2, 3, time=2.0)]
 
 
+def sprung_back(Y: float, width: float, stroke: float) -> Built:
+    """A cantilever that nothing touches when it is let go."""
+    model = uf.Model(uf.mesh.strip(20.0, width, 1.0, (8, 1)), material=metal(Y))
+    model.fix("x0")
+    tip = model.prescribe("x1_lower", "z", "tip")
+    return model, [uf.Move(tip, stroke, 6), uf.Release(tip, steps=10)]
+
+
+def sprung_back_in_time(Y: float, reference: float, loading: float, back: float) -> Built:
+    """The same of a metal with a rate, bent fast and let go in another time."""
+    material = uf.Metal(E=206e3, nu=0.3, hardening=uf.Voce(Y, 300.0, 12.0), rate=uf.CowperSymonds(reference, 5.0))
+    model = uf.Model(uf.mesh.strip(20.0, 2.0, 1.0, (8, 1)), material=material)
+    model.fix("x0")
+    tip = model.prescribe("x1_lower", "z", "tip")
+    return model, [uf.Move(tip, -3.0, 6, time=loading), uf.Release(tip, steps=20, time=back)]
+
+
 def rubbed(mu: float, force: float, R: float) -> Built:
     """A strip under a lid with augmented multipliers that a force presses, drawn over two dies, back and forth."""
     model, t = strip(metal(), 1.0), 1.0
@@ -281,6 +298,9 @@ EXAMPLES: dict[str, Example] = {
         limit=5e-3,
     ),
     "Release to zero force": Example(pulled, {"Y": 160.0, "pull": 0.2}, ("pull_force", "plastic_work"), ends=True),
+    "Release without contact": Example(
+        sprung_back, {"Y": 160.0, "width": 2.0, "stroke": -3.0}, ("tip", "plastic_work"), ends=True
+    ),
     "Release of a driven tool": Example(
         driven, {name: DRAWN[name] for name in ("Y", "t", "R", "stroke")}, ("ram", "plastic_work"), ends=True
     ),
@@ -292,7 +312,7 @@ EXAMPLES: dict[str, Example] = {
         {"Y": 160.0, "t": 1.0, "gap": 0.3, "force": -80.0},
         ("press_way", "plastic_work"),
         ends=True,
-        size=1e-3,
+        size=2e-2,
         limit=1e-2,
     ),
     "Release of a clamped strip; friction": Example(
@@ -306,6 +326,12 @@ EXAMPLES: dict[str, Example] = {
     "Arc": Example(arch, {"E": 1e3, "h": 0.6, "t": 0.8}, ("load", "elastic_energy"), ends=True),
     "metal with a rate; time of a step": Example(
         in_time, {"Y": 130.0, "reference": 40.0, "exponent": 5.0, "duration": 0.01}, ("tip_force",)
+    ),
+    "metal with a rate; Release": Example(
+        sprung_back_in_time,
+        {"Y": 130.0, "reference": 40.0, "loading": 0.1, "back": 1.0},
+        ("tip", "plastic_work"),
+        ends=True,
     ),
     "press; augmented multipliers": Example(
         rubbed, {"mu": 0.2, "force": -8.0, "R": 5.0}, ("pull_force", "press_way", "lid_friction_work")

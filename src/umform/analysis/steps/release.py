@@ -200,7 +200,7 @@ class Releasing:
         run.keep(converged, [control], name=name, fraction=part, frame=run.frames > 0 and self.done)
 
     def follow(self, run: Run, step: Release, lead: Run, take: Take) -> None:
-        """Repeat the last accepted increment of the loop of a leading run: of the same way, at last to the same force.
+        """Repeat the last accepted increment of the loop of a leading run: the same part of the way.
 
         Near the end the force is an equation, eq. (5.163). Where contact is about to be lost it determines no value any
         more: the distance from the leading run then stays. A sheet that other forces keep in its tools loses no
@@ -211,14 +211,15 @@ class Releasing:
         ranks, led_to, wanted = model.system.ranks, lead.model.controls.named(control.name).value, led.force
         assert led.before is not None
         before, saved = (control.value, self.force), Saved.of(model, run.evaluation)
-        target, slope = led_to + before[0] - led.before[0], (wanted - led.before[1]) / (led_to - led.before[0])
+        way = led_to - led.before[0]
+        target, slope = before[0] + way * self.start_value / led.start_value, (wanted - led.before[1]) / way
         held = abs(wanted) > _LEFT * led.scale or not run.evaluation.touching(ranks) or _clamped(run, led.scale)
         held = (held or (led.done and lead.evaluation.touching(ranks))) and slope != 0.0 and led_to != 0.0
         if led.done and led_to == 0.0:  # the way back is complete, in any run
             target = 0.0
         lost = led.done and run.evaluation.touching(ranks) and not lead.evaluation.touching(ranks)
         if lost and abs(wanted) <= _LEFT * abs(led.before[1]):  # it snaps off: no tool near it any more
-            held, target = False, target + math.copysign(_AWAY * led.start_value, led_to - led.before[0])
+            held, target = False, target + math.copysign(_AWAY * led.start_value, way)
         near = held and (led.done or abs(wanted) < _NEAR_END * led.scale)
         if near:
             target += (led.before[1] - self.force) / slope
