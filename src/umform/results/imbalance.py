@@ -5,8 +5,9 @@ from __future__ import annotations
 from umform.results.balanced import balanced
 from umform.results.history import History
 
-#: Largest resultant of all external forces, relative to their magnitudes, that needs no warning.
-_LIMIT = 0.01
+#: Largest resultant of all external forces, relative to their magnitudes, and largest tolerance that need no warning:
+#: small forces on a sheet that hardly bears any are never in balance to a part of themselves.
+_LIMIT, _TIGHT = 0.01, 0.01
 
 
 def warn_of_imbalance(result: History, tolerance: float) -> None:
@@ -19,7 +20,7 @@ def warn_of_imbalance(result: History, tolerance: float) -> None:
     tolerance : float
         Tolerance of the residual.
     """
-    found = balanced(result)
+    found = balanced(result) if tolerance > _TIGHT else None
     if found is None or not found.force_imbalance > _LIMIT:
         return
     message = (

@@ -54,6 +54,7 @@ class UserSurface(Tool):
                 "a surface of one's own is a function of positions",
                 where="UserSurface",
                 value=type(self.function).__name__,
+                cause="what the function returns, or a surface of the catalogue",
                 remedy="UserSurface(function), which returns distance, normal and Hessian",
             )
 

@@ -82,7 +82,7 @@ def test_what_does_not_bottom_is_refused():
         with_travel(COARSE, 1.5)
     with pytest.raises(InvalidValue, match="bend in the air"):
         press_to_force(replace(COARSE, bottoming=False), 400.0, progress=False)
-    with pytest.raises(InvalidValue, match="must be positive"):
+    with pytest.raises(InvalidValue, match="must be a number of more than 0"):
         press_to_force(COARSE, -400.0, progress=False)
     with pytest.raises(InvalidValue, match="that of air bending") as low:
         press_to_force(COARSE, 60.0, progress=False, frames=1)
