@@ -146,7 +146,7 @@ def strip(
     """
     if not isinstance(cells, tuple | list) or len(cells) != 2:
         raise InvalidValue("cells are two numbers, along x and y", value=cells, remedy="cells=(24, 1)")
-    if not isinstance(grading, tuple | list) or len(grading) != 2:
+    if np.shape(grading) != (2,):
         raise InvalidValue("gradings are two numbers, along x and y", value=grading, remedy="grading=(2.0, 1.0)")
     check_arguments(strip, layers=layers)
     return grid(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -101,7 +102,8 @@ class Move:
 
     def targets(self) -> list[float | Callable[[float], float]]:
         """Their targets."""
-        return list(self.to) if isinstance(self.to, list | tuple | np.ndarray) else [self.to]  # type: ignore[list-item]
+        to: Any = self.to.tolist() if isinstance(self.to, np.ndarray) else self.to
+        return list(to) if isinstance(to, list | tuple) else [to]
 
     def values(self, fraction: float, starts: Sequence[float]) -> list[float]:
         """Values of the controls within the step.

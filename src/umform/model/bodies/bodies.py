@@ -24,7 +24,7 @@ class Bodies(list[Body]):
         InvalidValue
             If a cell belongs to no body or to two, or two bodies have the same name.
         """
-        if isinstance(bodies, Body) or any(not isinstance(body, Body) for body in bodies):
+        if not isinstance(bodies, list | tuple) or any(not isinstance(body, Body) for body in bodies):
             raise InvalidValue("bodies are a list of bodies", where="Model", value=bodies, remedy="bodies=[Body(...)]")
         made = cls(body.on(mesh) for body in bodies)
         names = [body.name for body in bodies]

@@ -107,8 +107,11 @@ def fading(model: Evaluated, support: Support) -> Load:
 def states_of_supports(model: Evaluated) -> dict[str, Any]:
     """State of the supports: whether removed, base displacement, and replacing forces of those that have had any."""
     return {
-        support.name: {"removed": support.removed, "base": None if support.base is None else support.base.copy()}
-        | ({} if support.load is None else {"vector": support.load.vector.copy()})
+        support.name: {
+            "removed": support.removed,
+            "base": None if support.base is None else support.base.copy(),
+            "vector": None if support.load is None else support.load.vector.copy(),
+        }
         for support in model.supports.all
     }
 
@@ -122,8 +125,9 @@ def put_supports(model: Evaluated, states: Mapping[str, Any]) -> None:
         state = states[support.name]
         base, removed = state["base"], bool(state["removed"])
         if support.load is not None:
-            vector = state.get("vector", np.zeros_like(model.u))  # known on the first rank only
-            support.load.vector = np.full_like(model.u, np.nan) if vector is None else np.array(vector)
+            unknown = np.nan if removed else 0.0  # known on the first rank only, or of a step that was yet to come
+            vector = state["vector"]
+            support.load.vector = np.full_like(model.u, unknown) if vector is None else np.array(vector)
         if support.removed == removed and _same(support.base, base):
             continue
         changed, support.removed = True, removed

@@ -61,7 +61,7 @@ class State:
             The model had no control of a name, or a value is not finite.
         """
         for name, value in controls.items():
-            if name not in self.controls or not math.isfinite(value):
+            if name not in self.controls or not (isinstance(value, int | float | np.number) and math.isfinite(value)):
                 raise InvalidValue(
                     "a state has finite values of the controls of its model",
                     where=f"control {name}",

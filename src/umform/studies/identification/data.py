@@ -151,11 +151,12 @@ class MeasuredCurve:
     at: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        if isinstance(self.points, str) or len(self.points) != 2:
+        given = self.points if isinstance(self.points, list | tuple | np.ndarray) else None
+        if given is None or len(given) != 2:
             raise InvalidValue(
                 "the points of a curve are its abscissae and its ordinates",
                 where=self.name,
-                value=self.points if isinstance(self.points, str) else f"{len(self.points)} rows",
+                value=type(self.points).__name__ if given is None else f"{len(given)} rows",
                 cause="a file, or a row for each point",
                 remedy="MeasuredCurve.read for a file; np.transpose of rows",
             )
