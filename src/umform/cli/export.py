@@ -96,13 +96,16 @@ def export(
     if to not in PROGRAMS:
         known = ", ".join([*PROGRAMS, *_FIELDS])
         raise InvalidValue("unknown program", where="to", value=to, remedy=f"one of {known}")
-    solids = (mesh or PROGRAMS[to].meshes[0]) == "solids"
+    meshes = PROGRAMS[to].meshes
+    solids = (mesh or meshes[0]) == "solids"
+    if mesh is not None and mesh not in meshes:
+        raise InvalidValue(f"the format {to} has no such mesh", where="mesh", value=mesh, remedy=" or ".join(meshes))
     if (points != _POINTS) if solids else (layers != _LAYERS):
         raise InvalidValue(
             "solids have no points through the thickness of shells" if solids else "shells have no layers",
             where="--points" if solids else "--layers",
             value=points if solids else layers,
-            remedy="leave it out, or --mesh shells" if solids else "leave it out, or --mesh solids",
+            remedy="leave it out" + "".join(f", or --mesh {one}" for one in meshes if (one == "solids") != solids),
         )
     with deck_errors():
         part = finished(run, stage, trust)

@@ -158,8 +158,8 @@ def tension(
             "a bar has finite strains, one after the other",
             where="tension",
             value=strains,
-            cause="a gap in measured data",
-            remedy="leave it out",
+            cause="a gap in measured data, or a single strain",
+            remedy="a list of numbers",
         )
     path = np.full((len(along), 6), np.nan)
     path[:, component] = along

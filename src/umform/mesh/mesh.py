@@ -300,7 +300,7 @@ def _as_ids(selector: ArrayLike, count: int, where: str = "") -> Ids:
 def _as_rows(faces: ArrayLike, where: str = "") -> Ids:
     """Rows (cell, face) from integers; anything else is refused."""
     array = np.asarray(faces)
-    if array.size and (not np.issubdtype(array.dtype, np.integer) or array.size % 2):
+    if array.size and (not np.issubdtype(array.dtype, np.integer) or array.shape[-1:] != (2,)):
         raise InvalidValue(
             "faces are a set by its name, a predicate of x, y, z, or pairs (cell, number of the face)",
             where=where,

@@ -82,7 +82,7 @@ def _told_of_pending(
 ) -> Callable[Concatenate[Model, _P], Evaluation]:
     """An evaluation of the system as a method of the model; it warns once of enhanced parameters of another state.
 
-    The residual is NaN where a cell cannot be evaluated.
+    All of the residual is NaN if a cell cannot be evaluated.
     """
 
     @wraps(method)

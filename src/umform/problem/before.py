@@ -63,7 +63,8 @@ class Before(Part):
                 "the deck before has left no state",
                 where=str(path),
                 cause="it was not run yet, has ended early, or its output has no state = true",
-                remedy=f"state = true in [output] of {self.deck}, then umform run {self.deck} --out {path.parent}",
+                remedy=f"state = true in [output] of {self.deck}, then umform run {folder / self.deck} --out "
+                f"{path.parent}",
             )
         tree = read_tree(path, STATE_KIND)
         bodies = {body.key: {name: values.shape for name, values in body.state().items()} for body in model.bodies}

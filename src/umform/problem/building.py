@@ -201,5 +201,6 @@ class _Builder(SheetBuilder):
         for number, part in enumerate(self.contents.steps):
             with self.at("steps", number):
                 steps.append(part.build(named))
-                check_step(model, steps, len(steps) - 1)
+                if len(steps) == number + 1:  # none before has failed
+                    check_step(model, steps, number)
         return steps

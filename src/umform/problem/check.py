@@ -28,12 +28,12 @@ from umform.problem.prepared import Prepared
 from umform.problem.problem import Problem, load
 from umform.problem.references import references
 from umform.problem.resolution import resolution
-from umform.problem.steps import Move
+from umform.problem.steps import Arc, Move
 from umform.sheet_metals import get
 from umform.surfaces import CadTool, Offset, OffsetByField, Placed, Triangulated
 
-#: Tables of a deck that do not change its run.
-_SHOWS = ("title", "output", "measures", "derivatives", "scatter")
+#: Tables of a deck that change its run by no more than its tolerances.
+_SHOWS = ("title", "output", "measures", "derivatives", "units", "solution")
 #: Mean number of iterations of an increment.
 _ITERATIONS = 4
 
@@ -141,9 +141,10 @@ def idle(deck: Problem) -> Iterator[Finding]:
         yield warning(f"control {before.control}", text, f"to = {{ {before.control} = 0.0 }} in the first step")
     elif before is not None and before.control is not None:
         name = before.control
-        ends = [step.to[name] for step in deck.contents.steps if isinstance(step, Move) and name in step.to]
-        if ends and ends[-1] != 0.0:
-            text = f"the last step moves it to {ends[-1]:g}: this part of the forces of the operation before stays"
+        ends = [step.to[name] for step in deck.contents.steps if isinstance(step, Move | Arc) and name in step.to]
+        followed = any(isinstance(step, Move) and name in step.follow for step in deck.contents.steps)
+        if ends and ends[-1] != 0.0 and not followed:
+            text = f"the last step that moves it ends at {ends[-1]:g}: this part of the forces of before stays"
             yield warning(f"control {name}", text, f"to = {{ {name} = 0.0 }} in its last step, if the part is released")
 
 

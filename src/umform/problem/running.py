@@ -12,7 +12,7 @@ from typing import TypeVar
 import numpy as np
 
 from umform.analysis.run import Result
-from umform.analysis.run.checkpoint import refuse_other_file
+from umform.analysis.run.checkpoint import other_file
 from umform.errors import UmformError
 from umform.io.atomic import remove_left_behind
 from umform.io.folders import chosen_folder, folder_for
@@ -222,7 +222,8 @@ def run(
     kept = Kept(deck, place, solver)
     path = Path(checkpoint) if checkpoint is not None else kept.out / CHECKPOINT
     if path.is_file():
-        refuse_other_file(path)
+        if (problem_of_file := other_file(path)) is not None:
+            raise problem_of_file
         log.warning("a run was stopped here, and %s will be written over; umform resume would go on with it", path)
 
     def solve() -> Result:

@@ -169,6 +169,10 @@ def test_each_cell_belongs_to_one_body():
         Model(mesh, "BEND8", bodies=[Body(material=MILD)], thickness_points=7)
     with pytest.raises(InvalidValue, match="a list of bodies"):
         Model(mesh, bodies=Body(material=MILD))
+    shared = Body(material=MILD, cells=left, name="a")
+    with pytest.raises(InvalidValue, match="each cell belongs to one body"):
+        Model(mesh, bodies=[shared])
+    Model(mesh, bodies=[shared, Body(material=STRONG, cells=right, name="b")])  # a second try
     shared = Body(material=MILD)
     Model(mesh, bodies=[shared])
     with pytest.raises(InvalidValue, match="a body belongs to one model"):

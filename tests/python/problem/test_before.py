@@ -192,7 +192,7 @@ def test_mistakes_are_named(drawn, deck, change, said):
     ("deck", "change", "said"),
     [
         ("draw", ("to = { pull = 0.04 }", "to = { pull = 0.05 }"), "other values than draw.toml has now: steps"),
-        ("trim", ("to = { cut = 0.0 }", "to = { cut = 0.5 }"), "the last step moves it to 0.5"),
+        ("trim", ("to = { cut = 0.0 }", "to = { cut = 0.5 }"), "the last step that moves it ends at 0.5"),
         ("draw", ("report = false", "report = true"), ""),
     ],
 )

@@ -129,20 +129,16 @@ def read_note(path: str | PathLike[str], kind: str = CHECKPOINT_KIND) -> dict[st
     return read_tree(path, kind, part="note")
 
 
-def refuse_other_file(path: Path) -> None:
-    """Refuse to write over a file that is no checkpoint.
-
-    Raises
-    ------
-    FileProblem
-    """
-    if path.is_file() and path.stat().st_size > 0 and kind_of(path) != CHECKPOINT_KIND:
-        raise FileProblem(
-            "this file is no checkpoint",
-            where=str(path),
-            cause="another file has this name, and would be lost",
-            remedy="another name, such as run.h5; or move the file away",
-        )
+def other_file(path: Path) -> FileProblem | None:
+    """Why a run must not write its checkpoint here: a file of another kind would be lost. None if there is none."""
+    if not path.is_file() or path.stat().st_size == 0 or kind_of(path) == CHECKPOINT_KIND:
+        return None
+    return FileProblem(
+        "this file is no checkpoint",
+        where=str(path),
+        cause="another file has this name, and would be lost",
+        remedy="another name, such as run.h5; or move the file away",
+    )
 
 
 def _problem_of_writing(path: Path) -> FileProblem | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from os import PathLike
+from pathlib import Path
 from typing import Any
 
 from umform.analysis.newton.options import NewtonOptions
@@ -135,6 +136,11 @@ def solve_followed(
             run = ready(result, solver, options, frames, steps)
             run.follower = None if follower is None else follower(run)
             run.on_increment = on_increment
+            if checkpoint is not None:
+                from umform.analysis.run.checkpoint import other_file  # imported late: few runs need it
+
+                ranks = model.system.ranks
+                ranks.agree(other_file(Path(checkpoint)) if ranks.rank == 0 else None)
             checkpoints = checkpoints_of(run, steps, checkpoint, every, note)
             tell_of_cells(model, result)
             result.add(run.evaluation, [], frame=frames > 0)

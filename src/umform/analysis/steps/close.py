@@ -155,7 +155,9 @@ class Closing:
         """Try one increment: of the travel, or the last one of the force."""
         press = run.model.tools.press_of(step.control)
         force, touches = _takes(run, press), _touches(run, press)
-        if touches and abs(step.force - force) <= _EXACT * abs(step.force):  # of an earlier step
+        if touches and abs(step.force - force) <= _EXACT * abs(
+            step.force
+        ):  # an earlier step has closed it with this force
             self._land(run, step, press)
             return
         sense = math.copysign(1.0, step.force - self.start_force)

@@ -83,10 +83,12 @@ class Free:
     def things(self) -> list[Support | Tool]:
         """Supports and tools, in the given order; contacts of one tool open it once."""
         given = list(self.support) if isinstance(self.support, Sequence) else [self.support]
+        of_contacts = {id(thing.tool) for thing in given if isinstance(thing, Contact)}
         found: list[Support | Tool] = []
         for thing in given:
-            if not (isinstance(thing, Contact) and thing.tool in found):
-                found.append(thing.tool if isinstance(thing, Contact) else thing)
+            own = thing.tool if isinstance(thing, Contact) else thing
+            if not (id(own) in of_contacts and own in found):
+                found.append(own)
         return found
 
     def prepare(self, model: Model) -> None:

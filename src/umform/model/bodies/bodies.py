@@ -26,12 +26,24 @@ class Bodies(list[Body]):
         """
         if not isinstance(bodies, list | tuple) or any(not isinstance(body, Body) for body in bodies):
             raise InvalidValue("bodies are a list of bodies", where="Model", value=bodies, remedy="bodies=[Body(...)]")
-        made = cls(body.on(mesh) for body in bodies)
-        names = [body.name for body in bodies]
+        made = cls()
+        try:
+            for body in bodies:
+                made.append(body.on(mesh))
+            made._check(mesh)
+        except InvalidValue:
+            for body in made:  # for another model
+                body.leave()
+            raise
+        return made
+
+    def _check(self, mesh: Mesh) -> None:
+        """Refuse equal names, and cells of no body or of two."""
+        names = [body.name for body in self]
         if len(set(names)) < len(names):
             raise InvalidValue("two bodies have the same name", value=", ".join(names), remedy="Body(..., name=...)")
         count = np.zeros(len(mesh.connectivity), dtype=int)
-        for body in made:
+        for body in self:
             count[body.cells] += 1
         wrong = np.flatnonzero(count != 1)
         if len(wrong):
@@ -41,7 +53,6 @@ class Bodies(list[Body]):
                 value=f"{count[wrong[0]]} bodies",
                 remedy="choose the cells of the bodies so that they share none and leave none out",
             )
-        return made
 
     def of(self, cells: Ids) -> Body:
         """Body that most of some cells belong to."""

@@ -163,6 +163,11 @@ class Body(Term):
         self._numbers = self.cells
         return self
 
+    def leave(self) -> None:
+        """Leave the mesh of a model that could not be made."""
+        for name in ("mesh", "cells", "rolling", "_numbers"):
+            vars(self).pop(name, None)
+
     def _centres(self) -> Floats:
         """Centres of its cells."""
         centres: Floats = self.mesh.points[self.connectivity].mean(axis=1)

@@ -41,6 +41,15 @@ def finished(tmp_path_factory, build):
     return path
 
 
+def test_a_checkpoint_takes_no_place_of_another_file(tmp_path, build):
+    path = tmp_path / "notes.txt"
+    path.write_text("of another kind")
+    model, steps, options = bending(build)
+    with pytest.raises(FileProblem, match="this file is no checkpoint"):
+        solve(model, steps, **options, checkpoint=path)
+    assert path.read_text() == "of another kind"
+
+
 @pytest.mark.parametrize("size", [0, 10, 0.5, -1])
 def test_a_file_that_was_cut_short_is_refused(size, finished, tmp_path, build):
     path = tmp_path / "run.h5"

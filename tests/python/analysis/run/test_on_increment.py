@@ -72,6 +72,19 @@ def test_a_stopped_arc_goes_on_along_the_same_path(rows, tmp_path):
     assert again.events == whole.events
 
 
+def test_an_arc_whose_end_is_not_known_has_no_note_of_it():
+    model = uf.Model(uf.mesh.strip(20.0, 2.0, 1.0, (4, 1)), material=uf.SVK(E=2e5, nu=0.3))
+    model.fix("x0")
+    load = model.force("x1", (0.0, 0.0, -1.0), "f")
+
+    def fails(model):
+        raise RuntimeError
+
+    with pytest.raises(RuntimeError) as caught:
+        uf.solve(model, uf.Arc(load, to=1.0, until=fails), progress=False)
+    assert caught.value.result.events == []
+
+
 def test_a_run_that_is_stopped_at_the_end_of_a_step_keeps_its_notes(tmp_path):
     def pressed():
         model = uf.Model(uf.mesh.strip(20.0, 2.0, 1.0, (6, 1)), material=uf.SVK(E=2e5, nu=0.3))

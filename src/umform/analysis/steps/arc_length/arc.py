@@ -176,12 +176,12 @@ class Following:
         adapted = self.length * min(max(math.sqrt(step.iterations / len(converged.iterations)), 0.5), 2.0)
         self.length = min(adapted, step.grow * path.first)
         self.critical.advance(path.state)
-        ended = True
+        ended, failed = True, True
         try:
-            ended = step.until is not None and step.until(run.model)
+            ended, failed = step.until is not None and step.until(run.model), False
         finally:  # the state counts even if the user's function fails
             self.done = fraction == 1.0 or ended or self.count == step.most
-            if self.done:
+            if self.done and not failed:
                 _say_how_it_ended(run, step, run.number, path, ended)
             every = max(1, step.most // run.frames) if run.frames > 0 else 0
             frame = bool(every) and (self.count % every == 0 or self.done)
