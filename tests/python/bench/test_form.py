@@ -89,3 +89,14 @@ def test_all_mistakes_are_said_at_once():
         Wanted.read(form)
     places = [error.where for error in refused.value.errors]
     assert places == ["thickness", "bend 1, position", "bend 2, y", "bend 2, angle", "bend 3"]
+
+
+@pytest.mark.parametrize("form", ["flat", "inner", "insert", "open", "rope"])
+def test_each_form_of_a_hem_has_a_title_and_a_case(form):
+    """Its gap follows from the form where none is given; two layers close on the coarsest mesh."""
+    wanted = Wanted.read({"work": "hem", "mesh": "quick", "form": form, "thickness": 1.0, "opening": 8.0, **ACUTE})
+    assert wanted.title == f"DC04 1 mm, {form} hem"
+    assert wanted.hem(wanted.case()).sheet.layers == 2
+
+
+ACUTE = {"die_angle": 30.0, "die_radius": 1.0, "punch_angle": 30.0, "punch_radius": 0.5, "stroke": None}
