@@ -96,17 +96,11 @@ def export(
     if to not in PROGRAMS:
         known = ", ".join([*PROGRAMS, *_FIELDS])
         raise InvalidValue("unknown program", where="to", value=to, remedy=f"one of {known}")
-    meshes = PROGRAMS[to].meshes
-    solids = (mesh or meshes[0]) == "solids"
-    if mesh is not None and mesh not in meshes:
-        raise InvalidValue(f"the format {to} has no such mesh", where="mesh", value=mesh, remedy=" or ".join(meshes))
-    if (points != _POINTS) if solids else (layers != _LAYERS):
-        raise InvalidValue(
-            "solids have no points through the thickness of shells" if solids else "shells have no layers",
-            where="--points" if solids else "--layers",
-            value=points if solids else layers,
-            remedy="leave it out" + "".join(f", or --mesh {one}" for one in meshes if (one == "solids") != solids),
-        )
+    wanted = mesh or PROGRAMS[to].meshes[0]
+    if wanted == "solids" and points != _POINTS:
+        raise InvalidValue("solids have layers in place of points", where="--points", value=points, remedy="--layers")
+    if wanted == "shells" and layers != _LAYERS:
+        raise InvalidValue("shells have points in place of layers", where="--layers", value=layers, remedy="--points")
     with deck_errors():
         part = finished(run, stage, trust)
     path = out or Path(part.name).with_suffix(PROGRAMS[to].suffix)

@@ -156,7 +156,7 @@ def state_before(deck: Problem) -> Iterator[Finding]:
     source, path = deck.source, deck.source.folder / part.state
     try:
         run = Kept.read(path, source.trust, STATE_KIND).deck.source.data
-    except UmformError:  # written without a deck
+    except UmformError:  # written without a deck, or of another version
         return
     now = load(source.folder / part.deck, trust=source.trust).source.data
     other = [name for name in sorted(run.keys() | now.keys()) if name not in _SHOWS and run.get(name) != now.get(name)]

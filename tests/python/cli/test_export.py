@@ -176,3 +176,16 @@ def test_a_run_without_a_state_or_not_finished_is_refused(here, tmp_path):
     done = umform("export", tmp_path / "far.h5")
     assert done.exit_code == 1 and "not finished" in done.stderr and "umform resume" in done.stderr
     assert not new_files(here)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--to", "abaqus", "--points", "5"], "solids have layers in place of points"),
+        (["--to", "radioss", "--layers", "3"], "shells have points in place of layers"),
+    ],
+)
+def test_a_number_of_what_the_mesh_does_not_have_is_refused(words, said, tmp_path):
+    done = umform("export", str(tmp_path), *words)
+    assert done.exit_code == 1
+    assert said in done.stderr

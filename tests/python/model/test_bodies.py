@@ -172,7 +172,9 @@ def test_each_cell_belongs_to_one_body():
     shared = Body(material=MILD, cells=left, name="a")
     with pytest.raises(InvalidValue, match="each cell belongs to one body"):
         Model(mesh, bodies=[shared])
-    Model(mesh, bodies=[shared, Body(material=STRONG, cells=right, name="b")])  # a second try
+    with pytest.raises(EmptySet):
+        Model(mesh, bodies=[shared, Body(material=STRONG, cells=lambda x, y, z: x > 99.0, name="b")])
+    Model(mesh, bodies=[shared, Body(material=STRONG, cells=right, name="b")])  # a third try
     shared = Body(material=MILD)
     Model(mesh, bodies=[shared])
     with pytest.raises(InvalidValue, match="a body belongs to one model"):

@@ -79,9 +79,9 @@ def _refuse_to_free(model: Model, step: Free, earlier: Sequence[Step], where: st
     """Reject to remove a support that is inactive when its step begins, or a tool that is open."""
     freed = [thing for other in earlier if isinstance(other, Free) for thing in other.things]
     put = [other.on for other in earlier if isinstance(other, Free)]
-    for number, thing in enumerate(step.things):
+    for thing in step.things:
         there = thing in model.tools if isinstance(thing, Tool) else thing in model.supports.all
-        if not there or thing in freed or thing in step.things[:number]:
+        if not there or thing in freed:
             raise InvalidValue(
                 "a step frees a support or a tool that the model does not have then",
                 where=where,

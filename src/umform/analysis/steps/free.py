@@ -81,15 +81,10 @@ class Free:
 
     @property
     def things(self) -> list[Support | Tool]:
-        """Supports and tools, in the given order; contacts of one tool open it once."""
+        """Supports and tools, in the given order, each once: several contacts may have one tool."""
         given = list(self.support) if isinstance(self.support, Sequence) else [self.support]
-        of_contacts = {id(thing.tool) for thing in given if isinstance(thing, Contact)}
-        found: list[Support | Tool] = []
-        for thing in given:
-            own = thing.tool if isinstance(thing, Contact) else thing
-            if not (id(own) in of_contacts and own in found):
-                found.append(own)
-        return found
+        own = [thing.tool if isinstance(thing, Contact) else thing for thing in given]
+        return [thing for number, thing in enumerate(own) if thing not in own[:number]]
 
     def prepare(self, model: Model) -> None:
         """Make the loads that replace the removed objects, so that the history has their columns."""

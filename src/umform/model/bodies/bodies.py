@@ -7,7 +7,7 @@ from typing import Self
 
 import numpy as np
 
-from umform.errors import InvalidValue, ModelError
+from umform.errors import InvalidValue, ModelError, UmformError
 from umform.mesh import Ids, Mesh
 from umform.model.bodies.body import Body
 
@@ -31,7 +31,7 @@ class Bodies(list[Body]):
             for body in bodies:
                 made.append(body.on(mesh))
             made._check(mesh)
-        except InvalidValue:
+        except UmformError:
             for body in made:  # for another model
                 body.leave()
             raise

@@ -244,7 +244,8 @@ def test_what_cannot_be_opened_is_refused():
         Free([die, part.stroke])
     with pytest.raises(InvalidValue, match="that waits"):
         Free(die, on=part.model.supports[0])
-    for steps in (Free(other.model.tools), [Free(die), Free(die)], Free([die, die]),
+    assert Free([die, *die.pairs]).things == [die]  # each once
+    for steps in (Free(other.model.tools), [Free(die), Free(die)],
                   [Free(die, on=gauge), Free(part.model.tools[1], on=gauge)]):  # fmt: skip
         with pytest.raises(InvalidValue, match=r"does not have then|does not wait then"):
             solve(part.model, steps)
