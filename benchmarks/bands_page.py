@@ -82,9 +82,10 @@ The differences of the default mesh from the finest one are taken as normally di
 deviation that is proportional to the number or not, whichever is likelier; of forces it is proportional. The band of a
 number is the root mean square of the differences times the factor of Student's distribution that contains 95 % for so
 many parts: 2.2 for 11, 2.6 for 5, 4.3 for 2. Here no factor is fitted. On larger elements a band grows with the square
-of their size, on smaller ones it falls in proportion to it. Bends are in plane strain; bends with a width have their
-bands. Each bend of a sequence has the bands of single ones, flanges have their own; the finest mesh of a sequence has
-four layers, that of a single bend a stack of eight.
+of their size, on smaller ones it falls in proportion to it. Bends with fewer layers than the default, or with elements
+of 8 nodes, have no bands: the studies have none. Bends are in plane strain; bends with a width have their bands. Each
+bend of a sequence has the bands of single ones, flanges have their own; the finest mesh of a sequence has four
+layers, that of a single bend a stack of eight.
 
 **Hems.** Flat, open and rope hems have a study each, those over an inner sheet or an insert have one together
 (*filled*), and hems of all forms by a force another, of flat ones and one over an insert: there the force is given,

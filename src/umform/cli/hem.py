@@ -20,7 +20,7 @@ from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, console, printi
 from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.warnings import print_warnings_once
 from umform.processes.air_bending.spec import AirBending
-from umform.processes.hemming.spec import ACUTE, FOLDED, Hemming, acute, jumps, refuse_jumps
+from umform.processes.hemming.spec import ACUTE, FOLDED, Hemming, acute, jumps
 from umform.spec import parameters
 
 #: Parameters of the sheet that a hem does not have: drawn tools, and what belongs to a single bend.
@@ -89,8 +89,6 @@ def hem(
     sheet = acute(**{name: value for name, value in given.items() if value is not None}, material=law)
     case = Hemming(**of_hem, sheet=sheet)
     by_slopes = bool(derive) and jumps(case)
-    if scatter_options:
-        refuse_jumps(case)
     if derive or scatter_options:  # refuse what is wrong before the run
         some = case if by_slopes else replace(case, sheet=replace(sheet, stroke=0.5 * sheet.largest_stroke))
         check_derived(some, derive, {} if by_slopes else case.strokes)

@@ -61,3 +61,33 @@ def check_rolling(material: Any, rolling: float | None) -> None:
             cause="its yield function has directions",
             remedy="rolling=90 for a bend across the rolling direction, rolling=0 for one along it",
         )
+
+
+def check_contact_points(name: Any, points: Any) -> None:
+    """Reject one contact point on the faces of an element of 18 nodes, which its other nodes pass freely.
+
+    Parameters
+    ----------
+    name : str or Element
+        The element.
+    points : object
+        Contact points per direction and facet.
+
+    Raises
+    ------
+    InvalidValue
+        ``where`` is "contact_points".
+    """
+    if points != 1:
+        return
+    from umform.elements import element  # not for the help of the command
+
+    made = element(name)
+    if made.cell == "hex18":
+        raise InvalidValue(
+            "one contact point does not hold a face of nine nodes",
+            where="contact_points",
+            value=points,
+            cause=f"the element {made.name} has 18 nodes: those between the points pass into the tool",
+            remedy="2 or more",
+        )

@@ -142,9 +142,14 @@ def test_a_finer_mesh_changes_little():
     assert fine.angle == pytest.approx(base.angle, abs=0.3)
 
 
+def layered(bend):
+    """The numbers of a bend on one layer as if they were of two, of which there are studies."""
+    return replace(bend, case=replace(bend.case, layers=2))
+
+
 def test_the_stroke_for_an_angle_is_found():
     found = find_stroke(COARSE, 135.0, tolerance=0.05, progress=False)
-    assert found.bend["stroke"].band.error > 0.0
+    assert layered(found.bend)["stroke"].band.error > 0.0
     assert len(found.trials) <= 3
     assert found.measures.angle == pytest.approx(135.0, abs=0.05)
     assert found.trials[-1] == (found.case.stroke, found.measures.angle)
@@ -345,6 +350,8 @@ def test_title_record_and_notes_have_the_length_and_the_depth_of_the_machine(ben
 
 def test_the_numbers_of_a_bend_have_bands(bend):
     """A stroke found for an angle has the error of the angle over its change with the stroke; a given one has none."""
+    assert {one.name for one in bend.quantities if one.band} == {"stroke", "below_die"}  # one layer: no studies
+    bend = layered(bend)
     assert [one.name for one in bend.quantities if one.band is None] == ["length_balance"]
     assert {one.name for one in bend.quantities if one.band == GIVEN} == {"stroke", "below_die"}
     assert "error: given" not in bend.all_notes

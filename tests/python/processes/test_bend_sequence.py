@@ -109,10 +109,12 @@ def test_the_record_is_json(profile_z, tmp_path):
 
 
 def test_the_force_of_each_bend_is_shaded_by_its_band(profile_z):
-    figure = curves(profile_z)
-    for number, (shade, done) in enumerate(zip(figure.axes[0].collections, profile_z.bends, strict=True), start=1):
+    sequence = profile_z.sequence
+    layered = replace(profile_z, sequence=replace(sequence, sheet=replace(sequence.sheet, layers=2)))
+    figure = curves(layered)
+    for number, (shade, done) in enumerate(zip(figure.axes[0].collections, layered.bends, strict=True), start=1):
         upper = shade.get_paths()[0].vertices[:, 1].max()
-        band = profile_z[f"bend {number}: largest_force"].band
+        band = layered[f"bend {number}: largest_force"].band
         assert upper == pytest.approx(done.force.max() + band.error, rel=1e-6)
     plt.close(figure)
 

@@ -1,13 +1,18 @@
 """Remarks beside the numbers of a bend: tools, coarse mesh, force for the press, extrapolated flow curve."""
 
+from functools import partial
 from types import SimpleNamespace
 
 import pytest
 
+from umform.errors import InvalidValue
 from umform.materials import J2, Swift, Table
 from umform.processes.air_bending import AirBending
 from umform.processes.air_bending.formulas import shop_forces, uniform_strain
 from umform.processes.air_bending.remarks import coarse_mesh, extrapolated, force_apart, tools_text, total_force
+from umform.processes.air_bending.sheet import studied_mesh
+from umform.processes.draw import UBend
+from umform.processes.hemming.spec import acute
 from umform.sheet_metals import get
 
 STEEL = {"E": 210e3, "nu": 0.3}
@@ -23,6 +28,25 @@ def test_only_a_mesh_below_the_default_is_coarse():
     assert coarse_mesh(AirBending(layers=4, thickness_points=5, elements_per_thickness=6.0)) == []
     (said,) = coarse_mesh(AirBending(layers=1, elements_per_thickness=1.0))
     assert "elements per thickness 1 (default 3), layers 1 (default 2)" in said
+    (said,) = coarse_mesh(AirBending(element="BEND8"))
+    assert "no bands" in said
+    assert coarse_mesh(acute(), acute()) == []
+
+
+@pytest.mark.parametrize("mesh", [{"element": "BEND8"}, {"layers": 1}])
+def test_a_mesh_unlike_those_of_the_studies_has_no_band(mesh):
+    assert studied_mesh(AirBending(elements_per_thickness=9.0, layers=4)) is not None
+    assert studied_mesh(AirBending(**mesh)) is None
+    assert studied_mesh(acute(), like=acute()) is not None
+
+
+@pytest.mark.parametrize("case", [AirBending, partial(UBend, length=300.0, width=35.0, punch_width=50.0)])
+def test_one_contact_point_is_refused_on_faces_of_nine_nodes(case):
+    steel = get("DC04").law
+    more = {} if case is AirBending else {"thickness": 0.8, "punch_edge": 5.0, "die_edge": 5.0, "holder_force": 2e3}
+    with pytest.raises(InvalidValue, match="does not hold a face of nine nodes"):
+        case(material=steel, contact_points=1, **more)
+    case(material=steel, contact_points=1, element="BEND8", **more)
 
 
 def test_a_force_far_from_the_rule_is_explained():

@@ -25,6 +25,7 @@ HEM = Hemming(
     sheet=acute(element="BEND18", elements_per_thickness=1.0, layers=1, increment=0.025, stroke=7.3),
 )
 OPEN = Hemming(form="open", base=13.0, sheet=acute(elements_per_thickness=3.0, stroke=6.24))
+INNER = replace(OPEN, form="inner", gap=1.0, sheet=replace(OPEN.sheet, friction=0.1))
 
 
 @dataclass(frozen=True)
@@ -75,6 +76,15 @@ CHAINS = {
         ("largest_force", "height", "loop_gap"),
         0.05,
         0.02,
+    ),
+    "hem over an inner sheet that deforms": Chain(
+        INNER, ("gap",), ("loop_gap", "roll_in", "creep", "outer_strain"), 0.05
+    ),
+    "rope hem, friction in the V-die": Chain(
+        replace(INNER, form="rope", gap=0.0),
+        ("sheet.friction",),
+        ("height", "loop_gap", "outer_strain"),
+        0.15,
     ),
     "hem whose bend snaps off its tools": Chain(
         replace(HEM, sheet=replace(HEM.sheet, stroke=7.2267)),

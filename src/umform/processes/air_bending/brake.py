@@ -23,8 +23,9 @@ INCREMENTS = 5
 #: Increments of the pressing of bottoming, where most of the work is done, for one of the bend in the air; where it
 #: begins, in thicknesses before the bottom.
 _FINER, _PRESSED = 4, 0.5
-#: Force that counts as zero, relative to the force before unloading: an error of the angle of about 0.001 degrees.
-_ZERO_FORCE = 2e-3
+#: Force that counts as zero, relative to the force before unloading: an error of the angle of about 0.002 degrees; and
+#: where the sheet was pressed with many times the force of a bend.
+_ZERO_FORCE, _ZERO_PRESSED = 2e-3, 2e-5
 #: First increment of unloading in thicknesses.
 _FIRST_BACK = 0.02
 
@@ -61,9 +62,10 @@ def unloading(case: AirBending, punch: Control) -> Release:
     return Release(punch, **unloading_keys(case))
 
 
-def unloading_keys(case: AirBending) -> dict[str, Any]:
+def unloading_keys(case: AirBending, tolerance: float | None = None) -> dict[str, Any]:
     """First increment and tolerance of unloading."""
-    return {"increment": _FIRST_BACK * case.thickest, "tolerance": _ZERO_FORCE}
+    usual = _ZERO_PRESSED if case.bottoming else _ZERO_FORCE
+    return {"increment": _FIRST_BACK * case.thickest, "tolerance": tolerance or usual}
 
 
 def force_per_width(case: AirBending, force: NDArray[np.float64]) -> NDArray[np.float64]:

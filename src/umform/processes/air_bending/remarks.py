@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import fields, replace
+from dataclasses import replace
 
+from umform.elements import element
 from umform.processes.air_bending.formulas import shop_forces, uniform_strain
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.spec import AirBending
@@ -16,7 +17,6 @@ _APART = 0.15
 _GRAVITY = 9.80665
 #: Ways of the punch, which are no results of the mesh.
 STROKES = ("stroke", "below_die")
-_DEFAULT = {field.name: field.default for field in fields(AirBending)}
 
 
 def tools_text(case: AirBending) -> str:
@@ -33,17 +33,24 @@ def depth_text(below_die: float) -> str:
     return f"for the machine: the tip of the punch {abs(below_die):.3f} mm {side} the top of the die"
 
 
-def coarse_mesh(case: AirBending) -> list[str]:
-    """A remark if the mesh is coarser than the default one."""
+def coarse_mesh(case: AirBending, like: AirBending | None = None) -> list[str]:
+    """Remarks if the mesh is coarser than a default one, or has other elements than the studies of errors."""
+    like = like or AirBending()
     names = ["elements_per_thickness", "layers", *(["width_elements"] if case.width is not None else [])]
-    below = {name: _DEFAULT[name] for name in names if getattr(case, name) < _DEFAULT[name]}
-    if not below:
-        return []
+    below = {name: getattr(like, name) for name in names if getattr(case, name) < getattr(like, name)}
     given = ", ".join(f"{name.replace('_', ' ')} {getattr(case, name):g} (default {n:g})" for name, n in below.items())
-    return [
-        f"coarse mesh: {given}; for a trial only, the angle may be off by some degrees; force, springback and thinning "
-        "are those of this mesh"
-    ]
+    found = []
+    if below:
+        found.append(
+            f"coarse mesh: {given}; for a trial only, the angle may be off by some degrees; force, springback and "
+            "thinning are those of this mesh"
+        )
+    made = element(case.element)
+    if made.cell != element(like.element).cell:
+        found.append(
+            f"the numbers have no bands: the studies of errors have elements like {like.element}, none like {made.name}"
+        )
+    return found
 
 
 def of_this_mesh(case: AirBending, quantities: Sequence[Quantity]) -> list[Quantity]:

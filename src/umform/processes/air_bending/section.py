@@ -22,6 +22,8 @@ Floats = NDArray[np.float64]
 _BEND = 0.9
 #: Points along half of the inner face.
 _SAMPLES = 4001
+#: Points of it in the bend, to which the circle is fitted.
+_FITTED = 801
 #: Change of the length of a face, over the length of the sheet, that is no rounding.
 _CHANGE = 1e-9
 
@@ -155,14 +157,16 @@ class Section:
     def circle(self) -> tuple[float, float]:
         """Height of the centre, and radius, of the circle about x = 0 that fits the inner face best (least squares).
 
-        It is fitted to points at equal distances in the flat sheet where the inner face, a cubic spline through its
-        nodes, has turned by at most nine tenths of the slope of the leg.
+        It is fitted to points at equal distances in the flat sheet, up to where the inner face, a cubic spline through
+        its nodes, has turned by nine tenths of the slope of the leg.
         """
         face = self._inner_face
         at = np.linspace(0.0, self.half_length, _SAMPLES)
         dx, dz = face.slope(at).T
-        first = int(np.argmax(np.arctan2(dz, dx) > _BEND * self.slope))
-        x, z = face(at[: max(first, 3)]).T
+        turned, limit = np.arctan2(dz, dx), _BEND * self.slope
+        first = int(np.argmax(turned > limit))
+        end = np.interp(limit, turned[first - 1 : first + 1], at[first - 1 : first + 1]) if first else 0.0
+        x, z = face(np.linspace(0.0, max(end, at[2]), _FITTED)).T
         # x² + z² = 2 z z_c + (R² - z_c²) is linear in z_c and R² - z_c²
         matrix = np.stack([2.0 * z, np.ones(len(z))], axis=1)
         (zc, c), *_ = np.linalg.lstsq(matrix, x**2 + z**2, rcond=None)

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from umform import mesh
+from umform.elements import element
 from umform.mesh.mesh import Floats
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.air_bending.stack import bonded_sheets
 from umform.results.studies import StudiedMesh
-from umform.spec import parameters
 
 if TYPE_CHECKING:
     from umform.materials import J2, Metal
@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 _GROWTH = 0.3
 #: Size of the elements of the coarse mesh of the studies of errors over that of the default.
 _COARSE = 2.0
-#: Elements per thickness of the default mesh of a bend.
-_USUAL = float(parameters(AirBending)["elements_per_thickness"].default)
 #: Longest fine elements over the thickness of a bonded sheet. Elements ten times as long as a foil of 0.1 mm is thick
 #: turn inside out below 3 mm of DC04; those 3.3 and 5 times as long leave 0.72 of it.
 _SLENDER = 6.0
@@ -73,9 +71,11 @@ def _march(length: float, fine: float, coarse: float, zones: Sequence[tuple[floa
 
 
 def studied_mesh(
-    case: AirBending, strain: float | None = None, process: str = "air bending", usual: float = _USUAL
-) -> StudiedMesh:
+    case: AirBending, strain: float | None = None, process: str = "air bending", like: AirBending | None = None
+) -> StudiedMesh | None:
     """Mesh of a bend beside those of the studies of errors, by the elements along the sheet.
+
+    None for fewer layers than those of the studies, and for elements with another number of nodes.
 
     Parameters
     ----------
@@ -85,11 +85,14 @@ def studied_mesh(
         Largest logarithmic strain of the outer face; None for numbers that belong to no bend.
     process : str
         Process of the studies.
-    usual : float
-        Elements per thickness of their default mesh.
+    like : AirBending, optional
+        Their default mesh.
     """
+    like = like or AirBending()
+    if element(case.element).cell != element(like.element).cell or case.layers < like.layers:
+        return None
     soft = 1.0 if strain is None else softness(case.material, strain)
-    return StudiedMesh.nearest(process, usual / case.elements_per_thickness, _COARSE, soft)
+    return StudiedMesh.nearest(process, like.elements_per_thickness / case.elements_per_thickness, _COARSE, soft)
 
 
 def softness(material: J2 | Metal, strain: float) -> float:

@@ -12,7 +12,7 @@ from annotated_types import Ge, Gt, Le
 
 from umform.errors import InvalidValue
 from umform.processes.air_bending.stack import StackedSheet, bonded_sheets, check_stack
-from umform.processes.rules import PLASTIC, check_rolling
+from umform.processes.rules import PLASTIC, check_contact_points, check_rolling
 from umform.spec import About, check_fields, note_of, parameters
 from umform.spec.types import ContactPoints, Degrees, Friction, Length, Positive, Rolling
 
@@ -154,6 +154,7 @@ class AirBending:
         alone = isinstance(self.on_top, StackedSheet)
         object.__setattr__(self, "on_top", (self.on_top,) if alone else tuple(self.on_top))
         check_fields(self)
+        check_contact_points(self.element, self.contact_points)
         _check_consistency(self)
         if self.punch_section is not None:
             from umform.processes.air_bending.drawn_tools import check_one_sided

@@ -183,7 +183,7 @@ class Part(Outcome):
         return of_this_mesh(self.sequence.sheet, own)
 
     @property
-    def studied(self) -> StudiedMesh:
+    def studied(self) -> StudiedMesh | None:
         """Mesh beside those of the studies, which are those of single bends."""
         return studied_mesh(self.sequence.sheet)
 

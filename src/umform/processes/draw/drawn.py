@@ -120,8 +120,8 @@ class Drawn(Outcome):
     @cached_property
     def punch_force_after(self) -> LargestForce | None:
         """The same after the sheet has left the holder, where its rim may be ironed; None if it has not left."""
-        left = isinstance(self.case, Cup) and self._let_go < self.stroke[-1]
-        return self._largest(self._let_go, math.inf) if left else None
+        free = self.stroke[self.stroke > self._let_go]
+        return self._largest(float(free[0]), math.inf) if isinstance(self.case, Cup) and free.size else None
 
     @property
     def _let_go(self) -> float:
@@ -191,11 +191,12 @@ class Drawn(Outcome):
     @cached_property
     def angles(self) -> UBendAngles | None:
         """Angles and radius of a U-bend; None if its wall is too short."""
-        if self.wall_heights is None:
+        if self.wall_heights is None or not isinstance(self.case, UBend):
             return None
         line = self.sections["released"].middle[:, [0, 2]]
         try:
-            return u_bend_angles(line, self.wall_heights, flange=max(len(line) // 12, 2))
+            flat = 0.5 * self.case.punch_width - self.case.punch_edge
+            return u_bend_angles(line, self.wall_heights, flange=max(len(line) // 12, 2), flat=flat)
         except InvalidValue:
             return None
 
@@ -318,12 +319,18 @@ class Drawn(Outcome):
         return [replace(one, of_mesh=one.band is None) for one in banded]
 
     @property
-    def studied(self) -> StudiedMesh:
-        """Mesh beside those of the studies, by the angle that an element turns; of a U-bend its element counts."""
+    def studied(self) -> StudiedMesh | None:
+        """Mesh beside those of the studies, by the angle that an element turns; of a U-bend its element counts.
+
+        None for elements that the studies of the process have not, and for layers of 8-node elements in a U-bend.
+        """
         case = self.case
         coarse = type(case).meshes["coarse"]
-        if isinstance(case, UBend) and element(case.element).cell == "hex8":
-            return StudiedMesh(case.kind, COARSE, case.turn / coarse["turn"])
+        small = element(case.element).cell == "hex8"
+        if not small and isinstance(case, Cup):
+            return None
+        if small and isinstance(case, UBend):
+            return StudiedMesh(case.kind, COARSE, case.turn / coarse["turn"]) if case.stacked == 1 else None
         spec: type = type(case)
         usual = parameters(spec)["turn"].default
         if isinstance(case, UBend):
@@ -392,7 +399,7 @@ def passage(case: Cup, cut: Section) -> float:
 
 
 def let_go(stroke: Floats, holder: Floats) -> float:
-    """Stroke at which the sheet leaves the holder; infinite if it is never held."""
+    """Last stroke at which the holder holds the sheet; infinite if it never does."""
     held = np.flatnonzero(holder > _HELD * holder.max())
     return float(stroke[held[-1]]) if len(held) else math.inf
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, cast
 from annotated_types import Ge, Le
 
 from umform.errors import InvalidValue
-from umform.processes.rules import PLASTIC
+from umform.processes.rules import PLASTIC, check_contact_points
 from umform.spec import About, check_fields, parameters
 from umform.spec.types import ContactPoints, Friction, Length, Penalty
 
@@ -96,6 +96,7 @@ class Draw:
 
     def __post_init__(self) -> None:
         check_fields(self)
+        check_contact_points(self.element, self.contact_points)
         _check_stiffness(self.material)
 
     def record(self) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from annotated_types import Ge, Le
 
 from umform.errors import InvalidValue
 from umform.processes.limit import allowed_penetration
-from umform.processes.rules import PLASTIC, check_rolling
+from umform.processes.rules import PLASTIC, check_contact_points, check_rolling
 from umform.spec import About, check_fields
 from umform.spec.types import ContactPoints, Friction, Length, Penalty, Rolling
 
@@ -82,6 +82,7 @@ class DrawBead:
 
     def __post_init__(self) -> None:
         check_fields(self)
+        check_contact_points(self.element, self.contact_points)
         check_rolling(self.material, self.rolling)
         _check_geometry(self)
 

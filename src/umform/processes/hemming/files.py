@@ -12,6 +12,7 @@ from umform.io.tables import write_csv, write_json
 from umform.processes.air_bending.files import parameters
 from umform.processes.air_bending.remarks import coarse_mesh
 from umform.processes.hemming.measures import Hem
+from umform.processes.hemming.spec import acute
 from umform.report.versions import versions
 from umform.results.outcome import QUANTITIES
 from umform.results.quantity import FORCE_PER_LENGTH, quantities_of, values
@@ -76,7 +77,7 @@ def record(hem: Hem) -> dict[str, Any]:
         "gaps": hem.gaps,
         "profile": np.round(hem.profile, 4).tolist(),
         **hem.record(),
-        "coarse_mesh": coarse_mesh(case.sheet),
+        "coarse_mesh": coarse_mesh(case.sheet, acute()),
         "versions": versions(),
     }
 

@@ -16,7 +16,7 @@ from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.sheet import studied_mesh
 from umform.processes.bend_sequence.part import Part, after
 from umform.processes.bend_sequence.sides import Strip
-from umform.processes.hemming.spec import FOLDED, Hemming
+from umform.processes.hemming.spec import Hemming, acute
 from umform.results.outcome import Outcome
 from umform.results.quantity import FORCE_PER_LENGTH, GIVEN, Quantity, quantities_of
 from umform.results.studies import StudiedMesh
@@ -142,10 +142,11 @@ class Hem(Outcome):
         return [*found, replace(angle, band=self._band(angle, None), of_mesh=True)]
 
     @property
-    def studied(self) -> StudiedMesh:
+    def studied(self) -> StudiedMesh | None:
         """Mesh beside those of the studies of such hems."""
-        sheet, usual = self.case.sheet, FOLDED["elements_per_thickness"]
-        return replace(studied_mesh(sheet, process=self.case.study, usual=usual), length=sheet.thickness)
+        sheet = self.case.sheet
+        found = studied_mesh(sheet, process=self.case.study, like=acute())
+        return None if found is None else replace(found, length=sheet.thickness)
 
     @property
     def is_closed(self) -> bool:
@@ -169,7 +170,8 @@ class Hem(Outcome):
         """Whether it closed, tools of the first bend, mesh, extrapolated flow curve."""
         sheet, closed = self.case.sheet, self.case.is_closed and self.is_closed
         said = [f"closed: at most {max(self.measures.left, 0.0):.3f} mm are left under load"] if closed else []
-        return [*said, tools_text(sheet), *coarse_mesh(sheet), *extrapolated(sheet, self.measures.outer_strain)]
+        mesh, curve = coarse_mesh(sheet, acute()), extrapolated(sheet, self.measures.outer_strain)
+        return [*said, tools_text(sheet), *mesh, *curve]
 
     @property
     def gaps(self) -> list[list[float]]:

@@ -8,7 +8,7 @@ from umform.processes.air_bending.goal import needed_stroke
 from umform.processes.bend_sequence.operations import operations_of as bends_of
 from umform.processes.bend_sequence.outcome import outcome_of as part_of
 from umform.processes.hemming.problem import problem_of_hem
-from umform.processes.hemming.spec import Hemming, refuse_jumps
+from umform.processes.hemming.spec import Hemming
 from umform.processes.problems import Operation
 
 
@@ -18,9 +18,8 @@ def operations_of(case: Hemming) -> list[Operation]:
     Raises
     ------
     InvalidValue
-        The sheet has no stroke for the first bend, or the form of the hem has no derivatives.
+        The sheet has no stroke for the first bend.
     """
-    refuse_jumps(case)
     needed_stroke(case.sheet, "sheet")
 
     def flattening(before: Result | None) -> Problem:

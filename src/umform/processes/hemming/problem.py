@@ -33,6 +33,9 @@ _POINTS = 5
 _CELLS = {"hex8": 3, "hex18": 6}
 #: Length of the elements of an inner sheet below the flange, in thicknesses of the sheet; beyond it, this many times.
 _INNER, _COARSER = 0.5, 4.0
+#: Force of the plate that counts as zero, relative to the force before unloading: a thousandth of what closes the fold
+#: still bends the flange.
+_ZERO_FORCE = 1e-6
 #: Control of the plate: its force, and its way where that is prescribed.
 FORCE, STROKE = "stroke_force", "stroke"
 
@@ -136,12 +139,12 @@ def _pressing(case: Hemming, way: float) -> dict[str, Any]:
     if case.force is not None:
         force, increment = case.force * case.sheet.thickness, way / case.increments
         steps = [{"kind": "close", "control": FORCE, "force": force, "increment": increment}]
-        release = {"kind": "release", "control": FORCE, **unloading_keys(case.sheet)}
+        release = {"kind": "release", "control": FORCE, **unloading_keys(case.sheet, _ZERO_FORCE)}
         return {"controls": {FORCE: {"kind": "press", **on}}, "steps": [*steps, release]}
     count = math.ceil(case.increments / _PARTS)
     ends = [way * part / _PARTS for part in range(1, _PARTS + 1)]
     steps = [{"kind": "move", "to": {STROKE: end}, "increments": count} for end in ends]
-    release = {"kind": "release", "control": STROKE, **unloading_keys(case.sheet)}
+    release = {"kind": "release", "control": STROKE, **unloading_keys(case.sheet, _ZERO_FORCE)}
     return {"controls": {STROKE: {"kind": "tool", **on}}, "steps": [*steps, release]}
 
 

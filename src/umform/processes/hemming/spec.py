@@ -27,7 +27,7 @@ ACUTE: dict[str, float] = {
 FOLDED: dict[str, Any] = {"element": "ANS3DEAS", "elements_per_thickness": 4.0}
 #: Forms of a hem, and the gap that each has over the thickness where none is given.
 GAPS: dict[str, float] = {"flat": 0.0, "inner": 1.0, "insert": 1.0, "open": 1.0, "rope": 0.0}
-#: Forms whose results follow small changes of sizes smoothly (docs/bending-operations.md).
+#: Forms whose results follow changes of sizes of some per cent smoothly (docs/bending-operations.md).
 _SMOOTH = ("insert", "open")
 #: Forms whose flange is closed on what it lies on.
 CLOSED = ("flat", "inner", "rope")
@@ -227,22 +227,5 @@ class Hemming:
 
 
 def jumps(case: Hemming) -> bool:
-    """Whether results of slightly different hems of this form lie on no smooth curve (docs/bending-operations.md)."""
+    """Whether results of hems of this form jump beside their derivatives (docs/bending-operations.md)."""
     return case.form not in _SMOOTH
-
-
-def refuse_jumps(case: Hemming) -> None:
-    """Refuse derivatives of hems whose runs jump by more than they say (docs/bending-operations.md).
-
-    Raises
-    ------
-    InvalidValue
-    """
-    if jumps(case):
-        raise InvalidValue(
-            "the results of this form of hem jump: they have no derivatives",
-            where="form",
-            value=case.form,
-            cause="whole runs with slightly different sizes do not lie on a smooth curve",
-            remedy="slopes of whole runs: umform hem --derive, uf.slopes(..., process=hemming); or form open or insert",
-        )

@@ -79,7 +79,9 @@ def largest_force(
     own = np.interp(at, s, f)
     mean = savgol_filter(own, _PLACES, 1, mode="interp")
     first, end = (float(np.clip(place, at[0], at[-1])) for place in between)
-    wanted = np.flatnonzero((at >= first - step) & (at <= end + step))
+    wanted = np.flatnonzero((at >= first) & (at <= end))
+    if not wanted.size:  # a part of the stroke between two places
+        wanted = np.array([np.argmin(np.abs(at - end))])
     top = int(wanted[np.argmax(mean[wanted])])
     near = wanted[np.abs(at[wanted] - at[top]) <= step * _PLACES]
     above = f[(s >= between[0]) & (s <= between[1])].max(initial=mean[top]) - mean[top]

@@ -13,6 +13,8 @@ Floats = NDArray[np.float64]
 
 #: Heights above the bottom at which the wall is looked at, mm.
 HEIGHTS = (15.0, 35.0, 55.0)
+#: Part of the half width of a bottom that is taken as flat.
+_FLAT = 0.6
 
 
 @dataclass(frozen=True)
@@ -37,7 +39,9 @@ class UBendAngles:
         return f"theta1 {self.theta1:.1f}°, theta2 {self.theta2:.1f}°, radius of the wall {self.radius:.0f}"
 
 
-def u_bend_angles(line: Floats, heights: tuple[float, float, float] = HEIGHTS, *, flange: int = 10) -> UBendAngles:
+def u_bend_angles(
+    line: Floats, heights: tuple[float, float, float] = HEIGHTS, *, flange: int = 10, flat: float | None = None
+) -> UBendAngles:
     """Measure half of a U-bend.
 
     Parameters
@@ -48,6 +52,9 @@ def u_bend_angles(line: Floats, heights: tuple[float, float, float] = HEIGHTS, *
         Where the wall is looked at, above the middle of the bottom.
     flange : int
         Points at the end of the line whose chord is the flange.
+    flat : float, optional
+        Half of the flat part of the bottom; default: 0.6 of its half width. The chord of the bottom goes from its
+        middle as far as the lowest height, as in NUMISHEET 93, but not beyond the flat part.
 
     Raises
     ------
@@ -64,7 +71,8 @@ def u_bend_angles(line: Floats, heights: tuple[float, float, float] = HEIGHTS, *
             remedy="lower heights, or a longer stroke",
         )
     low, middle, high = (crossing(line, height) for height in heights)
-    bottom = line[max(int(np.searchsorted(line[:, 0], heights[0])), 1)] - line[0]
+    reach = min(heights[0], _FLAT * (low[0] - line[0, 0]) if flat is None else flat)
+    bottom = line[max(int(np.searchsorted(line[:, 0] - line[0, 0], reach)), 1)] - line[0]
     end = line[-1] - line[-1 - flange]
     theta1, theta2 = angle_between(-bottom, middle - low), angle_between(end, low - middle)
     return UBendAngles(theta1, theta2, circle(low, middle, high))
