@@ -59,7 +59,7 @@ def run_draw(folder: Path, title: str, wanted: Wanted) -> dict[str, Any]:
         write_files(folder / RESULTS, drawn, note)
     watch.phase("end", 1.0)
     found = record(drawn)
-    return {"note": note, **{name: found[name] for name in _SHOWN}}
+    return {"note": note, "unfinished": drawn.released is None, **{name: found[name] for name in _SHOWN}}
 
 
 class DrawProgress:

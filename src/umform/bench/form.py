@@ -115,7 +115,7 @@ class FormField:
     @property
     def may_be_empty(self) -> bool:
         """Whether it may be left empty."""
-        return self.parameter.absent or self.name in BY_MESH
+        return (self.parameter.absent and not self.many) or self.name in BY_MESH
 
     @property
     def default(self) -> Any:
@@ -134,8 +134,8 @@ class FormField:
         """What the page needs of it."""
         one, size = self.parameter, None if self.many else note_of(self.parameter.hint, SizeOf)
         numbers = [kind for kind in one.kinds if kind.type in (int, float)]
-        states, label = one.noun.startswith("whether "), self._said(one.noun.removeprefix("whether "))
-        sentence = self._said(one.sentence)
+        states, label = one.noun.startswith("whether "), self.said(one.noun.removeprefix("whether "))
+        sentence = self.said(one.sentence)
         return {
             "name": self.name,
             "label": label if states else f"the {label}",
@@ -154,7 +154,7 @@ class FormField:
             "size": size.size if size else "",
         }
 
-    def _said(self, text: str) -> str:
+    def said(self, text: str) -> str:
         """A text of the parameter, of a diameter if the field has one."""
         return text.replace("radius", "diameter").replace("Radius", "Diameter") if self.double else text
 

@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from umform.processes.bend_sequence import BendSequence
 from umform.processes.bend_sequence.sides import Strip
+from umform.processes.hemming import Hemming
+from umform.processes.hemming.problem import FORCE, STROKE, edge_of, way_column
 
 if TYPE_CHECKING:
     from umform.analysis.steps.loop import Run
@@ -26,14 +28,14 @@ class StripProgress:
 
     Parameters
     ----------
-    sequence : BendSequence
-        Its bends.
-    hem : bool
-        Whether a hem is flattened after them.
+    case : BendSequence or Hemming
+        Its bends, and the hem that is flattened after them.
     """
 
-    def __init__(self, sequence: BendSequence, *, hem: bool) -> None:
-        self.sequence, self.count = sequence, len(sequence.bends) + hem
+    def __init__(self, case: BendSequence | Hemming) -> None:
+        self.hem = case if isinstance(case, Hemming) else None
+        self.sequence = case.first if isinstance(case, Hemming) else case
+        self.count = len(self.sequence.bends) + (self.hem is not None)
         self._model: Model | None = None
         self._number = -1
 
@@ -43,18 +45,20 @@ class StripProgress:
             self._model, self._number = run.model, self._number + 1
         number = min(self._number, self.count - 1)
         bends = self.sequence.bends
-        strip = Strip.of(run.model.mesh, run.model.u)
-        if number < len(bends):
-            strip = strip.at(bends[number].position, over=bends[number].over)
-        stroke = run.result["stroke"]
+        flattened = self.hem if number >= len(bends) else None
+        if flattened is None:
+            strip = Strip.of(run.model.mesh, run.model.u).at(bends[number].position, over=bends[number].over)
+        else:
+            strip = Strip.of(run.model.mesh, run.model.u, edge_of(flattened))
+        stroke = run.result[STROKE if flattened is None else way_column(flattened)]
         force = self.force(run.result)
         thin = max(1, -(-len(stroke) // _MOST))
         back = len(stroke) > 1 and bool(stroke[-1] < stroke[-2])
         return {
-            "phase": "springback" if back else "flattening" if number >= len(bends) else "loading",
+            "phase": "springback" if back else "flattening" if flattened else "loading",
             "operation": number + 1,
             "operations": self.count,
-            "flattening": number >= len(bends),
+            "flattening": flattened is not None,
             "fraction": min(_BEFORE_FILES, (number + self._part(number, float(stroke[-1]), back)) / self.count),
             "stroke": round(float(stroke[-1]), 4),
             "force": round(float(force[-1]), 3),
@@ -64,7 +68,7 @@ class StripProgress:
 
     def force(self, result: History) -> NDArray[np.float64]:
         """Force per length of bend: the strip is as wide as it is thick."""
-        return result["stroke_force"] / self.sequence.sheet.thickness
+        return result[FORCE] / self.sequence.sheet.thickness
 
     def _part(self, number: int, stroke: float, back: bool) -> float:
         """Approximate progress of an operation."""

@@ -67,7 +67,7 @@ def run_strip(folder: Path, title: str, wanted: Wanted, sheet: AirBending, note:
     else:
         case = wanted.strip(sheet)
     hems = isinstance(case, Hemming)
-    progress = StripProgress(case.first if isinstance(case, Hemming) else case, hem=hems)
+    progress = StripProgress(case)
     watch = Watch(folder, title, progress, units=MILLIMETRES, force=progress.force)
     results = folder / RESULTS
     with staging(results, hem_files.FILES if hems else part_files.FILES), watching(watch):

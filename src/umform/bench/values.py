@@ -53,7 +53,7 @@ def value_of(one: FormField, value: Any) -> Any:
 
 def _list(one: FormField, values: Any) -> list[Any]:
     """The entries of a list, each once; numbers in their order."""
-    if not isinstance(values, list) or not 1 <= len(values) <= _MOST_LISTED:
+    if not isinstance(values, list) or not 1 <= len(values) <= _MOST_LISTED or None in values:
         raise InvalidValue(
             f"this is no list of 1 to {_MOST_LISTED} entries",
             value=values,
@@ -66,26 +66,30 @@ def _list(one: FormField, values: Any) -> list[Any]:
 
 def _single(one: FormField, value: Any) -> Any:
     """A single value of a field."""
-    if one.double and type(value) in (int, float):
-        return 2.0 * _checked(one.parameter.spec, one.parameter.name, 0.5 * value)
-    value = _checked(one.parameter.spec, one.parameter.name, value)
-    if one.parameter.about.unit == "mm" and value > one.most:
+    if type(value) in (int, float) and one.parameter.about.unit == "mm" and value > one.most:
         raise InvalidValue(
-            f"{one.parameter.subject} is more than the bench takes",
+            f"{one.said(one.parameter.subject)} is more than the bench takes",
             value=value,
             cause="another unit",
             remedy=f"at most {one.most:g} mm",
         )
-    return value
+    if one.double and type(value) in (int, float):
+        return 2.0 * _checked(one.parameter.spec, one.parameter.name, 0.5 * _as_float(value))
+    return _checked(one.parameter.spec, one.parameter.name, value)
 
 
 def _checked(spec: type, name: str, value: Any) -> Any:
     """A value of JSON, which writes 2.0 as 2, after the check of the Spec."""
     kinds = {kind.type for kind in parameters(spec)[name].kinds}
     if type(value) is int and float in kinds:
-        value = float(value) if abs(value) <= sys.float_info.max else math.inf
+        value = _as_float(value)
     check_value(spec, name, value)
     return value
+
+
+def _as_float(value: float) -> float:
+    """A number as a float; infinite beyond the largest one."""
+    return float(value) if abs(value) <= sys.float_info.max else math.inf
 
 
 def _bends(rows: Any, spec: type = Bend, needed: str = "position") -> list[dict[str, Any]]:

@@ -8,13 +8,15 @@ from typing import Any
 #: Standard deviations from which a measured bend is not met by the corrected metal.
 _FAR = 2.0
 #: The verdicts, the worst first; a job without any of them is good.
-VERDICTS = ("collides", "missed", "warned")
+VERDICTS = ("collides", "failed", "missed", "warned")
 
 
 def verdict(summary: Mapping[str, Any]) -> str:
     """One of `VERDICTS` for the summary of a finished job; empty if it is good."""
     if summary.get("collisions"):
         return "collides"
+    if summary.get("unfinished"):
+        return "failed"
     if any(_missed(summary)):
         return "missed"
     return "warned" if any(summary.get(name) for name in ("warnings", "coarse_mesh", "remarks")) else ""

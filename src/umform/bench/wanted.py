@@ -144,6 +144,17 @@ class Wanted:
             check_angle(case, self.goal.angle)
         return case
 
+    def cases(self, shelf: Shelf) -> list[Any]:
+        """Cases of the processes that are run, as far as they are known before; those of a part are not."""
+        if self.choices.work == "flat":
+            return []
+        if self.choices.work == "table":
+            return [setup.case for setup in self.setups()]
+        if self.is_drawn:
+            return [self.draw()]
+        case = self.case(shelf)
+        return [self.strip(case) if self.of_strip else case]
+
     def at_tools(self, shelf: Shelf | None = None) -> AirBending:
         """Parameters of the bend, whatever angle is wanted."""
         drawn: dict[str, Any] = {

@@ -28,14 +28,13 @@ from umform.errors import UmformError
 from umform.io.atomic import PendingFile
 from umform.io.staging import staging
 from umform.io.tables import write_csv
-from umform.problem.findings import accept
-from umform.problem.plausible import of_model
 from umform.processes.air_bending.bottoming import press_to_force
 from umform.processes.air_bending.branches import FRAMES, Brake
 from umform.processes.air_bending.budget import error_budget
 from umform.processes.air_bending.case import air_bending
 from umform.processes.air_bending.files import FILES, record, write_files
 from umform.processes.air_bending.search import find_stroke
+from umform.processes.plausible import accepted
 from umform.report.key_numbers import key_numbers
 from umform.report.looks import MILLIMETRES, Units
 from umform.report.words import column_text
@@ -102,13 +101,14 @@ def _outcome(folder: Path) -> dict[str, Any]:
 def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     """A bend, by the calls of `umform bend`: the numbers are equal."""
     wanted = Wanted.read(order["parameters"])
+    for one in wanted.cases(Shelf(folder)):
+        accepted(one)
     if wanted.choices.work in _OTHERS:
         return _other(folder, order, wanted)
     case, note, length = wanted.case(Shelf(folder)), wanted.law()[1], wanted.choices.length
     if wanted.of_strip:
         return run_strip(folder, order["title"], wanted, case, note) | {"length": length, "note": note}
     brake = Brake(case, frames=FRAMES)
-    accept(of_model(brake.model, millimetres=True))
     angle, force = wanted.goal.angle, wanted.goal.force_per_metre
     progress = BendProgress(brake, angle, case.bottom_stroke if case.bottoming else case.stroke)
     watch = Watch(folder, order["title"], progress, units=MILLIMETRES, force=progress.force)

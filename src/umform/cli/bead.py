@@ -29,6 +29,7 @@ from umform.cli.options import (
     print_deck,
 )
 from umform.cli.outcome_screen import show_outcome
+from umform.cli.plausible import refuse_implausible
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.timing import Timed, show_timing
@@ -97,6 +98,7 @@ def bead(
         return
     check_derived(case, derive)
     scatter_options.check(case)
+    refuse_implausible(case)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/bead"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     goals = compensated(case, want, by)

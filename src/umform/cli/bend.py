@@ -46,7 +46,7 @@ from umform.cli.options import (
     print_deck,
 )
 from umform.cli.outcome_screen import show_outcome
-from umform.cli.plausible import refuse_implausible, refuse_implausible_bend
+from umform.cli.plausible import refuse_implausible
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, console, printing
 from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.sequence import run_sequence
@@ -211,7 +211,7 @@ def bend(
         if one is not None:
             check_angle(case, one)
     if find or quantity or want:
-        refuse_implausible_bend(case, force=force)
+        refuse_implausible(case, force=force)
     if find or quantity:
         identify_case(case, find or (), None, quantity, out, Path("results/bend-identified"), MOST, overwrite)
         return
@@ -225,7 +225,7 @@ def bend(
     with timings() as spent:
         brake = Brake(case, frames=FRAMES)
     if not want:
-        refuse_implausible(brake.model, force=force)
+        refuse_implausible(case, force=force)
     for text in said:  # only of a run that starts
         typer.echo(f"umform: {text}", err=True)
     with staging(place, FILES):

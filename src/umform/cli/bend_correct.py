@@ -7,12 +7,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
-from umform.cli.bend_table import StoreFolder, checked_formats, files_of, issue, say
+from umform.cli.bend_table import StoreFolder, check_jobs, checked_formats, files_of, issue, say
 from umform.cli.bends import bends
 from umform.cli.given import Given, given_by
 from umform.cli.metal import by_name
 from umform.cli.options import SHEET, SOLUTION, option
 from umform.cli.outcome_screen import print_table
+from umform.cli.plausible import refuse_implausible
 from umform.cli.root import Debug, Overwrite, Verbose, console
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
@@ -68,9 +69,11 @@ def bend_correct(
         "radius": measured(radius, "--measured-radius"),
     }
     names = checked_formats(formats)
+    check_jobs(jobs)
     with by_name("--material"):
         metal = metal_of(material, given["thickness"])
     case = AirBending(**given, material=metal.law)
+    refuse_implausible(case)
     wanted, before = [], None if table is None else issued(table)
     if before is not None:
         own = [parameters for name, parameters in before.setups if name == metal.name]

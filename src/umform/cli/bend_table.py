@@ -13,6 +13,7 @@ from umform.cli.given import Given, given_by
 from umform.cli.metal import by_name
 from umform.cli.options import SHEET, SOLUTION, option
 from umform.cli.outcome_screen import print_table
+from umform.cli.plausible import refuse_implausible
 from umform.cli.root import Debug, Overwrite, Verbose, console
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
@@ -64,6 +65,7 @@ def bend_table(
 
     print_warnings_once()
     names = checked_formats(formats)
+    check_jobs(jobs)
     lists = {
         "thicknesses": values_of(thickness, "--thickness"),
         "openings": values_of(opening, "--opening"),
@@ -89,6 +91,17 @@ def checked_formats(text: str) -> list[str]:
         error.where = "--format"
         raise
     return names
+
+
+def check_jobs(jobs: int | None) -> None:
+    """Refuse a number of setups at a time that is none."""
+    from umform.pool import check_processes
+
+    try:
+        check_processes(jobs)
+    except InvalidValue as error:
+        error.where = "--jobs"
+        raise
 
 
 def files_of(wanted: Sequence[Setup], formats: Sequence[str]) -> list[str]:
@@ -119,6 +132,7 @@ def issue(
     from umform.studies.bend_table import bend_table as run
     from umform.studies.bend_table import write_table
 
+    refuse_implausible(*(setup.case for setup in wanted))
     try:
         table = run(wanted, angles, tolerance=tolerance, check=check, notes=notes, store=Store(store), processes=jobs)
     except KeyboardInterrupt as stop:

@@ -30,6 +30,7 @@ from umform.cli.options import (
     print_deck,
 )
 from umform.cli.outcome_screen import show_outcome
+from umform.cli.plausible import refuse_implausible
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.timing import Timed, show_timing
@@ -286,6 +287,7 @@ def _run(
     print_warnings_once()
     check_derived(case, derive)
     scatter_options.check(case)
+    refuse_implausible(case)
     curve = _limit(limit)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results") / name, FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))

@@ -15,7 +15,7 @@ from umform.cli.given import Given, given_by
 from umform.cli.metal import law_of
 from umform.cli.options import All, Curve, FlowCurve, Material, Modulus, Poisson, Yield, Young, option
 from umform.cli.outcome_screen import show_outcome
-from umform.cli.plausible import refuse_implausible_bend
+from umform.cli.plausible import refuse_implausible
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.scattering import ScatterOptions, scattering
 from umform.cli.warnings import print_warnings_once
@@ -95,8 +95,7 @@ def hem(
         scatter_options.check(some)
     if by_slopes:
         planned_runs(case, derive or ())
-    first = case.first.some_strokes
-    refuse_implausible_bend(first.case(first.bends[0]))
+    refuse_implausible(case)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/hem"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     with staging(place, FILES):

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any
 
 import typer
 
-if TYPE_CHECKING:
-    from umform.model import Model
-    from umform.processes.air_bending.spec import AirBending
 
-
-def refuse_implausible(model: Model, *, force: bool | None = None) -> None:
+def refuse_implausible(*cases: Any, force: bool | None = None) -> None:
     """Refuse numbers that are certainly wrong, and warn of unusual ones.
 
     Parameters
     ----------
-    model : Model
-        The sheet in its tools.
+    *cases : Spec
+        Parameters of processes.
     force : bool, optional
         Warn only; None where no option --force does it.
 
@@ -26,15 +22,7 @@ def refuse_implausible(model: Model, *, force: bool | None = None) -> None:
     DeckError
         With what to change.
     """
-    from umform.problem.findings import accept
-    from umform.problem.plausible import of_model
+    from umform.processes.plausible import accepted
 
-    for warning in accept(of_model(model, millimetres=True), force=force):
+    for warning in dict.fromkeys(text for case in cases for text in accepted(case, force=force)):
         typer.echo(f"umform: {warning}", err=True)
-
-
-def refuse_implausible_bend(case: AirBending, *, force: bool | None = None) -> None:
-    """The same of the sheet in the tools of a bend."""
-    from umform.processes.air_bending.problem import build
-
-    refuse_implausible(build(case)[0], force=force)

@@ -13,7 +13,7 @@ import typer
 from umform.cli.compensate import compensated
 from umform.cli.developed import sequence_of
 from umform.cli.outcome_screen import show_outcome
-from umform.cli.plausible import refuse_implausible_bend
+from umform.cli.plausible import refuse_implausible
 from umform.cli.root import console, printing
 from umform.cli.timing import show_timing
 
@@ -59,7 +59,7 @@ def run_sequence(
     check_derived(some, derive, made.strokes)
     if scatter_options:
         scatter_options.check(some)
-    refuse_implausible_bend(some.case(some.bends[0]), force=force)
+    refuse_implausible(made, force=force)
     say = partial(typer.echo, err=True)
     tell = partial(folder_for, out, Path("results/sequence"), RESULTS, overwrite=overwrite)
     place = tell(say=lambda text: say(f"umform: {text}"))

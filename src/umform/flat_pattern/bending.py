@@ -11,6 +11,7 @@ from umform.flat_pattern.order import Orders
 from umform.flat_pattern.pattern import FlatBend, FlatPattern
 from umform.processes.air_bending.goal import Goal
 from umform.processes.bend_sequence import Part, bend_sequence
+from umform.processes.plausible import accepted
 from umform.progress import Show
 
 
@@ -54,6 +55,8 @@ def bend_part(orders: Orders, *, tolerance: float = Goal.tolerance, progress: Sh
     ------
     InvalidValue
         If the part has no order, or not one section.
+    DeckError
+        If stresses or lengths are certainly in another unit.
     NoConvergence
         If the strip cannot be bent so far.
     """
@@ -69,7 +72,9 @@ def bend_part(orders: Orders, *, tolerance: float = Goal.tolerance, progress: Sh
             remedy="other tools, or without --bend: order, strokes and stops of single bends",
         )
     section = orders.longest
-    part = bend_sequence(orders.sequence(section, list(pattern.order)), tolerance=tolerance, progress=progress)
+    sequence = orders.sequence(section, list(pattern.order))
+    accepted(sequence)
+    part = bend_sequence(sequence, tolerance=tolerance, progress=progress)
     by_number = {bend.number: bend for bend in pattern.bends}
     placed = [(by_number[number], place) for number, place in section.places]
     ends = [(0.0, 0.0), *((place, 0.5 * deduction(bend, pattern)) for bend, place in placed), (section.length, 0.0)]

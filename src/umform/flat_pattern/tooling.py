@@ -11,6 +11,7 @@ from umform.io.store import Store
 from umform.problem.metal_file import metal_of
 from umform.processes.air_bending.formulas import INNER_RADIUS
 from umform.processes.air_bending.spec import AirBending
+from umform.processes.plausible import accepted
 from umform.studies.bend_table import bend as stored_bend
 
 #: Openings of dies in mm that shops have.
@@ -90,8 +91,11 @@ class ComputedBends:
         ------
         InvalidValue
             If the tools do not bend so far.
+        DeckError
+            If stresses or lengths are certainly in another unit.
         """
         case = self.tooling.case(angle, radius, thickness)
+        warnings = accepted(case)
         found = stored_bend(case, 180.0 - angle, store=self.store)
         drawn = 2.0 * outside(angle, radius, thickness)
         words = [
@@ -107,5 +111,5 @@ class ComputedBends:
             found.radius,
             found.measures.stroke,
             found.measures.largest_force,
-            found.notes,
+            (*warnings, *found.notes),
         )

@@ -9,7 +9,9 @@ from starlette.testclient import TestClient
 
 from umform.bench.check_deck import findings
 from umform.bench.guard import LONGEST_BODY
+from umform.bench.shelf import Shelf
 from umform.bench.wanted import Wanted
+from umform.problem import DeckError
 from umform.problem.templates import template
 from umform.processes.air_bending import air_bending, find_stroke
 from umform.processes.air_bending.files import FILES, record
@@ -17,6 +19,7 @@ from umform.processes.bend_sequence import bend_sequence
 from umform.processes.bend_sequence.files import FILES as PART_FILES
 from umform.processes.bend_sequence.spec import MOST_BENDS
 from umform.processes.hemming import hemming
+from umform.processes.plausible import accepted
 
 JSON = {"content-type": "application/json"}
 HARMFUL = ["/etc/passwd", "../bench.sqlite", "..%2f..%2ftoken", "job.json", "deck.toml", "%00", "live.json", "a" * 5000]
@@ -77,13 +80,41 @@ def test_part_of_a_bend_is_that_of_the_library(bench):
 
 
 @pytest.mark.long
-def test_hem_is_that_of_the_library(bench):
+@pytest.mark.parametrize(
+    "form", [{}, {"form": "inner"}, {"form": "open", "force": 20.0}], ids=["flat", "inner", "force"]
+)
+def test_hem_is_that_of_the_library(bench, form):
     tools = {"opening": 8.0, "die_angle": 30.0, "die_radius": 1.0, "punch_angle": 30.0, "punch_radius": 0.5}
-    form = {"work": "hem", "mesh": "quick", "thickness": 1.0, **tools}
+    form = {"work": "hem", "mesh": "quick", "thickness": 1.0, **tools, **form}
     wanted = Wanted.read(form)
     job = bench.ended(bench.order(**form, stroke=None), 300)
     assert job["state"] == "done", job["reason"]
     assert job["summary"]["hem"]["height"] == hemming(wanted.hem(wanted.case()), progress=False).measures.height
+
+
+@pytest.mark.parametrize("work", ["bend", "bottom", "sequence", "outside", "hem", "correct", "cup", "u"])
+def test_stresses_in_another_unit_are_refused_before_the_run(work, tmp_path):
+    acute = {"opening": 8.0, "die_angle": 30.0, "die_radius": 1.0, "punch_angle": 30.0, "punch_radius": 0.5}
+    more = {
+        "bottom": {"travel": 0.0},
+        "correct": {"stroke": 6.0, "measured_angle": 95.0},
+        "hem": {"thickness": 1.0, **acute},
+    }
+    form = {"work": work, "yield_stress": 0.175, "tensile_strength": 0.31, **more.get(work, {})}
+    [case] = Wanted.read(form).cases(Shelf(tmp_path))
+    with pytest.raises(DeckError, match="first yield"):
+        accepted(case)
+
+
+def test_the_job_of_such_stresses_fails_at_once(bench):
+    job = bench.ended(bench.order(work="sequence", stroke=None, yield_stress=0.175, tensile_strength=0.31))
+    assert job["state"] == "failed" and "first yield" in job["reason"]
+
+
+def test_each_setup_of_a_table_is_looked_at(tmp_path):
+    cases = Wanted.read({"work": "table", "thicknesses": [1.0, 2.0]}).cases(Shelf(tmp_path))
+    assert [case.thickness for case in cases] == [1.0, 2.0]
+    assert Wanted({"work": "flat"}).cases(Shelf(tmp_path)) == []
 
 
 def test_files_of_a_bend_can_be_taken(bench, done):

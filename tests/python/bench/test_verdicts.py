@@ -14,6 +14,8 @@ MISSED = {"name": "drift", "missed": True}
         ({"quantities": [GOOD], "checks": [GOOD], "warnings": [], "coarse_mesh": []}, ""),
         ({"quantities": [GOOD], "checks": [MISSED], "warnings": ["w"]}, "missed"),
         ({"quantities": [MISSED], "collisions": ["the part collides"]}, "collides"),
+        ({"unfinished": True, "quantities": [MISSED], "warnings": ["the sheet tears"]}, "failed"),
+        ({"unfinished": False, "warnings": ["the sheet tears"]}, "warned"),
         ({"columns": [[GOOD], [MISSED]], "sizes": [GOOD]}, "missed"),
         ({"quantities": [GOOD], "coarse_mesh": ["coarse mesh"]}, "warned"),
         ({"table": [], "failed": ["no bend"]}, "missed"),

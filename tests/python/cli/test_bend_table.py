@@ -49,6 +49,14 @@ def test_a_table_is_written_and_continues_from_the_store(tmp_path):
     assert refused.exit_code == 1 and "--overwrite" in refused.stderr
 
 
+@pytest.mark.parametrize(
+    "command", [SMALL, f"bend correct --material DC04 --stroke 5 --measured-angle 107 --jobs 1 {COARSE}"]
+)
+def test_a_number_of_jobs_is_refused_by_the_name_of_its_option(command):
+    refused = umform(command.replace("--jobs 1", "--jobs 0"))
+    assert refused.exit_code == 1 and "where:  --jobs" in refused.stderr
+
+
 def test_a_table_is_issued_again_with_a_corrected_card(tmp_path):
     umform(f"{SMALL} --out {tmp_path / 'before'}")
     typed = f"bend correct --material DC04 --stroke 5 --thickness 2 {COARSE} --measured-angle 107.5+-.1 --jobs 1"

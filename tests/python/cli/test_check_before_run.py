@@ -79,6 +79,34 @@ def test_a_bend_refuses_what_cannot_be_meant(options, text, tmp_path, monkeypatc
     assert [path.name for path in tmp_path.iterdir()] == ["coil.csv"]
 
 
+IN_GPA = """[material]
+law = "J2"
+E = 210e3
+nu = 0.3
+hardening = { curve = "Swift", strength = 0.4, offset = 0.001, exponent = 0.18 }
+"""
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        "bend table --thickness 1 --opening 8 --angle 120",
+        "bend correct --thickness 1 --opening 8 --stroke 3 --measured-angle 100",
+        "draw cup --coarse",
+        "draw u --coarse",
+        "bead --no-extrapolate",
+        "hem",
+    ],
+)
+def test_stresses_in_another_unit_are_refused_by_each_process(command, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "gpa.toml").write_text(IN_GPA)
+    refused = umform(*command.split(), "--material", "gpa.toml")
+    assert refused.exit_code == 1
+    assert "first yield at a strain of 5.49e-07" in refused.stderr and "--force" not in refused.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["gpa.toml"]
+
+
 def test_a_warning_is_printed_once(deck):
     """Too soft a penalty: the run logs it, and its result keeps it."""
     soft = ["--set", "mesh.cells=[24, 1]", "--set", "output.report=false", "--set", "steps.0.to.punch=-6.0"]

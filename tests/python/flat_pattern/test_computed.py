@@ -46,6 +46,16 @@ def run(*words):
     return CliRunner().invoke(application(words), [str(word) for word in words])
 
 
+@pytest.mark.parametrize("more", [[], ["--k-factor", 0.44, "--bend"]], ids=["computed", "bent"])
+def test_a_metal_in_another_unit_is_refused(more, z, tmp_path, monkeypatch):
+    monkeypatch.setenv("UMFORM_STORE", str(tmp_path / "store"))
+    metal = tmp_path / "gpa.toml"
+    curve = '{ curve = "Perfect", yield_stress = 0.2 }'
+    metal.write_text(f'[material]\nlaw = "J2"\nE = 210e3\nnu = 0.3\nhardening = {curve}\n')
+    refused = run("flat", z, "--metal", metal, *more, "--out", tmp_path / "out")
+    assert refused.exit_code == 1 and "first yield at a strain of 9.52e-07" in refused.stderr
+
+
 def test_the_flat_length_leaves_the_outer_lengths_of_the_drawing(computed, tooling, store):
     """Outer lengths less the bend deductions of the stored bends are the flat length."""
     outer, deductions = 0.0, 0.0

@@ -236,9 +236,10 @@ def test_a_sheet_against_a_flank_is_told():
 @pytest.mark.parametrize(
     ("name", "value", "message"),
     [
-        ("thickness", -1.0, "positive"),
+        ("thickness", -1.0, "more than 0 and at most 1000"),
+        ("thickness", 1e300, "more than 0 and at most 1000"),
         ("opening", math.nan, "positive and finite"),
-        ("die_angle", 190.0, "between 0 and 180"),
+        ("die_angle", 190.0, "between 1 and 180"),
         ("punch_radius", 12.0, "wider than the opening"),
         ("die_radius", 40.0, "rounder than its flanks"),
         ("thickness", 10.0, "does not find room"),

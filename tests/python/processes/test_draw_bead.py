@@ -156,6 +156,14 @@ def test_two_meshes_are_run_and_the_finest_is_kept(drawn, monkeypatch):
     assert found["restraint"].band.error == pytest.approx(0.8) and found["thinning"].band is None
 
 
+def test_a_mesh_that_is_too_coarse_to_be_coarsened_is_refused(drawn, monkeypatch):
+    monkeypatch.setattr(case_module, "drawn_through", lambda case, **how: replace(drawn, case=case))
+    with pytest.raises(InvalidValue, match="coarsest of three") as refused:
+        case_module.extrapolated(replace(drawn.case, elements=3.0))
+    assert (refused.value.where, refused.value.value) == ("elements", "3") and "--no-extrapolate" in str(refused.value)
+    assert case_module.extrapolated(replace(drawn.case, elements=4.0), progress=False).case.elements == 4.0
+
+
 def test_a_mesh_that_penetrates_too_far_gives_the_finer_one_a_stiffer_penalty(drawn):
     """Without a warning where the penetration is below half the rise of an arc over an element; else by eq. (4.191)."""
     pairs, result = drawn.result.model.contacts, drawn.result

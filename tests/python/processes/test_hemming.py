@@ -116,6 +116,20 @@ def test_clearance_is_the_gap():
     assert clearances(COARSE, folded(0.7)) == pytest.approx(0.7)
 
 
+def test_a_force_that_stops_the_plate_above_the_gap_is_a_warning(hem):
+    """0.01 thicknesses above it and more; a plate that is moved there is where it should be."""
+
+    def said(height, force=20.0):
+        case, measures = replace(hem.case, force=force), replace(hem.measures, loaded_height=height, left=0.25)
+        return [text for text in replace(hem, case=case, measures=measures).warnings if "stops the plate" in text]
+
+    assert said(3.3) == [
+        "the force stops the plate 0.300 mm above the wanted height: 0.250 mm are left between the flange and what it "
+        "lies on, under load"
+    ]
+    assert said(3.009) == said(3.3, force=None) == []
+
+
 @pytest.fixture(scope="module")
 def flat():
     return hemming(FLAT, tolerance=5.0, frames=12, progress=False)

@@ -88,15 +88,15 @@ class AirBending:
     }
     """Group of the parameters from each of these on."""
 
-    thickness: Length = 2.0
+    thickness: Annotated[float, Gt(0.0), Le(1000.0), About("mm", cause="another unit, or a sign")] = 2.0
     """Thickness of the sheet."""
     opening: Annotated[Length, SizeOf("die", "opening")] = 16.0
     """Opening of the die: distance of the lines where its flanks, drawn on as planes, meet its top."""
-    die_angle: Annotated[Degrees, SizeOf("die", "angle")] = 85.0
+    die_angle: Annotated[Degrees, Gt(1.0), SizeOf("die", "angle")] = 85.0
     """Angle between the flanks of the die."""
     die_radius: Annotated[Length, SizeOf("die", "radius")] = 2.0
     """Radius of the shoulders of the die."""
-    punch_angle: Annotated[Degrees, SizeOf("punch", "angle")] = 85.0
+    punch_angle: Annotated[Degrees, Gt(1.0), SizeOf("punch", "angle")] = 85.0
     """Angle between the flanks of the punch."""
     punch_radius: Annotated[Length, SizeOf("punch", "radius")] = 1.5
     """Radius of the tip of the punch."""

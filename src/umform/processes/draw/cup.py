@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
-from annotated_types import Ge
+from annotated_types import Ge, Le
 
 from umform.errors import InvalidValue
-from umform.processes.draw.spec import Draw, Turn, check_clearance, tight, unusual_pressure
+from umform.processes.draw.spec import Draw, Size, Turn, check_clearance, tight, unusual_pressure
 from umform.spec import About, Rule
-from umform.spec.types import ContactPoints, Force, Friction, Length
+from umform.spec.types import ContactPoints, Force, Friction
 
 if TYPE_CHECKING:
     from umform.mesh import Mesh, Sizes
@@ -69,11 +69,11 @@ class Cup(Draw):
     """Names of the radii whose diameters are usual."""
     meshes: ClassVar = {"coarse": {"turn": 30.0, "around": 8}, "fine": {"turn": 9.0, "around": 24}}
 
-    blank_radius: Length
+    blank_radius: Size
     """Radius of the blank, a disc."""
-    punch_radius: Length
+    punch_radius: Size
     """Radius of the punch."""
-    die_radius: Length | None = None
+    die_radius: Size | None = None
     """Radius of the opening of the die; without it, that of the punch plus 1.2 thicknesses."""
     holder_force: (
         Annotated[
@@ -83,14 +83,14 @@ class Cup(Draw):
     ) = None
     """Force on the whole holder, which rests on its distance blocks unless the sheet pushes harder; without it, on the
     command line with 0, the holder keeps its distance."""
-    holder_gap: Length | None = None
+    holder_gap: Size | None = None
     """Distance of the holder on its blocks from the die; without it, 1.04 thicknesses."""
     friction: Friction = 0.09
-    stroke: Length | None = None
+    stroke: Size | None = None
     """Travel of the punch; without it, until the rim has left the edge of the die."""
     element: str = "ANS3DEAS"
     turn: Turn = 15.0
-    around: Annotated[int, Ge(2), _EVEN] = 12
+    around: Annotated[int, Ge(2), Le(1000), _EVEN] = 12
     """Number of elements on a quarter of the rim, which is even."""
     contact_points: ContactPoints = 2
 

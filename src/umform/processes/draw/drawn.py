@@ -228,8 +228,9 @@ class Drawn(Outcome):
 
     @property
     def friction_share(self) -> float:
-        """Work of friction relative to the external work, in per cent."""
-        return 100.0 * float(self.result["friction_work"][-1] / self.result["external_work"][-1])
+        """Work of friction relative to the external work, in per cent; nan without work."""
+        friction, work = (float(self.result[f"{name}_work"][-1]) for name in ("friction", "external"))
+        return 100.0 * friction / work if work else math.nan
 
     @property
     def stages(self) -> dict[str, Result]:

@@ -8,9 +8,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from umform.errors import InvalidValue
-from umform.processes.draw.spec import Draw, Turn, check_clearance, tight, unusual_pressure
+from umform.processes.draw.spec import Draw, Size, Turn, check_clearance, tight, unusual_pressure
 from umform.processes.limit import allowed_penetration
-from umform.spec.types import ContactPoints, Force, Friction, Length, Penalty
+from umform.spec.types import ContactPoints, Force, Friction, Penalty
 
 if TYPE_CHECKING:
     from umform.analysis.newton.options import NewtonOptions
@@ -74,18 +74,18 @@ class UBend(Draw):
     groups: ClassVar = Draw.groups | {"length": "Sheet", "punch_width": "Tools"}
     meshes: ClassVar = {"coarse": {"element": "BEND8", "turn": 20.0, "contact_points": 3}, "fine": {"turn": 12.0}}
 
-    length: Length
+    length: Size
     """Length of the blank."""
-    width: Length
+    width: Size
     """Width of the blank."""
-    punch_width: Length
+    punch_width: Size
     """Width of the punch."""
-    opening: Length | None = None
+    opening: Size | None = None
     """Width of the opening of the die; without it, that of the punch plus 2.56 thicknesses."""
     holder_force: Force
     """Force on the whole holder: both sides, all of the width."""
     friction: Friction = 0.144
-    stroke: Length | None = None
+    stroke: Size | None = None
     """Travel of the punch; without it, a fifth of the length of the blank."""
     element: str = "BEND18"
     turn: Turn = 17.0

@@ -6,11 +6,12 @@ from dataclasses import replace
 
 from umform.analysis.run import solve
 from umform.analysis.steps import Step
+from umform.errors import InvalidValue
 from umform.model import Model
 from umform.processes.draw_bead.limits import Limits
 from umform.processes.draw_bead.measures import Drawn
 from umform.processes.draw_bead.problem import problem_of
-from umform.processes.draw_bead.spec import DrawBead
+from umform.processes.draw_bead.spec import FEWEST, DrawBead
 from umform.processes.limit import FINER, Limit
 from umform.progress import Show, parts, progress_bar
 
@@ -38,9 +39,22 @@ def extrapolated(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", 
     -------
     Drawn
         Results on the finest mesh, with extrapolated forces and their errors.
+
+    Raises
+    ------
+    InvalidValue
+        If the coarsest mesh would have too few elements.
     """
+    if case.elements < 2.0 * FEWEST:
+        raise InvalidValue(
+            "the coarsest of three meshes has too few elements",
+            where="elements",
+            value=f"{case.elements:g}",
+            cause="--extrapolate also runs a mesh with half of them",
+            remedy=f"{2.0 * FEWEST:g} or more; or --no-extrapolate, in Python drawn_through",
+        )
     every: list[Drawn] = []
-    shares = (FINER**-2, 1.0 / FINER, 1.0)
+    shares = (0.5, 1.0 / FINER, 1.0)
     with progress_bar(progress) as bar:
         for part, tick in zip(shares, parts(bar, "3 meshes", shares, moves=2), strict=True):
             mesh = replace(case, elements=case.elements * part)

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 #: Range of the radii in thicknesses: sharper ones crush the sheet, larger ones are no bead.
 _SHARPEST, _ROUNDEST = 1.0, 200.0
+#: Fewest elements on a quarter turn.
+FEWEST = 2.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,7 +72,7 @@ class DrawBead:
     """Travel of the strip; without it, 1.5 times the length of the path through the bead."""
     element: str | Element = "BEND8"
     """Element of the catalogue, or one of your own."""
-    elements: Annotated[float, Ge(2.0), Le(100.0), About(cause="the number of all elements instead")] = 14.0
+    elements: Annotated[float, Ge(FEWEST), Le(100.0), About(cause="the number of all elements instead")] = 14.0
     """Number of elements along the sheet on a quarter turn of the sharper radius."""
     contact_points: ContactPoints = 4
     """Number of contact points per direction and facet."""

@@ -24,7 +24,7 @@ from umform.sheet_metals import sheet_text
 
 Floats = NDArray[np.float64]
 
-#: Gap that is left in a closed hem under load, over the thickness.
+#: Gap that is left in a closed hem under load, or height beyond the wanted one, over the thickness.
 _CLOSED = 0.01
 #: Parameters of files and pages.
 _IN_FILES = ("form", "gap", "force", "flange", "base", "insert_edge", "loop_length", "angle")
@@ -160,10 +160,20 @@ class Hem(Outcome):
 
     @property
     def warnings(self) -> list[str]:
-        """Warnings of the first bend and of the flattening, and a hem that is not closed."""
-        left, needed = self.measures.left, self.case.is_closed and not self.is_closed
-        open_ = f"the hem is not closed: {left:.3f} mm are left between the flange and what it lies on, under load"
-        return [*self.first.warnings, *self.result.warnings, *([open_] if needed else [])]
+        """Warnings of the first bend and of the flattening, and a hem that is not closed, or not to its gap."""
+        return [*self.first.warnings, *self.result.warnings, *self._about_the_gap()]
+
+    def _about_the_gap(self) -> list[str]:
+        left, above = self.measures.left, self.measures.loaded_height - self.case.height
+        if self.case.is_closed:
+            open_ = f"the hem is not closed: {left:.3f} mm are left between the flange and what it lies on, under load"
+            return [] if self.is_closed else [open_]
+        if self.case.force is None or above <= _CLOSED * self.case.sheet.thickness:
+            return []
+        return [
+            f"the force stops the plate {above:.3f} mm above the wanted height: {left:.3f} mm are left between the "
+            "flange and what it lies on, under load"
+        ]
 
     @property
     def notes(self) -> list[str]:

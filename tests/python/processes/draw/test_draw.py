@@ -107,6 +107,12 @@ def test_measures_of_a_cup():
     assert "major_middle" in drawn.result.frames[-1].cells
 
 
+def test_friction_has_no_share_of_no_work():
+    nothing = dict.fromkeys(("friction_work", "external_work"), np.zeros(1))
+    with np.errstate(all="raise"):
+        assert np.isnan(replace(cup(), result=nothing).friction_share)
+
+
 def test_the_ripple_of_a_mesh_is_the_band_of_its_force(monkeypatch):
     drawn = replace(cup())
     own = float(drawn.forces["punch"].max()) / 1000.0
