@@ -11,6 +11,7 @@ from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor, as_completed
 from contextlib import closing, contextmanager
 from functools import partial
+from numbers import Integral
 from typing import TypeVar
 
 from umform import _core
@@ -62,7 +63,7 @@ def run_all(
     Raises
     ------
     InvalidValue
-        If the number of processes is less than 1.
+        If the number of processes is no whole number from 1 on.
     """
     check_processes(processes)
     count = min(processes or available(), len(tasks))
@@ -144,19 +145,19 @@ def _with_one_thread(call: Callable[[], Answer]) -> Answer:
         return call()
 
 
-def check_processes(processes: int | None) -> None:
-    """Reject a number of processes that is less than 1, for an early check.
+def check_processes(processes: object) -> None:
+    """Reject a number of processes that is no whole number from 1 on, for an early check.
 
     Raises
     ------
     InvalidValue
     """
-    if processes is not None and processes < 1:
+    if processes is not None and not (isinstance(processes, Integral) and int(processes) >= 1):
         raise InvalidValue(
-            "the number of processes must be 1 or more",
+            "the number of processes must be a whole number, 1 or more",
             where="processes",
             value=processes,
-            cause="zero or a sign",
+            cause="zero, a sign, or a fraction",
             remedy="omit it: then there are as many as processors",
         )
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import typer
 
+from umform.cli.options import is_typed
 from umform.cli.root import app
 from umform.errors import InvalidValue
 
@@ -26,7 +27,7 @@ def alone(command: Callable[..., None]) -> Callable[..., None]:
         if below is None:
             command(**values)
             return
-        given = [name for name in values if _is_typed(context, name)]
+        given = [name for name in values if is_typed(context, name)]
         if given:
             option = f"--{given[0].replace('_', '-')}"
             raise InvalidValue(
@@ -37,8 +38,3 @@ def alone(command: Callable[..., None]) -> Callable[..., None]:
 
     run.__signature__ = inspect.signature(command)  # type: ignore[attr-defined]
     return run
-
-
-def _is_typed(context: typer.Context, name: str) -> bool:
-    source = context.get_parameter_source(name)
-    return source is not None and source.name == "COMMANDLINE"

@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from umform.flat_pattern.developed import Developed
     from umform.processes.air_bending.spec import AirBending
     from umform.processes.bend_sequence import BendSequence
-    from umform.processes.bend_sequence.form import OutsideForm
 
 
 def sequence_of(file: Path, sheet: AirBending, *, flat_only: bool) -> BendSequence:
@@ -31,11 +30,12 @@ def sequence_of(file: Path, sheet: AirBending, *, flat_only: bool) -> BendSequen
     ------
     FileProblem, DeckKey, InvalidValue
     """
+    from umform.flat_pattern.developed import developed_of
     from umform.processes.bend_sequence.form import OutsideForm, read_sequence
 
     form = read_sequence(file)
     if isinstance(form, OutsideForm):
-        found = _developed(form, sheet, file.parent)
+        found = developed_of(form, sheet, file.parent)
         _show(found)
         if flat_only:  # a run says them again
             _remarks(found)
@@ -49,22 +49,6 @@ def sequence_of(file: Path, sheet: AirBending, *, flat_only: bool) -> BendSequen
             remedy="flanges = [30, 50, 30] in place of length and positions",
         )
     return form.sequence(sheet)
-
-
-def _developed(form: OutsideForm, sheet: AirBending, folder: Path) -> Developed:
-    from umform.flat_pattern import AllowanceTable, KFactor
-    from umform.flat_pattern.developed import developed
-
-    if form.k_factor is not None and form.table is not None:
-        raise InvalidValue(
-            "give one source of the flat length of bends",
-            where="table",
-            cause="k_factor is given, too",
-            remedy="leave one of them out, or both: then the bends are computed",
-        )
-    given = None if form.k_factor is None else KFactor(form.k_factor)
-    allowance = AllowanceTable.read(folder / form.table) if form.table is not None else given
-    return developed(form.part(), sheet, allowance=allowance)
 
 
 def _show(found: Developed) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from umform.cli.options import is_typed
 from umform.errors import InvalidValue
 from umform.processes.air_bending.spec import sizes_of
 
@@ -101,8 +102,7 @@ def _refuse_both(context: typer.Context, name: str, path: Path | None, layer: st
 def _refuse_beside(context: typer.Context, others: Iterable[str], what: str, flag: str) -> None:
     """Refuse options on the command line that follow from another one."""
     for other in others:
-        source = context.get_parameter_source(other)
-        if source is not None and source.name == "COMMANDLINE":
+        if is_typed(context, other):
             raise InvalidValue(
                 what,
                 where=f"--{other.replace('_', '-')}",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from umform.cli.metal import by_name
+from umform.cli.options import is_typed
 from umform.cli.root import Debug, Overwrite, app, console, printing
 from umform.errors import InvalidValue
 
@@ -27,6 +29,17 @@ def metal() -> None:
 
 #: Columns of measurements.
 _COLUMNS = ("angle", "stress", "r", "strain", "plastic_strain", "modulus")
+#: Measurements that an option is for.
+_USED_BY = {
+    "column": ("angles", "tension", "cycles", "unloading"),
+    "engineering": ("tension", "cycles"),
+    "percent": ("tension", "cycles", "unloading"),
+    "yield_function": ("angles",),
+    "exponent": ("angles",),
+    "hardening": ("tension",),
+    "back_stress": ("cycles",),
+    "largest_step": ("cycles",),
+}
 _MEASURED, _LAW, _FILES = "Measurements (CSV)", "Law", "Files"
 
 
@@ -129,6 +142,7 @@ def _shown(value: float | None) -> str:
 
 @metals.command()
 def fit(
+    context: typer.Context,
     young: Annotated[float, _option("Young's modulus in MPa.", _LAW)],
     poisson: Annotated[float, _option("Poisson's ratio.", _LAW)] = 0.3,
     angles: Annotated[
@@ -187,6 +201,8 @@ def fit(
     from umform.studies.calibration.files import FILES, write_files
 
     names = dict(_renamed(text) for text in column or ())
+    given = {"angles": angles, "tension": tension, "cycles": cycles, "unloading": unloading}
+    _refuse_idle(context, [name for name, file in given.items() if file is not None])
     measured = Measurements(
         None if angles is None else read_directions(angles, names),
         None
@@ -195,6 +211,7 @@ def fit(
         None if cycles is None else read_cycles(cycles, young, engineering=engineering, percent=percent, names=names),
         None if unloading is None else read_unloading(unloading, young, percent=percent, names=names),
     )
+    _refuse_missing(names, [file for file in given.values() if file is not None])
     found = calibrate(
         measured,
         young,
@@ -213,6 +230,50 @@ def fit(
     finally:  # even if the table cannot be printed
         files = write_files(place, found)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+
+
+def _refuse_idle(context: typer.Context, given: Sequence[str]) -> None:
+    """Refuse options of measurements that are not given, and constants of another law."""
+    for name, measured in _USED_BY.items():
+        if is_typed(context, name) and not set(measured) & set(given):
+            raise InvalidValue(
+                "this option says nothing without its measurements",
+                where=f"--{name.replace('_', '-')}",
+                value=context.params[name],
+                cause=f"{' or '.join(f'--{one}' for one in measured)} is missing",
+                remedy=f"--{measured[0]} FILE.csv beside it, or leave it out",
+            )
+    if is_typed(context, "exponent") and context.params["yield_function"] != "yld2004":
+        raise InvalidValue(
+            "only Yld2004 has an exponent",
+            where="--exponent",
+            value=context.params["exponent"],
+            cause=f"--yield-function {context.params['yield_function']}",
+            remedy="--yield-function yld2004, or leave it out",
+        )
+    if is_typed(context, "hardening") and "cycles" in given:
+        raise InvalidValue(
+            "the hardening of cycles is that of their back stress",
+            where="--hardening",
+            value=context.params["hardening"],
+            cause="--cycles beside it",
+            remedy="leave one of them out",
+        )
+
+
+def _refuse_missing(names: Mapping[str, str], files: Sequence[Path]) -> None:
+    """Refuse another name of a column that no file has."""
+    from umform.studies.calibration.columns import has_column
+
+    for name, other in names.items():
+        if not any(has_column(file, other) for file in files):
+            raise InvalidValue(
+                "no file has a column of this name",
+                where="--column",
+                value=f"{name}={other}",
+                cause="a typing mistake, or a file that is not given",
+                remedy="a name of the first row of a file",
+            )
 
 
 def _renamed(text: str) -> tuple[str, str]:

@@ -81,4 +81,11 @@ def _store(folder: Path | None) -> Store:
     import umform.studies.bend_table.stored  # noqa: F401  (the version of bends)
     from umform.io.store import Store
 
+    if folder is not None and not folder.is_dir():
+        raise FileProblem(
+            "this is no store",
+            where=str(folder),
+            cause="it is a file" if folder.exists() else "there is no such folder",
+            remedy="the folder that --store of another command has made; without --store that of `umform store path`",
+        )
     return Store(folder)

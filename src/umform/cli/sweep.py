@@ -11,7 +11,7 @@ import typer
 
 from umform.cli.check import Changes, DeckFile, Force, Trust, deck_errors, read
 from umform.cli.outcome_screen import print_table
-from umform.cli.root import Debug, Verbose, app, console
+from umform.cli.root import Debug, Overwrite, Verbose, app, console
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
 
@@ -51,6 +51,7 @@ def sweep(
     retry: Annotated[bool, typer.Option("--retry", help="Repeat jobs that were refused or did not converge.")] = False,
     force: Force = False,
     trust: Trust = False,
+    overwrite: Overwrite = False,
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
@@ -63,16 +64,19 @@ def sweep(
 
     print_warnings_once()
     with deck_errors():
+        problem = read(deck, changes or (), trust)
         found = run_sweep(
-            read(deck, changes or (), trust),
+            problem,
             _axes(vary or []),
             jobs=jobs,
+            changes=problem.source.changes,
             measures=measure or (),
             out=out,
             processes=processes,
             files=files,
             retry=retry,
             force=force,
+            overwrite=overwrite,
             on_job=_say if sys.stderr is None or not sys.stderr.isatty() else lambda row: None,
         )
     _show(found)

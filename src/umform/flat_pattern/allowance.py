@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import csv
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol
 
 import numpy as np
 
 from umform.errors import FileProblem, InvalidValue
+from umform.sheet_metals import cards, names
 from umform.studies.bend_table.formats import table_csv
 from umform.studies.bend_table.formats.reading import Reading
 
 #: Part by which radius and thickness of a row of a table may differ from those of a bend.
 _ROW = 0.01
 _COLUMNS = ("angle", "radius", "thickness", "allowance")
+#: Metal, thickness, opening of the die and radius of the punch.
+Setup = tuple[str, float, float, float]
 
 
 @dataclass(frozen=True)
@@ -111,7 +115,7 @@ class AllowanceTable:
             text = path.read_text(encoding="utf-8-sig")
             lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
             if lines and "bend_deduction mm" in lines[0]:
-                return DeductionTable(tuple(table_csv.read(path).values()), path.name)
+                return DeductionTable(table_csv.read(path), path.name)
             rows = [tuple(float(row[name]) for name in _COLUMNS) for row in csv.DictReader(lines)]
         except (OSError, UnicodeDecodeError, KeyError, TypeError, ValueError) as error:
             raise FileProblem(
@@ -146,14 +150,47 @@ class DeductionTable:
     Made by :meth:`AllowanceTable.read`.
     """
 
-    readings: tuple[Reading, ...]
-    """Deductions over the angle between the legs, one for each sheet and tools."""
+    readings: Mapping[Setup, Reading]
+    """Deductions over the angle between the legs, for each sheet and tools."""
     name: str
     """Name of the file."""
 
+    def of(self, metal: str, opening: float | None) -> DeductionTable:
+        """The table without the bends of other metals of the library and of other dies.
+
+        Parameters
+        ----------
+        metal : str
+            Name; one that the library does not know is no other metal.
+        opening : float, optional
+            Opening of the die in mm, if it is known.
+
+        Raises
+        ------
+        InvalidValue
+            Nothing is left.
+        """
+        known = {*names(), *cards()}
+        others = known - {metal} if metal in known else set()
+        kept = {
+            setup: one
+            for setup, one in self.readings.items()
+            if setup[0] not in others and (opening is None or math.isclose(setup[2], opening))
+        }
+        if kept or not self.readings:
+            return replace(self, readings=kept)
+        setups = dict.fromkeys(f"{name} with V {V:g}" for name, _, V, _ in self.readings)
+        raise InvalidValue(
+            "the table is that of another metal or die",
+            where=self.name,
+            value=" with ".join(filter(None, (metal, "" if opening is None else f"V {opening:g}"))),
+            cause=f"it has {', '.join(setups)}",
+            remedy="metal and opening of the table, or a table of these; without a table the bends are computed",
+        )
+
     def __call__(self, angle: float, radius: float, thickness: float) -> Allowance:
         """The allowance of a bend; the table must have one set of tools for its thickness, and reach its angle."""
-        fits = [one for one in self.readings if abs(one.thickness - thickness) <= _ROW * thickness]
+        fits = [one for one in self.readings.values() if abs(one.thickness - thickness) <= _ROW * thickness]
         if len(fits) != 1:
             have = f"{len(fits)} metals and tools have this thickness; give a table of one of them"
             raise _not_in_table(self.name, angle, radius, thickness, have)

@@ -3,15 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
 
-from umform.flat_pattern.allowance import Allowance, AllowanceProvider, outside
+from umform.errors import InvalidValue
+from umform.flat_pattern.allowance import Allowance, AllowanceProvider, AllowanceTable, DeductionTable, KFactor, outside
 from umform.io.store import Store
 from umform.processes.air_bending.formulas import INNER_RADIUS
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence.outside import OutsideBend, OutsidePart
 from umform.processes.bend_sequence.spec import BendSequence, Bodies
+from umform.sheet_metals import name_of
 from umform.studies.bend_table import StoredBend, stored_bends
 from umform.studies.bend_table import bend as stored_bend
+
+if TYPE_CHECKING:
+    from umform.processes.bend_sequence.form import OutsideForm
 
 
 @dataclass(frozen=True)
@@ -93,7 +100,7 @@ def developed(
     Raises
     ------
     InvalidValue
-        If the tools do not bend so far, or the table has no such bend.
+        If the tools do not bend so far, or the table has no such bend, metal or die.
     """
     found = []
     for bend in part.bends:
@@ -103,6 +110,35 @@ def developed(
         else:
             found.append(_computed(stored_bend(case, bend.angle, store=store), part.acute))
     return Developed(part, tuple(found))
+
+
+def developed_of(form: OutsideForm, sheet: AirBending, folder: Path = Path()) -> Developed:
+    """Flat length and bend lines of the part of a file, by the K-factor or the table that it names.
+
+    Parameters
+    ----------
+    form : OutsideForm
+        Data of the file.
+    sheet : AirBending
+        Thickness, material, mesh and default tools.
+    folder : Path
+        That of the file, for the path of a table.
+
+    Raises
+    ------
+    InvalidValue, FileProblem
+        As of `developed`, or the table cannot be read.
+    """
+    if form.k_factor is not None and form.table is not None:
+        raise InvalidValue(
+            "give one source of the flat length of bends",
+            where="table",
+            cause="k_factor is given, too",
+            remedy="leave one of them out, or both: then the bends are computed",
+        )
+    given = None if form.k_factor is None else KFactor(form.k_factor)
+    allowance = AllowanceTable.read(folder / form.table) if form.table is not None else given
+    return developed(form.part(), sheet, allowance=allowance)
 
 
 def developed_at_once(part: OutsidePart, sheet: AirBending, allowance: AllowanceProvider, store: Store) -> Developed:
@@ -129,6 +165,8 @@ def _computed(found: StoredBend, acute: str) -> Deduction:
 
 def _of(allowance: AllowanceProvider, case: AirBending, bend: OutsideBend, acute: str) -> Deduction:
     """By the usual inside radius of an air bend, a part of the opening."""
+    if isinstance(allowance, DeductionTable):
+        allowance = allowance.of(name_of(case.material), case.opening)
     radius, turn = INNER_RADIUS * case.opening, 180.0 - bend.angle
     found: Allowance = allowance(turn, radius, case.thickness)
     setback = radius + case.thickness if _to_tangent(bend.angle, acute) else outside(turn, radius, case.thickness)

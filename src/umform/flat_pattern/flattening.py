@@ -6,12 +6,13 @@ from dataclasses import replace
 from pathlib import Path
 
 from umform.errors import DrawingError, InvalidValue
-from umform.flat_pattern.allowance import AllowanceProvider
+from umform.flat_pattern.allowance import AllowanceProvider, DeductionTable
 from umform.flat_pattern.checks import holes_near_bends, overlap, shortest_flange
 from umform.flat_pattern.order import Orders
 from umform.flat_pattern.pattern import FlatPattern, pattern_of
 from umform.flat_pattern.tooling import ComputedBends, Tooling
 from umform.io.store import Store
+from umform.problem.metal_file import metal_of
 from umform.processes.bend_sequence.spec import Bodies
 from umform.surfaces.cad.read_solid import DEVIATION
 
@@ -62,7 +63,8 @@ def flat(
     DrawingError
         If the part is no bent sheet of one thickness of flat faces and cylindrical bends; the message names the face.
     InvalidValue
-        If neither a metal nor an allowance is given, or the tools do not bend to an angle.
+        If neither a metal nor an allowance is given, the tools do not bend to an angle, or the allowance is a table of
+        another metal or die.
 
     Examples
     --------
@@ -79,6 +81,8 @@ def flat(
         )
     tooling = tooling or Tooling()
     tooling = tooling if metal is None else replace(tooling, metal=metal)
+    if isinstance(allowance, DeductionTable):
+        allowance = allowance.of("" if tooling.metal is None else metal_of(tooling.metal).name, tooling.opening)
     pattern = pattern_of(path, allowance or ComputedBends(tooling, store), deviation=deviation)
     at = overlap(pattern)
     if at is not None:

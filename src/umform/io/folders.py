@@ -97,7 +97,7 @@ def free_folder(default: Path, names: Sequence[str], *, overwrite: bool) -> tupl
     if overwrite:
         return default, ""
     message = ""
-    for folder in _numbered(default):
+    for folder in numbered(default):
         there = _results(folder, names)
         if not there and not is_taken(folder):
             break
@@ -106,7 +106,8 @@ def free_folder(default: Path, names: Sequence[str], *, overwrite: bool) -> tupl
     return folder, message and f"{default} {message}; this run writes to {folder}"
 
 
-def _numbered(folder: Path) -> Iterator[Path]:
+def numbered(folder: Path) -> Iterator[Path]:
+    """A folder, and the same with numbers from 2 on behind its name."""
     yield folder
     for number in count(2):
         yield folder.with_name(f"{folder.name}-{number}")

@@ -33,6 +33,11 @@ class Scalar:
     sentence: str = ""
 
 
+def each(names: Any) -> Any:
+    """Names as they are given; a text or a function alone is a list of one."""
+    return [names] if isinstance(names, str) or callable(names) else names
+
+
 def scalars(spec: Any, path: str = "", unit: str = "", sentence: str = "") -> Iterator[Scalar]:
     """All numbers of a Spec, in the order of its fields; truth values are none."""
     if isinstance(spec, int | float) and not isinstance(spec, bool):

@@ -76,6 +76,7 @@ ELSEWHERE = (
     "processes/draw/two_meshes.py",
     "bench/server.py",
     "flat_pattern/allowance.py",
+    "flat_pattern/developed.py",
     "flat_pattern/drawing.py",
     "flat_pattern/net/",
     "flat_pattern/one_step/",

@@ -74,6 +74,13 @@ def test_a_table_is_issued_again_with_a_corrected_card(tmp_path):
     assert other.exit_code == 1 and "no bends of this metal" in other.stderr
 
 
+def test_a_store_that_is_none_is_refused(tmp_path):
+    (tmp_path / "file").write_text("")
+    for name, said in (("file", "it is a file"), ("missing", "no such folder")):
+        refused = umform(f"store list --store {tmp_path / name}")
+        assert refused.exit_code == 1 and said in refused.stderr
+
+
 def test_the_store_is_listed_exported_and_pruned(store, tmp_path):
     umform(f"{SMALL} --out {tmp_path / 'out'}")
     count = len(list(store.entries()))

@@ -41,7 +41,9 @@ def test_a_table_of_all_jobs_with_failures_by_their_reasons(deck):
 
 def test_jobs_of_a_table(deck):
     (deck.parent / "jobs.csv").write_text('thickness,cells\n0.1,"[4, 1]"\n0.2,"[6, 1]"\n')
-    done = umform(deck, *SMALL, "--jobs", "jobs.csv", "--measure", "elastic_energy")
+    twice = umform(deck, *SMALL, "--jobs", "jobs.csv")
+    assert twice.exit_code == 1 and "mesh.cells" in twice.stderr and "varied as cells" in twice.stderr
+    done = umform(deck, *SMALL[2:], "--jobs", "jobs.csv", "--measure", "elastic_energy")
     assert done.exit_code == 0, done.output
     assert [row["cells"] for row in rows(deck)] == ["[4, 1]", "[6, 1]"]
     assert len({row["elastic_energy"] for row in rows(deck)}) == 2

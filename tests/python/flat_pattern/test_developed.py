@@ -1,14 +1,18 @@
 """Flat length from outside dimensions: by hand with a K-factor, and by bending the part that was developed."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
+from umform import sheet_metals
+from umform.errors import InvalidValue
 from umform.flat_pattern.allowance import KFactor
-from umform.flat_pattern.developed import developed, developed_at_once
+from umform.flat_pattern.developed import developed, developed_at_once, developed_of
 from umform.io.store import Store
 from umform.processes.air_bending import AirBending
 from umform.processes.bend_sequence import bend_sequence
+from umform.processes.bend_sequence.form import sequence_form
 from umform.processes.bend_sequence.outside import OutsideBend, OutsidePart
 
 COARSE = AirBending(thickness=1.0, opening=8.0, elements_per_thickness=1.0, layers=1, increment=0.0125)
@@ -44,6 +48,24 @@ def test_deductions_by_a_k_factor_are_those_of_the_hand():
             for way in ("apex", "tangent")
         )
         assert apex.length == tangent.length
+
+
+def test_the_form_of_a_file_is_developed_by_what_it_names(tmp_path):
+    data = {"flanges": [50.0, 40.0], "bends": [{"angle": 90.0}]}
+    by_factor = developed_of(sequence_form({**data, "k_factor": 0.44}), AirBending())
+    assert by_factor == developed(
+        OutsidePart((50.0, 40.0), (OutsideBend(90.0),)), AirBending(), allowance=KFactor(0.44)
+    )
+    head = "metal,thickness mm,opening mm,punch_radius mm,angle degrees,bend_deduction mm\n"
+    (tmp_path / "bends.csv").write_text(f"{head}DC04,2,16,1.5,90,3.8\nDC04,2,20,1.5,90,4.0\n")
+    form = sequence_form({**data, "table": "bends.csv"})
+    for opening, length in ((16.0, 86.2), (20.0, 86.0)):
+        assert developed_of(form, AirBending(opening=opening), tmp_path).length == pytest.approx(length)
+    with pytest.raises(InvalidValue, match="another metal or die"):
+        developed_of(form, AirBending(opening=12.0), tmp_path)
+    other = replace(AirBending(), material=sheet_metals.get("S355").law)
+    with pytest.raises(InvalidValue, match="another metal or die"):
+        developed_of(form, other, tmp_path)
 
 
 def test_stored_bends_are_known_at_once_and_others_follow_the_factor(tmp_path):

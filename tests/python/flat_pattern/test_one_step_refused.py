@@ -101,11 +101,36 @@ def test_triangles_of_mixed_turns_are_put_in_order():
 
 @pytest.mark.parametrize(
     ("given", "where"),
-    [({"friction": -0.1}, "friction"), ({"gap": 0.5}, "gap"), ({"holder_force": np.nan}, "holder_force")],
+    [
+        ({"friction": -0.1}, "friction"),
+        ({"friction": 5.0}, "friction"),
+        ({"gap": 0.5}, "gap"),
+        ({"holder_force": np.nan}, "holder_force"),
+        ({"rolling": np.nan}, "rolling"),
+        ({"clamped": True, "bead": 50.0}, "bead"),
+        ({"clamped": True, "holder_force": 2e4}, "holder_force"),
+    ],
 )
 def test_numbers_that_cannot_be(given, where):
     with pytest.raises(InvalidValue) as error:
         uf.Blank(STEEL, 1.0, **given)
+    assert error.value.where == where
+
+
+@pytest.mark.parametrize(
+    ("given", "where"),
+    [
+        ({"size": 0.0}, "size"),
+        ({"size": 1e-3}, "size"),
+        ({"scale": -1.0}, "scale"),
+        ({"weld": -1.0}, "weld"),
+        ({"offset": 3.0}, "offset"),
+        ({"offset": np.nan}, "offset"),
+    ],
+)
+def test_a_part_that_cannot_be_read_so(given, where):
+    with pytest.raises(InvalidValue) as error:
+        uf.blank(cylinder(), uf.Blank(STEEL, 1.0), **given)
     assert error.value.where == where
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from brackets import BRACKETS, strip, write
 
@@ -113,6 +115,12 @@ def test_a_table_of_bend_table_gives_deductions(tmp_path, step):
     assert made.size.max() == pytest.approx(44.0 + 34.0 - 3.8, abs=1e-6)  # outer lengths less the deduction
     with pytest.raises(ValueError, match="from 90 to 120"):
         AllowanceTable.read(path)(100.0, 2.0, 2.0)
+    tooling = Tooling(metal="DC04", opening=16.0)
+    assert flat(step("l"), allowance=AllowanceTable.read(path), tooling=tooling).size.max() == made.size.max()
+    for other in (replace(tooling, opening=20.0), replace(tooling, metal="1.4301")):
+        with pytest.raises(ValueError, match="another metal or die") as error:
+            flat(step("l"), allowance=AllowanceTable.read(path), tooling=other)
+        assert "DC04 with V 16" in error.value.cause
     path.write_text(head + rows + "DC04,2,12,1.5,90,3.7\n")
     with pytest.raises(ValueError, match="2 metals and tools have this thickness"):
         AllowanceTable.read(path)(90.0, 2.0, 2.0)

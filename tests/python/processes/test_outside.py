@@ -35,6 +35,7 @@ def test_the_order_of_bending_may_be_another_one():
         ((30.0, 0.0, 5.0), (RIGHT, RIGHT), "flange 2", "must be positive"),
         ((30.0, 50.0, 20.0), (RIGHT, OutsideBend(90.0, line=1)), "bends", "bent once"),
         ((30.0, 50.0), (OutsideBend(90.0, line=2),), "bends", "bent once"),
+        ((30.0, 50.0, 20.0), (OutsideBend(90.0, line=1), OutsideBend(90.0, line=0)), "bends", "bent once"),
         ((30.0, 50.0), (OutsideBend(90.0, tools={"wide": 3.0}),), "bends", "no size of the tools"),
         ((30.0,), (), "bends", "1 to 50 bends"),
     ],

@@ -2,35 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
+from typing import Annotated
 
 from umform.errors import InvalidValue
 from umform.materials import Plastic
+from umform.spec import About, check_fields
+from umform.spec.types import Friction, Length, NotNegative, Rolling
 
 
 @dataclass(frozen=True)
 class Blank:
     """What is asked: the sheet and what holds it, in mm, N and MPa.
-
-    Attributes
-    ----------
-    material : J2 or Metal
-        Law of the sheet; its yield function is taken as that of Hill (1948) with the same r-values.
-    thickness : float
-        Of the blank.
-    rolling : float
-        Angle of the rolling direction to the x-axis of the part, degrees.
-    holder_force : float
-        Force of the blank holder.
-    friction : float
-        Coefficient of friction under the holder, and of punch and die where the sheet is curved.
-    bead : float
-        Restraining force of draw beads per length of the outer edge, N/mm.
-    gap : float, optional
-        Distance of the tools: walls are not thicker.
-    clamped : bool
-        Whether the outer edge is held as it lies, as in stretching.
 
     Examples
     --------
@@ -40,23 +23,25 @@ class Blank:
     """
 
     material: Plastic
-    thickness: float
-    rolling: float = 0.0
-    holder_force: float = 0.0
-    friction: float = 0.0
-    bead: float = 0.0
-    gap: float | None = None
+    """Law of the sheet; its yield function is taken as that of Hill (1948) with the same r-values."""
+    thickness: Length
+    """Thickness of the blank."""
+    rolling: Annotated[Rolling, About(remedy="0 along x, 90 along y")] = 0.0
+    """Angle of the rolling direction to the x-axis of the part."""
+    holder_force: NotNegative = 0.0
+    """Force of the blank holder."""
+    friction: Friction = 0.0
+    """Coefficient of friction under the holder, and of punch and die where the sheet is curved."""
+    bead: NotNegative = 0.0
+    """Restraining force of draw beads per length of the outer edge, N/mm."""
+    gap: Length | None = None
+    """Distance of the tools: walls are not thicker."""
     clamped: bool = False
+    """Whether the outer edge is held as it lies, as in stretching."""
 
     def __post_init__(self) -> None:
-        for name in ("holder_force", "friction", "bead"):
-            if not 0.0 <= getattr(self, name) < math.inf:
-                raise InvalidValue(
-                    f"{name} must not be negative", where=name, value=getattr(self, name), remedy="0 for none"
-                )
-        if not self.thickness > 0.0:
-            raise InvalidValue("the sheet has no thickness", where="thickness", value=self.thickness, remedy="in mm")
-        if self.gap is not None and not self.gap >= self.thickness:
+        check_fields(self)
+        if self.gap is not None and self.gap < self.thickness:
             raise InvalidValue(
                 "the tools are nearer to each other than the sheet is thick",
                 where="gap",
@@ -64,3 +49,12 @@ class Blank:
                 cause="a clearance in place of the distance",
                 remedy=f"about {1.1 * self.thickness:.4g}, or none",
             )
+        for name in ("holder_force", "bead"):
+            if self.clamped and getattr(self, name):
+                raise InvalidValue(
+                    "an edge that is held as it lies does not slide under a holder or through a bead",
+                    where=name,
+                    value=getattr(self, name),
+                    cause="clamped=True beside it",
+                    remedy="leave one of them out",
+                )

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.errors import InvalidValue
 from umform.flat_pattern.one_step.case import Blank
 from umform.flat_pattern.one_step.forces import Friction, Restraint
 from umform.flat_pattern.one_step.law import PathLaw
@@ -24,6 +25,7 @@ from umform.results.forming import FormingLimit, KeelerBrazier, limit_margin
 from umform.results.history import History
 from umform.results.outcome import Outcome
 from umform.results.quantity import Band, Quantity
+from umform.spec import check_value
 from umform.surfaces.triangles import Triangles
 
 Floats = NDArray[np.float64]
@@ -220,7 +222,8 @@ def blank(
         Largest side of a triangle in mm; longer ones are halved. Without it triangles are taken as they are, and those
         of CAD files have up to 1/20 of the size of the part.
     offset : float
-        Distance from the given surface to the mid-surface along its normals, mm; for a skin half of the thickness.
+        Distance from the given surface to the mid-surface along its normals, mm; for a skin half of the thickness, and
+        never more than one.
     limit : callable, optional
         Forming limit; without it that of Keeler and Brazier.
 
@@ -230,6 +233,8 @@ def blank(
 
     Raises
     ------
+    InvalidValue
+        If a number is none, or the triangles would be far too many.
     UnfitTriangles
         If the surface is no sheet: closed, not connected, branched, folded, or of another unit.
     FileProblem
@@ -251,6 +256,15 @@ def blank(
     (39.98, 30.0)
     """
     start = time.process_time()
+    check_value(blank, "offset", offset)
+    if abs(offset) > case.thickness:
+        raise InvalidValue(
+            "the mid-surface is farther from the given surface than the sheet is thick",
+            where="offset",
+            value=offset,
+            cause="another unit, or a move of the part",
+            remedy=f"{0.5 * case.thickness:g} or {-0.5 * case.thickness:g} for a skin",
+        )
     where = str(part) if isinstance(part, str | Path) else "part"
     surface = moved_along_normals(surface_of(part, scale=scale, weld=weld, size=size), offset)
     sheet = sheet_of(surface.points, surface.triangles, case.thickness, where)

@@ -10,8 +10,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.errors import FileProblem
+from umform.errors import FileProblem, InvalidValue
 from umform.mesh import Mesh
+from umform.spec import check_value
+from umform.spec.types import Length, NotNegative, Positive
 from umform.surfaces.cad.opencascade import IGES, STEP, Shape
 from umform.surfaces.stl import read_stl, welded
 from umform.surfaces.triangles import Triangles, halved
@@ -24,14 +26,16 @@ _ARROW, _ANGLE = 5e-4, 10.0
 _FINE, _COARSE = 20.0, 10.0
 #: Distance over the size within which corners of faces are one point.
 _WELD = 1e-6
+#: Largest number of triangles for a given size.
+_MOST = 1_000_000
 
 
 def surface_of(
     part: str | Path | Triangles | tuple[Floats, NDArray[np.integer]],
     *,
-    scale: float = 1.0,
-    weld: float = 0.0,
-    size: float | None = None,
+    scale: Positive = 1.0,
+    weld: NotNegative = 0.0,
+    size: Length | None = None,
 ) -> Triangles:
     """Triangles of a part.
 
@@ -42,15 +46,19 @@ def surface_of(
     scale : float
         Factor on coordinates of a file.
     weld : float
-        Corners nearer than this are one point; 0: 1e-6 of the size.
+        Distance below which corners are one point; 0: 1e-6 of the size.
     size : float, optional
         Largest side of a triangle, mm: longer ones are halved; of CAD files 1/20 of the size of the part.
 
     Raises
     ------
+    InvalidValue
+        If a number is none, or the size asks for far too many triangles.
     FileProblem
         If the file cannot be read, or has no triangles.
     """
+    for name, value in (("scale", scale), ("weld", weld), ("size", size)):
+        check_value(surface_of, name, value)
     if isinstance(part, Triangles):
         made = part
     elif isinstance(part, tuple):
@@ -65,11 +73,31 @@ def surface_of(
             size = size or float(np.ptp(made.points, axis=0).max()) / _FINE
         else:
             made = _of_mesh(path, scale, weld)
-    return made if size is None else halved(made, size)
+    if size is None:
+        return made
+    _refuse_many(made, size)
+    return halved(made, size)
+
+
+def _refuse_many(surface: Triangles, size: float) -> None:
+    """Refuse a largest side that asks for far more triangles than an estimate can have."""
+    x = surface.corners
+    sides = np.linalg.norm(x - np.roll(x, 1, axis=1), axis=2).max(axis=1) / size
+    areas = np.linalg.norm(surface.area_vectors, axis=1) / (0.25 * math.sqrt(3.0) * size) / size
+    count = float(np.maximum(sides, areas).sum())
+    if count > _MOST:
+        raise InvalidValue(
+            f"an estimate has at most {_MOST} triangles",
+            where="size",
+            value=size,
+            cause=f"there would be {count:.2g} or more: another unit, or a slip of the decimal point",
+            remedy=f"a length in mm, such as {float(np.ptp(surface.points, axis=0).max()) / _FINE:.3g}",
+        )
 
 
 def coarse_size(part: Path, scale: float) -> float | None:
     """Side of coarse triangles of a CAD file; None for other files."""
+    check_value(surface_of, "scale", scale)
     if part.suffix.lower() not in STEP + IGES:
         return None
     return Shape(part, scale).size / _COARSE

@@ -60,7 +60,7 @@ class OutsidePart:
     @property
     def lines(self) -> tuple[int, ...]:
         """Number of the bend line of each bend, counted from the left, in order of bending."""
-        return tuple(bend.line or number for number, bend in enumerate(self.bends, start=1))
+        return tuple(number if bend.line is None else bend.line for number, bend in enumerate(self.bends, start=1))
 
     def flat(self, deductions: Sequence[float]) -> tuple[float, tuple[float, ...]]:
         """Flat length, and the positions of the bend lines in order of bending. eq. (5.93)

@@ -39,7 +39,7 @@ class HemMeasures:
     force: Annotated[float, Quantity("force", FORCE_PER_LENGTH, 1)]
     """Force of the plate per length of hem at the end of its travel."""
     largest_force: Annotated[float, Quantity("largest force", FORCE_PER_LENGTH, 1, leading=True)]
-    """Largest gap between flange and base, after unloading."""
+    """Largest force of the plate per length of hem."""
     loaded_height: Annotated[float, Quantity("height under load", "mm", 3)]
     """Outer height of the hem with the plate on it."""
     height: Annotated[float, Quantity("height", "mm", 3, leading=True)]

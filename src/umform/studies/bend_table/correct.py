@@ -16,6 +16,7 @@ from umform.processes.air_bending.remarks import coarse_mesh
 from umform.processes.air_bending.spec import AirBending
 from umform.progress import Show
 from umform.spec import check_value
+from umform.spec.types import Length, Positive
 from umform.studies.identification import Identified, MeasuredNumber, Sought, identify
 
 #: Bounds of the factor of the flow stress, and of the constant that gives the curve its shape, over that of the card.
@@ -53,11 +54,11 @@ def correct(
     case: AirBending,
     angle: float,
     *,
-    angle_deviation: float = 0.1,
-    force: float | None = None,
-    force_deviation: float | None = None,
-    radius: float | None = None,
-    radius_deviation: float | None = None,
+    angle_deviation: Positive = 0.1,
+    force: Positive | None = None,
+    force_deviation: Positive | None = None,
+    radius: Length | None = None,
+    radius_deviation: Positive | None = None,
     name: str = "the card",
     progress: Show = None,
 ) -> Corrected:
@@ -86,20 +87,23 @@ def correct(
     Raises
     ------
     InvalidValue
-        The case has no stroke, the law has no flow curve with a scale, or the measurements do not determine what is
-        looked for.
+        The case has no stroke, a measurement or deviation is not positive, the law has no flow curve with a scale, or
+        the measurements do not determine what is looked for.
     NoConvergence
         The first run does not converge.
     """
     needed_stroke(case)
     check_value(Goal, "angle", angle)
+    given = {"angle_deviation": angle_deviation, "force": force, "force_deviation": force_deviation}
+    for measured, value in (given | {"radius": radius, "radius_deviation": radius_deviation}).items():
+        check_value(correct, measured, value)
     curve = case.material.hardening
     shape = _shape(curve, getattr(case.material, "back_stress", None))
     data = [_measured("angle", angle, angle_deviation, case)]
     if force is not None:
-        data.append(_measured("force", force, force_deviation or 0.01 * abs(force), case))
+        data.append(_measured("force", force, 0.01 * force if force_deviation is None else force_deviation, case))
     if radius is not None:
-        data.append(_measured("radius", radius, radius_deviation or 0.03 * abs(radius), case))
+        data.append(_measured("radius", radius, 0.03 * radius if radius_deviation is None else radius_deviation, case))
     sought: dict[str, Sought] = {"flow_stress": Sought(*_FACTOR, start=1.0)}
     if force is not None and shape:
         sought[shape] = Sought(*_SHAPE, start=1.0)

@@ -20,6 +20,7 @@ from umform.sheet_metals import (
     fit_yoshida_uemori,
     uniaxial,
 )
+from umform.spec import check_value
 from umform.studies.calibration.measurements import Measurements, Test
 
 YIELD_FUNCTIONS = ("hill48", "yld2004")
@@ -94,7 +95,7 @@ def calibrate(
     Raises
     ------
     InvalidValue
-        If there are no measurements, or a name is unknown.
+        If there are no measurements, a name is unknown, or a constant is impossible.
     """
     for name, value, known in (
         ("yield_function", yield_function, YIELD_FUNCTIONS),
@@ -112,6 +113,12 @@ def calibrate(
             cause="no file of measurements",
             remedy="values over the angle, a tension test, or cycles",
         )
+    for argument, constant, number in (("young", "E", young), ("poisson", "nu", poisson)):
+        try:
+            check_value(J2, constant, number)
+        except InvalidValue as error:
+            error.where = argument
+            raise
     fits: dict[str, Fit[Any]] = {}
     function: YieldFunction = Mises()
     if measurements.directions is not None:

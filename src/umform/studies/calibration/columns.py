@@ -34,17 +34,7 @@ def read_rows(
         If the file cannot be read, a column is missing, or a row has another number of cells.
     """
     remedy = f"a CSV file that begins as {example}"
-    try:
-        lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, ValueError) as error:
-        cause = getattr(error, "strerror", None) or "another kind of file, or text that is not UTF-8"
-        raise FileProblem(
-            "the measurements cannot be read", where=str(path), cause=cause.lower(), remedy=remedy
-        ) from None
-    cells = [(number, line.split("#")[0].strip()) for number, line in enumerate(lines, start=1)]
-    table = [(number, [cell.strip() for cell in line.split(",")]) for number, line in cells if line]
-    if not table:
-        raise FileProblem("there are no measurements", where=str(path), cause="an empty file", remedy=remedy)
+    table = _table(path, remedy)
     own = {_key(there): name for name, there in (names or {}).items()}
     header = [own.get(_key(name), _key(name)) for name in table[0][1]]
     missing = [(names or {}).get(name, name) for name in wanted if name not in header]
@@ -68,6 +58,33 @@ def read_rows(
             )
         rows.append((number, dict(zip(header, row, strict=True))))
     return rows
+
+
+def _table(path: str | PathLike[str], remedy: str) -> list[tuple[int, list[str]]]:
+    """Lines of a file that are no comments with their numbers, as cells.
+
+    Raises
+    ------
+    FileProblem
+        If it cannot be read, or there are none.
+    """
+    try:
+        lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
+    except (OSError, ValueError) as error:
+        cause = getattr(error, "strerror", None) or "another kind of file, or text that is not UTF-8"
+        raise FileProblem(
+            "the measurements cannot be read", where=str(path), cause=cause.lower(), remedy=remedy
+        ) from None
+    cells = [(number, line.split("#")[0].strip()) for number, line in enumerate(lines, start=1)]
+    table = [(number, [cell.strip() for cell in line.split(",")]) for number, line in cells if line]
+    if not table:
+        raise FileProblem("there are no measurements", where=str(path), cause="an empty file", remedy=remedy)
+    return table
+
+
+def has_column(path: str | PathLike[str], name: str) -> bool:
+    """Whether a CSV file has a column of a name."""
+    return _key(name) in map(_key, _table(path, "a CSV file with the names of its columns in the first row")[0][1])
 
 
 def _key(name: str) -> str:

@@ -165,7 +165,7 @@ def read_tension(
             where=str(path),
             value=f"{stress.max():.4g} MPa, then {stress[-1]:.4g} MPa",
             cause="engineering values, force over the first area, or rows of the neck",
-            remedy="--engineering (engineering=True) for engineering values; rows up to the largest force",
+            remedy="engineering=True for engineering values; rows up to the largest force",
         )
     if plastic_given:
         strain = strain + stress / young
@@ -234,7 +234,7 @@ def read_unloading(path: Path, young: float, *, percent: bool = False, names: Na
             where=str(path),
             value=worst,
             cause="per cent, or a sign",
-            remedy="--percent (percent=True), or strains divided by 100",
+            remedy="percent=True, or strains divided by 100",
         )
     if not ((modulus > young / 3.0).all() and (modulus < 1.1 * young).all()):
         raise InvalidValue(
@@ -272,7 +272,7 @@ def _pairs(path: Path, percent: bool, given: Names, *, empty: bool) -> tuple[boo
             where=str(path),
             value=f"largest strain {np.abs(strain).max():.4g}",
             cause="per cent",
-            remedy="--percent (percent=True), or strains divided by 100",
+            remedy="percent=True, or strains divided by 100",
         )
     if not _SOFTEST < float(np.abs(known).max()) < _HARDEST:
         raise InvalidValue(

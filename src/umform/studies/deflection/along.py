@@ -16,6 +16,7 @@ from umform.results.outcome import Annex, Study
 from umform.studies.deflection.beam import crown
 from umform.studies.deflection.press_brake import PressBrake
 from umform.studies.derivatives import derivatives
+from umform.studies.own_case import refuse_other_case
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -180,7 +181,7 @@ def angle_along(case: AirBending, brake: PressBrake, length: float, bend: AirBen
     Raises
     ------
     InvalidValue
-        If the bend is longer than the span, or the press brake has none.
+        If the bend is longer than the span, the press brake has none, or the bend is that of another case.
     """
     if brake.span is None or not 0.0 < length <= brake.span:
         raise InvalidValue(
@@ -190,6 +191,8 @@ def angle_along(case: AirBending, brake: PressBrake, length: float, bend: AirBen
             cause=f"their distance is {brake.span}",
             remedy="a bend no longer than the span",
         )
+    if bend is not None:
+        refuse_other_case(bend, case, "bend")
     found = derivatives(case, ["stroke"], ["angle", "force"])
     angle, force = (found[name, "stroke"] for name in ("angle", "force"))
     if angle.value is None or force.value is None:

@@ -18,7 +18,8 @@ from umform.problem.problem import Problem
 from umform.processes.problems import has_operations
 from umform.progress import Show
 from umform.results.quantity import Quantity
-from umform.spec import Scalar
+from umform.spec import Scalar, check_value, each
+from umform.spec.types import Count
 from umform.studies.derivatives.found import Derivatives
 from umform.studies.derivatives.responses import responses
 from umform.studies.derivatives.subjects import (
@@ -42,13 +43,13 @@ _OF_THE_SOLUTION = ("solution.", "output.")
 
 def derivatives(
     subject: Any,
-    by: Sequence[str] | Mapping[str, float],
+    by: str | Sequence[str] | Mapping[str, float],
     of: str | Sequence[str | Callable[[Result], float | Quantity]] | None = None,
     *,
     hold: Mapping[str, str] | None = None,
     options: NewtonOptions | None = None,
     solver: str | None = None,
-    frames: int = 1,
+    frames: Count = 1,
     progress: Show = None,
     checkpoint: str | PathLike[str] | None = None,
 ) -> Derivatives:
@@ -63,7 +64,7 @@ def derivatives(
     subject : Problem, case of a process, or callable
         A problem; a case such as `AirBending` or `BendSequence` with strokes; or a function that is called with the
         parameters and returns a model and its steps.
-    by : sequence of str, or mapping of str to float
+    by : str, sequence of str, or mapping of str to float
         Paths, see `Problem.paths`; parameters with their values for a function.
     of : sequence of str or callable, optional
         Quantities, columns of the history such as ``punch_force:max`` (or last, min, peak, sum), and functions of a
@@ -106,15 +107,15 @@ def derivatives(
     >>> round(found["tip_force", "E"].relative, 6)
     1.0
     """
+    check_value(derivatives, "frames", frames)
     thing = subject_of(subject, by, options, solver)
     known = {one.path: one for one in thing.parameters()}
     held = {name: known_parameter(path, known).path for name, path in (hold or {}).items()}
-    names = list(dict.fromkeys([*by, *held.values()]))
+    names = list(dict.fromkeys([*names_of(thing, by), *held.values()]))
     parameters = list({one.path: one for one in (known_parameter(name, known) for name in names)}.values())
     if parameters and {one.path for one in parameters} <= set(held.values()):
         refuse_followers(parameters, held, "by")
-    if isinstance(of, str) or callable(of):
-        of = [of]
+    of = each(of)
     lead = thing.build()
     shadows, sizes = {}, {}
     for one in parameters:
@@ -198,6 +199,27 @@ def subject_of(subject: Any, by: Any, options: NewtonOptions | None = None, solv
             remedy="a function that takes the numbers and returns model and steps",
         )
     return OfChain(subject) if has_operations(subject) else OfCase(subject)
+
+
+def names_of(
+    thing: Subject, by: str | Sequence[str] | Mapping[str, float], where: str = "by", remedy: str = ""
+) -> list[str]:
+    """Names of parameters; only a function takes their values beside them.
+
+    Raises
+    ------
+    InvalidValue
+        Values for a case or a problem, which has its own.
+    """
+    if isinstance(by, Mapping) and not isinstance(thing, OfFunction):
+        raise InvalidValue(
+            "values beside names are those of a function",
+            where=where,
+            value=by,
+            cause="a case or a problem has values of its own",
+            remedy=remedy or f"{where}={list(by)}; compensate takes bounds={{path: (low, high)}} beside it",
+        )
+    return list(each(by))
 
 
 def paths_of(name: str, known: Mapping[str, Scalar]) -> list[str]:

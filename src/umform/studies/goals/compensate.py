@@ -5,8 +5,9 @@ docs/theory, 5.17
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -17,8 +18,9 @@ from umform.analysis.run import Result
 from umform.errors import InvalidPath, InvalidValue, SolveError, UmformError
 from umform.progress import Tick, progress_bar, silent
 from umform.results.quantity import Quantity
-from umform.spec import Scalar
-from umform.studies.derivatives.derive import derivatives, known_parameter, subject_of
+from umform.spec import Scalar, check_value
+from umform.spec.types import Count
+from umform.studies.derivatives.derive import derivatives, known_parameter, names_of, subject_of
 from umform.studies.derivatives.responses import Response, responses
 from umform.studies.derivatives.subjects import Built, OfCase, Subject
 from umform.studies.goals.found import Compensated, Trial, Wanted
@@ -54,10 +56,10 @@ _DETERMINED = 1e-6
 def compensate(
     subject: Any,
     want: Mapping[str, Wanted],
-    by: Sequence[str] | Mapping[str, float],
+    by: str | Sequence[str] | Mapping[str, float],
     *,
     bounds: Mapping[str, tuple[float, float]] | None = None,
-    most: int = 8,
+    most: Count = 8,
     options: NewtonOptions | None = None,
     solver: str | None = None,
     progress: bool | None = None,
@@ -74,7 +76,7 @@ def compensate(
         As for :func:`umform.derivatives`.
     want : mapping of str to Wanted
         Wanted results by their names, see ``of`` of :func:`umform.derivatives`.
-    by : sequence of str, or mapping of str to float
+    by : str, sequence of str, or mapping of str to float
         Paths of the parameters; with start values for a function.
     bounds : mapping of str to tuple of float, optional
         Least and largest values of parameters.
@@ -110,12 +112,13 @@ def compensate(
     >>> found.reached, len(found.trials) <= 4
     (True, True)
     """
-    _check_wanted(want, most)
+    _check_wanted(want)
+    check_value(compensate, "most", most)
     start = _steady(subject_of(subject, by, options, solver))
     known = {one.path: one for one in start.parameters()}
-    parameters = [known_parameter(name, known) for name in by]
+    parameters = [known_parameter(name, known) for name in names_of(start, by)]
     _check_parameters(parameters, want)
-    limits = {known_parameter(name, known).path: limit for name, limit in (bounds or {}).items()}
+    limits = {known_parameter(name, known, "bounds").path: limit for name, limit in (bounds or {}).items()}
     search = _Search(start, parameters, dict(want), _limits(parameters, limits))
     try:
         with progress_bar(progress) as tick:
@@ -125,7 +128,7 @@ def compensate(
         raise
 
 
-def _check_wanted(want: Mapping[str, Wanted], most: int) -> None:
+def _check_wanted(want: Mapping[str, Wanted]) -> None:
     others = [name for name, one in want.items() if not isinstance(one, Wanted)]
     if not want or others:
         raise InvalidValue(
@@ -134,8 +137,6 @@ def _check_wanted(want: Mapping[str, Wanted], most: int) -> None:
             value=", ".join(others) or None,
             remedy='want={"angle": Wanted(90.0, 0.05)}',
         )
-    if not most >= 1:
-        raise InvalidValue("one run at least is needed", where="most", value=most, remedy="8, for instance")
 
 
 def _check_parameters(parameters: Sequence[Scalar], want: Mapping[str, Wanted]) -> None:
@@ -304,8 +305,7 @@ class _Search:
     def _derived(self, x: Floats) -> tuple[Floats, Floats]:
         """Results, and derivatives by the scaled parameters."""
         thing = self.at(x)
-        by = dict(zip((one.path for one in self.parameters), x.tolist(), strict=True))
-        found = derivatives(thing.given, by, list(self.want), **thing.settings)
+        found = derivatives(thing, [one.path for one in self.parameters], list(self.want))
         self.responses = list(found.measured)
         shown = self._shown(thing.build(), found.run)
         y = self._keep(x, [one.value for one in found.responses], *shown, derived=True)
@@ -366,15 +366,33 @@ def _steady(start: Subject) -> Subject:
 
 def _limits(parameters: Sequence[Scalar], bounds: Mapping[str, tuple[float, float]]) -> Floats:
     """Least and largest value of each parameter, shape (n, 2)."""
+    others = sorted(set(bounds) - {one.path for one in parameters})
+    if others:
+        raise InvalidValue(
+            "only a parameter that follows has bounds",
+            where="bounds",
+            value=", ".join(others),
+            cause="it is missing in by, or another one was meant",
+            remedy=f"name it in by, or bounds of {', '.join(one.path for one in parameters)}",
+        )
     limits = []
     for one in parameters:
-        low, high = bounds.get(one.path, (-np.inf, np.inf))
+        given = bounds.get(one.path, (-np.inf, np.inf))
+        if not isinstance(given, Collection) or [isinstance(end, Real) for end in given] != [True, True]:
+            raise InvalidValue(
+                "bounds are two numbers",
+                where="bounds",
+                value=f"{one.path}: {given}",
+                cause="one number, a text, or None for no bound",
+                remedy="(2.0, 5.0), with -math.inf or math.inf for none",
+            )
+        low, high = given
         if not low < high:
             raise InvalidValue(
                 "the least value is below the largest one",
                 where="by",
                 value=f"{one.path}, {low:g} to {high:g}",
-                cause="the two exchanged" if high < low else "both are equal",
+                cause="the two exchanged" if high < low else "both are equal, or one is nan",
                 remedy="the least value first",
             )
         if not low <= one.value <= high:

@@ -10,6 +10,8 @@ import numpy as np
 
 from umform.errors import InvalidValue
 from umform.io.tables import write_csv
+from umform.processes.rules import number as is_number
+from umform.processes.rules import positive
 from umform.results.outcome import Annex, Study
 from umform.results.quantity import Quantity
 from umform.studies.goals.files import write_text, write_tools
@@ -46,7 +48,7 @@ class Wanted:
     tolerance: float
 
     def __post_init__(self) -> None:
-        if not (np.isfinite(self.value) and np.isfinite(self.tolerance) and self.tolerance > 0.0):
+        if not (is_number(self.value) and positive(self.tolerance)):
             raise InvalidValue(
                 "a wanted result has a finite value and a tolerance above zero",
                 where="want",

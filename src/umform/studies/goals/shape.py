@@ -24,6 +24,8 @@ from umform.progress import Show, progress_bar
 from umform.report.symmetry import mirrors
 from umform.results.forming.tool_distance import pose_in
 from umform.results.outcome import Annex, Study
+from umform.spec import check_value, each
+from umform.spec.types import Count, Positive
 from umform.studies.goals.deviation import SmoothFace, deviations
 from umform.studies.goals.files import write_text
 from umform.studies.goals.found import DECK, TABLE
@@ -174,12 +176,12 @@ class CompensatedShape(Study):
 def compensate_shape(
     subject: Problem | Build,
     faces: Selector,
-    by: Sequence[str] | Mapping[str, OffsetField],
+    by: str | Sequence[str] | Mapping[str, OffsetField],
     *,
     wanted: Shape | None = None,
-    within: float | None = None,
-    most: int = 4,
-    factor: float = 1.0,
+    within: Positive | None = None,
+    most: Count = 4,
+    factor: Positive = 1.0,
     options: NewtonOptions | None = None,
     solver: str | None = None,
     progress: Show = None,
@@ -197,11 +199,11 @@ def compensate_shape(
         tools, and returns a model with such tools and its steps.
     faces : str, callable or array_like
         Lower or upper faces of the sheet that are compared.
-    by : sequence of str, or mapping of str to OffsetField
+    by : str, sequence of str, or mapping of str to OffsetField
         Tools with an offset field that follows; with the fields to begin with for a function. Give all tools that shape
         these faces.
     wanted : Tool, optional
-        The wanted surface of these faces, in the position of the part in the tools.
+        Wanted surface of these faces, in the position of the part in the tools.
     within : float, optional
         Wanted largest deviation; by default a tenth of that of the first run.
     most : int
@@ -221,7 +223,7 @@ def compensate_shape(
     Raises
     ------
     InvalidValue
-        A tool has no field or shapes no part of the faces, or the part is not released.
+        A tool has no field or shapes no part of the faces, the part is not released, or a number is none.
     NoConvergence
         The first run does not converge.
 
@@ -232,7 +234,9 @@ def compensate_shape(
     >>> found = uf.compensate_shape(load("panel.toml"), "upper", ["die", "punch"])  # doctest: +SKIP
     >>> found.write("panel")  # doctest: +SKIP
     """
-    source = _Source.of(subject, by, options, solver)
+    for name, value in (("wanted", wanted), ("within", within), ("most", most), ("factor", factor)):
+        check_value(compensate_shape, name, value)
+    source = _Source.of(subject, each(by), options, solver)
     with progress_bar(progress) as tick:
         first = source.run({})
         search = _Search(first, faces, wanted)

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from umform.errors import InvalidValue
 from umform.problem.errors import slip
+from umform.processes.rules import number as is_number
 from umform.results.quantity import Quantity
 from umform.studies.calibration.columns import number, read_rows
 from umform.studies.derivatives import Derivatives
@@ -81,7 +82,10 @@ class MeasuredNumber:
     at: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        _check(self.name, self.numbers[0], self.numbers[1])
+        given = [self.value] if self.deviation is None else [self.value, self.deviation]
+        if others := [one for one in given if not is_number(one)]:
+            raise _unfit(self.name, others[0])
+        _check(self.name, *self.numbers)
 
     @property
     def name(self) -> str:
@@ -160,7 +164,10 @@ class MeasuredCurve:
                 cause="a file, or a row for each point",
                 remedy="MeasuredCurve.read for a file; np.transpose of rows",
             )
-        x, y = (np.asarray(one, dtype=float) for one in self.points)
+        try:
+            x, y = (np.asarray(one, dtype=float) for one in self.points)
+        except (TypeError, ValueError) as error:
+            raise _unfit(self.name, str(error)) from None
         if x.ndim != 1 or x.shape != y.shape or len(x) < 2:
             raise InvalidValue(
                 "a curve is two or more pairs of numbers",
@@ -169,7 +176,17 @@ class MeasuredCurve:
                 remedy="one ordinate for each abscissa",
             )
         _check(self.name, x, np.ones_like(x))
-        _check(self.name, y, self.numbers[1])
+        try:
+            deviations = self.numbers[1]
+        except (TypeError, ValueError):
+            raise InvalidValue(
+                "the standard deviation of a curve is one number, or one for each ordinate",
+                where=self.name,
+                value=self.deviation,
+                cause=f"there are {len(y)} ordinates",
+                remedy="such as 5.0",
+            ) from None
+        _check(self.name, y, deviations)
 
     @classmethod
     def read(
@@ -299,12 +316,15 @@ class MeasuredCurve:
 
 def _check(name: str, values: Floats, deviations: Floats) -> None:
     numbers, wide = np.isfinite(values), np.isfinite(deviations) & (deviations > 0.0)
-    if numbers.all() and wide.all():
-        return
-    raise InvalidValue(
+    if not (numbers.all() and wide.all()):
+        raise _unfit(name, values[~numbers][0] if not numbers.all() else deviations[~wide][0])
+
+
+def _unfit(name: str, value: object) -> InvalidValue:
+    return InvalidValue(
         "a measurement is a number with a positive standard deviation",
         where=name,
-        value=values[~numbers][0] if not numbers.all() else deviations[~wide][0],
+        value=value,
         cause="an empty cell, a number that is not finite, or one that is zero and has no standard deviation",
         remedy="such as 91.3+-.2; in Python 91.3, 0.2",
     )

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from umform.errors import InvalidValue
+from umform.processes.rules import number
 
 
 @dataclass(frozen=True)
@@ -24,16 +25,11 @@ class Limits:
 
     def __post_init__(self) -> None:
         ends = [one for one in (self.low, self.high) if one is not None]
-        if (
-            not ends
-            or not all(map(math.isfinite, ends))
-            or ends[0] > ends[-1]
-            or (len(ends) == 2 and ends[0] == ends[1])
-        ):
+        if not ends or not all(map(number, ends)) or ends[0] > ends[-1] or (len(ends) == 2 and ends[0] == ends[1]):
             raise InvalidValue(
                 "limits are a smaller and a larger number",
                 where="limits",
-                value=self.text,
+                value=":".join("" if one is None else str(one) for one in (self.low, self.high)),
                 remedy="write low:high, such as 89:91; low: or :high for one limit",
             )
 

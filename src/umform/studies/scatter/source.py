@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 import re
 from dataclasses import dataclass
 
 from umform.errors import InvalidValue
+from umform.processes.rules import positive
 from umform.spec import Scalar
 
 #: Standard deviations in half of a tolerance band.
@@ -39,12 +39,13 @@ class Scatter:
     tolerance: bool = False
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.size) and self.size > 0.0):
+        if not positive(self.size):
             raise InvalidValue(
                 "a scatter is a positive number",
                 where="scatter",
                 value=self.size,
-                remedy="leave out what does not scatter",
+                cause="a sign, or no number",
+                remedy="such as 0.02 or 5%; leave out what does not scatter",
             )
 
     @classmethod
@@ -59,7 +60,7 @@ class Scatter:
         if isinstance(given, Scatter):
             return given
         if not isinstance(given, str):
-            return cls(float(given), tolerance=tolerance)
+            return cls(given, tolerance=tolerance)
         text = _SIGN.sub("", given.strip()).strip()
         relative = text.endswith("%")
         try:

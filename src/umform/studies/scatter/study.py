@@ -15,9 +15,9 @@ from umform.analysis.run import Result
 from umform.errors import InvalidValue, UmformError
 from umform.progress import Show
 from umform.results.quantity import Quantity
-from umform.spec import Scalar
+from umform.spec import Scalar, each
 from umform.studies.derivatives import Derivatives, derivatives
-from umform.studies.derivatives.derive import known_parameter, subject_of
+from umform.studies.derivatives.derive import known_parameter, names_of, subject_of
 from umform.studies.derivatives.subjects import Subject
 from umform.studies.scatter.correlations import covariance
 from umform.studies.scatter.found import Scattered
@@ -34,7 +34,7 @@ Wanted = Sequence[str | Callable[[Result], float | Quantity]]
 def scatter(
     subject: Any,
     sources: Mapping[str, Scatter | float | str],
-    of: Wanted | None = None,
+    of: str | Wanted | None = None,
     *,
     correlations: Mapping[tuple[str, str], float] | None = None,
     limits: Mapping[str, Limits | tuple[float | None, float | None] | str] | None = None,
@@ -55,7 +55,7 @@ def scatter(
         See :func:`umform.derivatives`.
     sources : mapping of str to Scatter, float or str
         Scatter of each parameter by its path: a standard deviation, or a text such as ``"5%"``.
-    of : sequence of str or callable, optional
+    of : str, or sequence of str or callable, optional
         Results, see :func:`umform.derivatives`. Default: those with limits, or all.
     correlations : mapping of tuple of str to float, optional
         Coefficients by pairs of sources; other pairs are independent.
@@ -149,7 +149,7 @@ class Plan:
         cls,
         subject: Any,
         sources: Mapping[str, Scatter | float | str],
-        of: Wanted | None = None,
+        of: str | Wanted | None = None,
         *,
         correlations: Mapping[tuple[str, str], float] | None = None,
         limits: Mapping[str, Limits | tuple[float | None, float | None] | str] | None = None,
@@ -166,6 +166,8 @@ class Plan:
         """
         allowed = {name: Limits.of(one) for name, one in (limits or {}).items()}
         thing = subject_of(subject, values, settings.get("options"), settings.get("solver"))
+        if values is not None:
+            names_of(thing, values, "values", "leave them out")
         numbers = {one.path: one for one in thing.parameters()}
         held = {name: known_parameter(path, numbers, "hold").path for name, path in (hold or {}).items()}
         made = _sources(sources, numbers, held)
@@ -174,7 +176,7 @@ class Plan:
         if values is not None:
             subject = partial(subject, **{name: value for name, value in values.items() if name not in by})
             by = {name: values[name] for name in by}
-        wanted = _wanted(of, allowed, held)
+        wanted = _wanted(each(of), allowed, held)
         return cls(subject, thing, by, tuple(made), matrix, wanted, allowed, held, settings)
 
     def run(self, progress: Show = None) -> Scattered:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pickle
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -13,10 +13,11 @@ from umform.errors import InvalidValue, UmformError
 from umform.pool import run_all
 from umform.progress import Show, progress_bar
 from umform.results.outcome import Outcome
-from umform.spec import About, Scalar, check_fields, takes
-from umform.studies.derivatives.derive import known_parameter, subject_of
+from umform.spec import About, Scalar, check_fields, each, takes
+from umform.studies.derivatives.derive import known_parameter, names_of, subject_of
 from umform.studies.derivatives.responses import responses
 from umform.studies.derivatives.subjects import OfFunction, Subject, refuse_same_model
+from umform.studies.own_case import refuse_other_case
 from umform.studies.slopes.found import Found, Run, Slopes
 from umform.studies.sweep.measures import Function
 
@@ -37,8 +38,8 @@ class SlopeOptions:
 @takes(SlopeOptions)
 def slopes(
     subject: Any,
-    by: Sequence[str] | Mapping[str, float],
-    of: Sequence[str | Function] | None = None,
+    by: str | Sequence[str] | Mapping[str, float],
+    of: str | Sequence[str | Function] | None = None,
     *,
     process: Callable[[Any], Outcome] | None = None,
     base: Outcome | None = None,
@@ -55,9 +56,9 @@ def slopes(
     ----------
     subject : Problem, case of a process, or callable
         As for `derivatives`.
-    by : sequence of str, or mapping of str to float
+    by : str, sequence of str, or mapping of str to float
         Paths of numbers, or their ends; parameters with their values for a function, which runs in this process.
-    of : sequence of str or callable, optional
+    of : str, or sequence of str or callable, optional
         As for `derivatives`, each with a name of its own; with a process, names of its quantities.
     process : callable, optional
         Runs a case, as `hemming` and `air_bending`; a function of a module. An angle that is a goal stays one.
@@ -89,8 +90,10 @@ def slopes(
     >>> found = uf.slopes(Hemming(form="rope"), ["thickness"], process=hemming)  # doctest: +SKIP
     >>> found["roll_in", "thickness"].value, found["roll_in", "thickness"].band  # doctest: +SKIP
     """
-    thing, wanted = subject_of(subject, by), SlopeOptions(**options)
+    thing, wanted, of = subject_of(subject, by), SlopeOptions(**options), each(of)
     planned = planned_runs(subject, by, **options)
+    if base is not None:
+        refuse_other_case(base, thing.given, "base")
     here = isinstance(thing, OfFunction)
     if here:
         refuse_same_model([thing.build(), thing.build()])
@@ -116,7 +119,9 @@ def slopes(
 
 
 @takes(SlopeOptions)
-def planned_runs(subject: Any, by: Sequence[str] | Mapping[str, float], **options: Any) -> list[tuple[str, float]]:
+def planned_runs(
+    subject: Any, by: str | Sequence[str] | Mapping[str, float], **options: Any
+) -> list[tuple[str, float]]:
     """Path and value of the parameter of each run of `slopes` beside that of the subject.
 
     Raises
@@ -127,21 +132,20 @@ def planned_runs(subject: Any, by: Sequence[str] | Mapping[str, float], **option
     thing, wanted = subject_of(subject, by), SlopeOptions(**options)
     if not by:
         raise InvalidValue("there is no parameter for slopes", where="by", remedy='by=["thickness"], for instance')
+    parameters = _parameters(thing, by)
     steps = [step for step in range(-wanted.each_side, wanted.each_side + 1) if step]
     runs = [
-        (one.path, one.value * (1.0 + wanted.width * step / wanted.each_side))
-        for one in _parameters(thing, by)
-        for step in steps
+        (one.path, one.value * (1.0 + wanted.width * step / wanted.each_side)) for one in parameters for step in steps
     ]
     for path, value in runs:
         thing.with_({path: value})
     return runs
 
 
-def _parameters(thing: Subject, by: Iterable[str]) -> list[Scalar]:
+def _parameters(thing: Subject, by: str | Sequence[str] | Mapping[str, float]) -> list[Scalar]:
     """The numbers of these paths, each once; those that have a range."""
     known = {one.path: one for one in thing.parameters()}
-    found = {one.path: one for one in (known_parameter(name, known) for name in by)}
+    found = {one.path: one for one in (known_parameter(name, known) for name in names_of(thing, by))}
     for one in found.values():
         if one.value == 0.0:
             raise InvalidValue(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
 from pathlib import Path
@@ -57,6 +57,15 @@ class Plan:
         return self.refused | {
             number: record for number, record in kept.items() if record is not None and record["outcome"] in finished
         }
+
+    @property
+    def folders(self) -> set[str]:
+        """Names of the folders of the jobs: they depend on the values and on the whole deck."""
+        return {job.folder.name for job in self.jobs.values()}
+
+    def at(self, folder: Path) -> Plan:
+        """The plan with its jobs in a folder."""
+        return replace(self, jobs={n: replace(one, folder=folder / one.folder.name) for n, one in self.jobs.items()})
 
     def alike(self, number: int) -> list[int]:
         """Jobs that are equal to one, itself included: a value may be given twice."""
@@ -118,7 +127,7 @@ def make_plan(
     Raises
     ------
     InvalidValue
-        Nothing is varied, or a key is unknown or ambiguous.
+        Nothing is varied, or a key is unknown, ambiguous, or changed for all jobs, too.
     DeckError
         None of the decks can be read.
     """
@@ -135,6 +144,7 @@ def make_plan(
     varied = list(dict.fromkeys([*(name for values in jobs or () for name in values), *vary]))
     keys = {name: find_key(name, data) for name in varied}
     _check_keys(keys)
+    _check_changes(changes, keys)
     axes = {name: [_value(keys[name], value, data) for value in _values(name, given)] for name, given in vary.items()}
     listed = [{name: _value(keys[name], value, data) for name, value in values.items()} for values in jobs or [{}]]
     combined = [{**values, **dict(zip(axes, chosen))} for values in listed for chosen in product(*axes.values())]
@@ -188,6 +198,19 @@ def _check_keys(keys: Mapping[str, str]) -> None:
             cause="neither a key with values nor a list of jobs",
             remedy="--vary thickness=0.8:1.2:0.1",
         )
+
+
+def _check_changes(changes: Mapping[str, Any], keys: Mapping[str, str]) -> None:
+    """Reject another value for all jobs of a key that each job has its own value of."""
+    for name, key in keys.items():
+        if lost := [one for one in changes if one == key or one.startswith(f"{key}.")]:
+            raise InvalidValue(
+                "a key has a value for all jobs, and is varied",
+                where=lost[0],
+                value=changes[lost[0]],
+                cause=f"it is set, and varied as {name}",
+                remedy="leave one of them out: --set or --vary",
+            )
 
 
 def _check_number(number: int) -> None:

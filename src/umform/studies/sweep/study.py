@@ -15,6 +15,7 @@ from umform.errors import InvalidValue
 from umform.notebook import Display, InNotebook
 from umform.pool import check_processes, run_all
 from umform.progress import Tick, progress_bar
+from umform.spec import each
 from umform.spec.display import value_text
 
 if TYPE_CHECKING:
@@ -101,13 +102,14 @@ def sweep(
     *,
     jobs: Sequence[Mapping[str, Any]] | str | PathLike[str] | None = None,
     changes: Mapping[str, Any] | None = None,
-    measures: Sequence[str | Function] = (),
+    measures: str | Sequence[str | Function] = (),
     out: str | Path | None = None,
     processes: int | None = None,
     executor: Executor | None = None,
     files: bool = False,
     retry: bool = False,
     force: bool = False,
+    overwrite: bool = False,
     progress: bool | None = None,
     on_job: Callable[[Row], None] = lambda row: None,
 ) -> Sweep:
@@ -130,7 +132,7 @@ def sweep(
         multiplies them.
     changes : mapping of str to object, optional
         Other values of keys for all jobs, as ``--set`` gives them.
-    measures : sequence of str or callable, optional
+    measures : str, or sequence of str or callable, optional
         ``"punch_force:max"`` (last, min, max, peak, sum of a column of the history), a quantity such as
         ``"hat.theta1.released"`` (measure of the deck, number, state) or ``"penetration of die"``, ``"springback"``, or
         functions of a module that make a number, or a :class:`umform.results.quantity.Quantity`, from a
@@ -149,6 +151,9 @@ def sweep(
         Run jobs again that were refused or did not converge.
     force : bool
         Run in spite of numbers that are certainly wrong; refused jobs run again.
+    overwrite : bool
+        Whether the table may replace that of another study: one whose finished jobs are none of these. Otherwise the
+        default folder gets a number then, and a given one is refused.
     progress : bool, optional
         Show a progress bar; default: only on a terminal.
     on_job : callable
@@ -165,6 +170,8 @@ def sweep(
         An unknown or ambiguous key or measure.
     DeckError
         No job has a valid deck.
+    FileProblem
+        The given folder has the table of another study.
 
     Examples
     --------
@@ -176,17 +183,22 @@ def sweep(
     from umform.studies.sweep.jobs_file import read_jobs
     from umform.studies.sweep.measures import Measure
     from umform.studies.sweep.plan import make_plan
-    from umform.studies.sweep.table import FILES, JOBS, write
+    from umform.studies.sweep.table import FILES, JOBS, folder_of, write
 
     check_processes(processes)
     _check_executor(executor, processes)
+    measures = each(measures)
     base = deck if isinstance(deck, Problem) else load(deck)
     wanted = [Measure.of(measure) for measure in measures]
     functions = tuple(measure for measure in measures if not isinstance(measure, str))
-    folder = Path(out) if out is not None else Path("results") / f"{Path(base.source.name).stem}-sweep"
     options = {"files": files, "functions": functions, "force": force}
     listed = read_jobs(jobs) if isinstance(jobs, str | PathLike) else jobs
-    plan = make_plan(base, vary or {}, listed, changes or {}, folder.resolve() / JOBS, **options)
+    plan = make_plan(base, vary or {}, listed, changes or {}, Path(), **options)
+    default = Path("results") / f"{Path(base.source.name).stem}-sweep"
+    folder = folder_of(out, default, plan.folders, overwrite=overwrite)
+    if out is None and folder != default:
+        log.warning("%s holds another sweep; this one writes to %s", default, folder)
+    plan = plan.at(folder.resolve() / JOBS)
     if staying := _tools_stay(plan):
         log.warning(staying)
     with staging(folder if out is None else out, FILES) as stage:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import csv
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from umform.errors import FileProblem
+from umform.io.folders import numbered
 from umform.io.parquet import can_write_parquet, write_parquet
 from umform.io.staging import Staging
 from umform.io.tables import write_csv
@@ -35,6 +38,38 @@ def telling(rows: Sequence[Row], measures: Sequence[str]) -> list[str]:
     """The measures to show first: those that differ between jobs, then the others."""
     differ = {name: len({row[name] for row in rows if row["outcome"] == "done"}) > 1 for name in measures}
     return sorted(measures, key=lambda name: not differ[name])[:_FEW]
+
+
+def folder_of(out: str | Path | None, default: Path, jobs: Collection[str], *, overwrite: bool) -> Path:
+    """The folder of a study: the given one, or the first one by default that has not the table of another one.
+
+    Raises
+    ------
+    FileProblem
+        The given folder has the table of another study, which may not be overwritten.
+    """
+    if out is None:
+        return next(one for one in numbered(default) if overwrite or not _others(one, jobs))
+    folder = Path(out)
+    if not overwrite and (others := _others(folder, jobs)):
+        raise FileProblem(
+            "the folder holds another sweep",
+            where=str(folder),
+            value=f"{TABLE} with {others} finished jobs, none of them of this sweep",
+            cause="another deck, another version of umform, or other keys, values or changes",
+            remedy="choose another folder, or --overwrite",
+        )
+    return folder
+
+
+def _others(folder: Path, jobs: Collection[str]) -> int:
+    """Number of finished jobs of a table that has none of these."""
+    try:
+        with (folder / TABLE).open(encoding="utf-8", newline="") as file:
+            done = {row.get("folder") for row in csv.DictReader(file) if row.get("outcome") == "done"}
+    except (OSError, ValueError, csv.Error):  # there is none, or it is damaged
+        return 0
+    return len(done) if done.isdisjoint(jobs) else 0
 
 
 def write(stage: Staging, rows: Sequence[Row], varied: Sequence[str], measures: Sequence[str]) -> list[Path]:

@@ -99,6 +99,16 @@ def test_a_law_without_a_curve_is_refused():
         correct(replace(CARD, material=uf.sheet_metals.get("SPCC").law), 90.0)
 
 
+@pytest.mark.parametrize(
+    "given",
+    [{"force": -5.0}, {"force_deviation": 0.0}, {"angle_deviation": 0.0}, {"radius": 0.0}, {"radius_deviation": -1.0}],
+)
+def test_measurements_and_deviations_are_positive(given):
+    with pytest.raises(InvalidValue) as refused:
+        correct(CARD, 90.0, **given)
+    assert refused.value.where == next(iter(given))
+
+
 @pytest.mark.parametrize(("angle", "case"), [(0.0, CARD), (200.0, CARD), (90.0, replace(CARD, stroke=None))])
 def test_a_measurement_that_is_none_is_refused(angle, case):
     with pytest.raises(InvalidValue):

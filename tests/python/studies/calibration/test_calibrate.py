@@ -254,6 +254,25 @@ def test_the_command(tmp_path):
     assert refused.exit_code == 1
 
 
+@pytest.mark.parametrize(
+    ("more", "where", "said"),
+    [
+        (["--yield-function", "yld2004"], "--yield-function", "--angles is missing"),
+        (["--back-stress", "chaboche1"], "--back-stress", "--cycles is missing"),
+        (["--largest-step", "0.01"], "--largest-step", "--cycles is missing"),
+        (["--angles", str(EXAMPLES / "aa2090_directions.csv"), "--exponent", "8"], "--exponent", "only Yld2004"),
+        (["--column", "stress=sigma"], "--column", "no file has a column"),
+        (["--poisson", "0.6"], "--poisson", "between -1 and 0.5"),
+    ],
+)
+def test_the_command_refuses_what_it_does_not_use(tmp_path, more, where, said):
+    (tmp_path / "tension.csv").write_text("strain,stress\n0.001,70\n0.01,120\n0.03,160\n0.05,180\n0.1,210\n0.2,240\n")
+    words = ["metal", "fit", "--young", "69000", "--tension", str(tmp_path / "tension.csv"), "--engineering", *more]
+    refused = CliRunner().invoke(app, words)
+    assert refused.exit_code == 1
+    assert f"where:  {where}\n" in refused.output and said in refused.output
+
+
 def test_the_library_is_listed_and_shown():
     listed, shown = (CliRunner().invoke(app, ["metal", *words]) for words in (["list"], ["show", "AA6016-T4"]))
     assert "AA6022-T4" in listed.output

@@ -69,7 +69,7 @@ def test_directions_are_refused(file, text, message):
         ("strain,plastic_strain,stress\n0,0,100\n", "strain or plastic_strain"),
         ("strain,stress\n1,200\n5,250\n10,300\n", "strains are fractions"),
         ("strain,stress\n0.01,0.2\n0.05,0.25\n0.1,0.3\n", "stresses are in MPa"),
-        ("strain,stress\n0.01,200\n0.1,300\n0.2,280\n", "--engineering"),
+        ("strain,stress\n0.01,200\n0.1,300\n0.2,280\n", "engineering=True"),
         ("strain,stress\n0.01,200\n0.1,300\n0.05,310\n", "the strains of a tension test rise"),
         ("strain,stress\n0,400\n0.05,450\n0.1,500\n", "smaller than stress / E"),
     ],

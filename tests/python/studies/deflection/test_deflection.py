@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import umform as uf
-from umform.processes.air_bending import AirBending, bending_table
+from umform.processes.air_bending import AirBending, air_bending, bending_table
 from umform.studies.deflection import PressBrake, angle_along, beam_deflection
 
 BRAKE = PressBrake(span=3100.0, ram_height=1400.0, ram_thickness=60.0, bed_height=1200.0, bed_thickness=80.0)
@@ -82,6 +82,12 @@ def test_the_best_crowning_makes_middle_and_ends_equal():
 def test_a_press_brake_that_is_none_is_refused(brake, message):
     with pytest.raises(uf.errors.InvalidValue, match=message):
         PressBrake(**brake)
+
+
+def test_the_bend_of_another_case_is_refused():
+    other = air_bending(replace(CASE, stroke=2.0), progress=False)
+    with pytest.raises(uf.errors.InvalidValue, match="outcome of another case"):
+        angle_along(CASE, BRAKE, 3000.0, other)
 
 
 def test_a_bend_longer_than_the_press_brake_is_refused():

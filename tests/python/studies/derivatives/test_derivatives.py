@@ -111,6 +111,16 @@ def test_a_function_needs_values():
         uf.derivatives(cantilever, by=["E"])
 
 
+def test_values_of_a_case_and_frames_below_one_are_refused():
+    case = AirBending(stroke=3.0)
+    with pytest.raises(InvalidValue, match="those of a function"):
+        uf.derivatives(case, {"die_radius": 2.0})
+    for frames in (0, 1.5):
+        with pytest.raises(InvalidValue) as caught:
+            uf.derivatives(case, "die_radius", frames=frames)
+        assert caught.value.where == "frames"
+
+
 def test_whole_numbers_of_a_function_are_refused_by_name():
     with pytest.raises(InvalidValue, match="it is a whole number") as caught:
         uf.derivatives(cantilever, by={"E": 210000, "thickness": 0.2})

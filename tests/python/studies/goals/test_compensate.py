@@ -122,6 +122,28 @@ def test_more_parameters_than_results_are_refused():
         uf.compensate(cantilever, {"tip_force": uf.Wanted(-2.0, 1e-6)}, by)
 
 
+@pytest.mark.parametrize(
+    ("by", "more", "where"),
+    [
+        ({"stroke": (2.0, 3.5)}, {}, "by"),
+        ("stroke", {"bounds": {"stroke": 5.0}}, "bounds"),
+        ("stroke", {"bounds": {"stroke": (None, 3.2)}}, "bounds"),
+        ("stroke", {"bounds": {"opening": (10.0, 20.0)}}, "bounds"),
+        ("stroke", {"most": 1.5}, "most"),
+    ],
+)
+def test_what_is_no_goal_is_refused_before_a_run(by, more, where):
+    with pytest.raises(InvalidValue) as refused:
+        uf.compensate(BEND, {"angle": uf.Wanted(128.0, 0.02)}, by, **more)
+    assert refused.value.where == where
+
+
+@pytest.mark.parametrize("given", [("a", 1.0), (1.0, "a"), (1.0, 0.0), (None, 1.0)])
+def test_a_wanted_result_is_two_numbers(given):
+    with pytest.raises(InvalidValue, match="a wanted result has"):
+        uf.Wanted(*given)
+
+
 def test_the_angles_of_a_bracket_are_reached_by_its_strokes_in_three_more_runs():
     sheet = AirBending(elements_per_thickness=1, layers=1, increment=0.0125)
     bends = (Bend(25.0, stroke=3.0), Bend(55.0, stroke=3.0, direction="down"))

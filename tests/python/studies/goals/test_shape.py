@@ -169,6 +169,11 @@ def test_what_cannot_be_compensated_is_refused():
         uf.compensate_shape(problem, "upper", ["dye"])
     with pytest.raises(InvalidValue, match="needs tools with offset fields"):
         uf.compensate_shape(lambda: None, "upper", ["die"])
+    for name, values in {"within": (-1.0, "a"), "most": (0, 1.5), "factor": (0.0, np.nan), "wanted": ("x",)}.items():
+        for value in values:
+            with pytest.raises(InvalidValue) as refused:
+                uf.compensate_shape(problem, "upper", "die", **{name: value})
+            assert refused.value.where == name
     short = {"mesh.cells": [6, 1], "steps.0.increments": 12, "steps.0.to.stroke": 2.0}
     held = Problem.read(DECK.partition('[[steps]]\nkind = "free"')[0]).with_(short)
     with pytest.raises(InvalidValue, match="the part is not released"):

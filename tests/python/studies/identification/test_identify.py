@@ -202,7 +202,11 @@ def test_measurements_are_checked(tension):
         uf.identify(bar, BOUNDS, [curve(tension), uf.MeasuredNumber("pull_force:last", 200.0, 1.0)])
     with pytest.raises(UmformError, match="a curve is two or more pairs"):
         uf.MeasuredCurve("pull", "pull_force", ([1.0, 2.0], [1.0]))
-    for value, deviation in ((np.nan, 1.0), (1.0, 0.0), (0.0, None)):
+    with pytest.raises(UmformError, match="one for each ordinate"):
+        uf.MeasuredCurve("pull", "pull_force", ([1.0, 2.0], [1.0, 3.0]), [1.0, 1.0, 1.0])
+    with pytest.raises(UmformError, match="positive standard deviation"):
+        uf.MeasuredCurve("pull", "pull_force", ([1.0, 2.0], [1.0, "b"]))
+    for value, deviation in ((np.nan, 1.0), (1.0, 0.0), (0.0, None), ("a", None), (1.0, True)):
         with pytest.raises(UmformError, match="positive standard deviation"):
             uf.MeasuredNumber("force", value, deviation)
 

@@ -8,6 +8,7 @@ import pytest
 
 import umform as uf
 from umform.errors import InvalidValue
+from umform.processes.air_bending import AirBending
 from umform.results.quantity import Quantity
 from umform.studies.scatter import Limits
 
@@ -181,6 +182,8 @@ def test_how_a_scatter_is_written(text, expected):
         ({"G": "3%"}, {}, "sources", "there is no number of this path"),
         ({}, {}, "sources", "no parameter scatters"),
         ({"E": "0%"}, {}, "E", "a scatter is a positive number"),
+        ({"E": None}, {}, "E", "a scatter is a positive number"),
+        ({"E": True}, {}, "E", "a scatter is a positive number"),
         ({"E": "3,5%"}, {}, "E", "a decimal comma"),
         ({"E": "much"}, {}, "E", "write 0.02, 5% or ±0.1"),
         ({"zero": "3%"}, {"values": VALUES | {"zero": 0.0}}, "zero", "a number instead of a percentage"),
@@ -190,6 +193,7 @@ def test_how_a_scatter_is_written(text, expected):
         ({"E": "3%"}, {"correlations": {("E", "E"): 0.5}}, "correlations", "twice the same parameter"),
         ({"E": 1, "deflection": 1}, {"correlations": {("E", "deflection"): 1.5}}, "correlations", "from -1 to 1"),
         ({"E": "3%"}, {"limits": {"force": "91:89"}}, "limits", "a smaller and a larger number"),
+        ({"E": "3%"}, {"limits": {"force": (None, "b")}}, "limits", "a smaller and a larger number"),
         ({"E": "3%"}, {"limits": {"force": "89"}}, "limits", "low: or :high"),
         ({"E": "3%"}, {"limits": {"force": "89,5:91"}}, "limits", "a decimal comma"),
         ({"E": "3%"}, {"limits": {"force": 210.0}}, "limits", "limits are two numbers"),
@@ -202,6 +206,12 @@ def test_refusals(sources, rest, where, words):
     assert caught.value.where == where
     assert words in str(caught.value)
     assert caught.value.remedy
+
+
+def test_values_beside_a_case_are_refused():
+    with pytest.raises(InvalidValue, match="those of a function") as caught:
+        uf.scatter(AirBending(stroke=3.0), {"thickness": "1%"}, values={"thickness": 2.0})
+    assert caught.value.where == "values"
 
 
 def test_correlations_that_exclude_each_other():

@@ -166,6 +166,22 @@ def test_a_function_that_other_processes_do_not_find_is_refused_before_the_runs(
         slopes(Wavy(), [], process=known, processes=1, progress=False)
 
 
+def test_the_outcome_of_another_case_values_and_half_processes_are_refused():
+    given = {"process": known, "progress": False}
+    with pytest.raises(InvalidValue, match="outcome of another case") as refused:
+        slopes(Wavy(), "length", base=known(Wavy(strength=1.0)), processes=1, **given)
+    assert refused.value.where == "base" and "strength" in refused.value.value
+    with pytest.raises(InvalidValue, match="those of a function"):
+        slopes(Wavy(), {"length": 9.0}, processes=1, **given)
+    with pytest.raises(InvalidValue, match="a whole number"):
+        slopes(Wavy(), "length", processes=1.5, **given)
+
+
+def test_a_text_is_a_list_of_one(found):
+    one = slopes(Wavy(), "length", "straight", process=known, base=known(Wavy()), processes=1, progress=False)
+    assert one["straight", "length"].value == found["straight", "length"].value
+
+
 def test_an_error_of_the_program_ends_the_study():
     def end(case):
         if case.length > 10.0:

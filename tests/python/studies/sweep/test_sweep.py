@@ -120,6 +120,26 @@ def test_finished_jobs_are_not_run_again(deck, ran):
     assert len(ran) == 4
 
 
+def test_the_table_of_another_study_stays_and_fewer_jobs_are_the_same_study(deck, ran, caplog):
+    first = sweep(deck, {"E": [1e5, 2e5]}).files[0]
+    text = first.read_text()
+    for _ in range(2):
+        caplog.clear()
+        other = sweep(deck, {"E": [1e5]}, changes={"mesh.thickness": 2.0})
+        assert other.files[0].parent.name == "pull-sweep-2" and "another sweep" in caplog.text
+    assert first.read_text() == text and len(ran) == 3
+    with pytest.raises(FileProblem, match="another sweep"):
+        sweep(deck, {"E": [3e5]}, out=first.parent)
+    fewer = sweep(deck, {"E": [1e5]}, measures="pull_force:min")
+    assert fewer.measures == ["pull_force:min"] and fewer.files[0] == first and len(ran) == 3
+    assert sweep(deck, {"E": [3e5]}, out=first.parent, overwrite=True).files[0] == first
+
+
+def test_a_key_with_a_value_for_all_jobs_is_not_varied(deck):
+    with pytest.raises(InvalidValue, match="for all jobs"):
+        sweep(deck, {"thickness": [1.0]}, changes={"mesh.thickness": 2.0})
+
+
 def test_files_that_the_deck_reads_are_part_of_what_was_run_and_its_title_is_none(tmp_path):
     path, _ = write_template("own-mesh", tmp_path / "own.toml")
 
