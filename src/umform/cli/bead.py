@@ -32,6 +32,7 @@ from umform.cli.outcome_screen import show_outcome
 from umform.cli.plausible import refuse_implausible
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.scattering import ScatterOptions, scattering
+from umform.cli.several_meshes import extrapolates
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
 from umform.errors import UmformError
@@ -60,13 +61,14 @@ def bead(
     curve: Curve = None,
     flow_curve: FlowCurve = None,
     extrapolate: Annotated[
-        bool,
+        bool | None,
         option(
-            "Also run two coarser meshes: extrapolated forces and their error.",
+            "Also run two coarser meshes: extrapolated forces and their error; default, but not with --want, --derive "
+            "or --scatter.",
             SOLUTION,
             "--extrapolate/--no-extrapolate",
         ),
-    ] = True,
+    ] = None,
     want: Want = None,
     by: By = None,
     derive: Derive = None,
@@ -96,6 +98,7 @@ def bead(
     if deck:
         print_deck(compensated(case, want, by).case)
         return
+    several = extrapolates(extrapolate, want, derive, scatter_options)
     check_derived(case, derive)
     scatter_options.check(case)
     refuse_implausible(case)
@@ -105,7 +108,7 @@ def bead(
     case = goals.case
     with staging(place, FILES):
         with _what_was_reached(place):
-            drawn = extrapolated(case) if extrapolate else drawn_through(case)
+            drawn = extrapolated(case) if several else drawn_through(case)
         more: list[Path] = []
         scatter: list[Path] = []
         wanted: list[Path] = []

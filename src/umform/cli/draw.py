@@ -33,6 +33,7 @@ from umform.cli.outcome_screen import show_outcome
 from umform.cli.plausible import refuse_implausible
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.scattering import ScatterOptions, scattering
+from umform.cli.several_meshes import extrapolates
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
@@ -175,7 +176,8 @@ def u(
     extrapolate: Annotated[
         bool | None,
         option(
-            "Also run a coarser mesh: springback and forces with their errors; default, but not with --coarse.",
+            "Also run a coarser mesh: springback and forces with their errors; default, but not with --coarse, --want, "
+            "--derive or --scatter.",
             SOLUTION,
             "--extrapolate/--no-extrapolate",
         ),
@@ -206,9 +208,8 @@ def u(
     if deck:
         print_deck(compensated(case, want, by).case)
         return
-    one_mesh = coarse or bool(want)  # wanted results are those of the mesh of the case
-    two = not one_mesh if extrapolate is None else extrapolate
-    how = extrapolated if two else draw
+    several = extrapolates(extrapolate, want, derive, scatter_options, usual=not coarse)
+    how = extrapolated if several else draw
     _run(
         case,
         (want, by),

@@ -7,6 +7,7 @@ errors, unusual ones warnings.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -67,10 +68,11 @@ def units(model: Model, *, millimetres: bool = False) -> Iterator[Finding]:
 
 
 def extent(model: Model) -> Finding:
-    """Length and width of the sheet against its thickness."""
+    """Length and width of the sheet against its thickness; in plane strain any width will do."""
     spans, thickness = np.ptp(model.mesh.points, axis=0), sheet_thickness(model.mesh)
     sizes = " x ".join(f"{span:.4g}" for span in spans)
-    ratio = float(spans.min()) / thickness
+    held = model.supports.fixed.reshape(-1, 3).all(axis=0)
+    ratio = float(spans[~held].min(initial=math.inf)) / thickness
     text = f"the sheet spans {sizes} at a thickness of {thickness:.4g}"
     if ratio >= _USUAL_EXTENT:
         return ok("sheet", text)
