@@ -54,7 +54,7 @@ class UmformError(Exception):
     def __str__(self) -> str:
         rows = [
             ("where", self.where),
-            ("value", "" if self.value is None else str(self.value)),
+            ("value", _shown(self.value)),
             ("cause", self.cause),
             ("remedy", self.remedy),
         ]
@@ -71,6 +71,17 @@ class UmformError(Exception):
 
     def __reduce__(self) -> tuple[object, ...]:
         return (_rebuild, (type(self), self.what, self.where, self.value, self.cause, self.remedy))
+
+
+#: Characters of a value that are shown, of an array for example; texts are shown as they are.
+_LONGEST = 200
+
+
+def _shown(value: object) -> str:
+    text = "" if value is None else str(value)
+    if isinstance(value, str) or len(text) <= _LONGEST:
+        return text
+    return f"{' '.join(text.split())[:_LONGEST]} …"
 
 
 #: Last line in place of a traceback.

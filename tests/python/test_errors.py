@@ -8,11 +8,12 @@ import inspect
 import pickle
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import umform
 from umform import errors
-from umform.errors import UmformError
+from umform.errors import InvalidValue, UmformError
 
 CLASSES = [value for _, value in inspect.getmembers(errors, inspect.isclass) if issubclass(value, UmformError)]
 QUESTIONS = {
@@ -99,3 +100,9 @@ def test_what_users_meet_first_is_refused_with_place_cause_and_remedy(file):
         ):
             given = {keyword.arg for keyword in node.exc.keywords}
             assert {"where", "cause", "remedy"} <= given, f"line {node.lineno}: {ast.unparse(node.exc)}"
+
+
+def test_a_long_array_is_not_shown_as_a_whole():
+    text = str(InvalidValue("wrong", value=np.arange(1000.0)))
+    assert len(text) < 300 and text.endswith("…")
+    assert str(InvalidValue("wrong", value="a" * 1000)).count("a") > 1000
