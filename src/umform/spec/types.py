@@ -15,6 +15,8 @@ FOLLOWS: Any = None
 
 #: A length in mm.
 Length = Annotated[float, Gt(0.0), About("mm", cause=_MISSING)]
+#: A length of a sheet or of tools in mm, not of a gap.
+Size = Annotated[float, Ge(1e-3), Le(1e5), About("mm", cause="another unit, or a sign")]
 #: A stress in MPa.
 Stress = Annotated[float, Gt(0.0), About("MPa", cause=_MISSING)]
 #: A force in N.

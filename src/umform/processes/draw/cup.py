@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 from annotated_types import Ge, Le
 
 from umform.errors import InvalidValue
-from umform.processes.draw.spec import Draw, Size, Turn, check_clearance, tight, unusual_pressure
+from umform.processes.draw.spec import Draw, Turn, check_clearance, tight, unusual_pressure
 from umform.spec import About, Rule
-from umform.spec.types import ContactPoints, Force, Friction
+from umform.spec.types import ContactPoints, Force, Friction, Size
 
 if TYPE_CHECKING:
     from umform.mesh import Mesh, Sizes

@@ -11,7 +11,7 @@ from annotated_types import Ge, Le
 from umform.errors import InvalidValue
 from umform.processes.rules import PLASTIC, check_contact_points
 from umform.spec import About, check_fields, parameters
-from umform.spec.types import ContactPoints, Friction, Penalty
+from umform.spec.types import ContactPoints, Friction, Penalty, Size
 
 if TYPE_CHECKING:
     from umform.analysis.newton.options import NewtonOptions
@@ -31,8 +31,6 @@ _YOUNG = (1e3, 1e6)
 _LEAST_PRESSURE = 0.02
 
 
-#: A length of blank or tools.
-Size = Annotated[float, Ge(1e-3), Le(1e5), About("mm", cause="another unit, or a sign")]
 #: Angle that an element turns over a radius.
 Turn = Annotated[float, Ge(1.0), Le(45.0), About("degrees", cause="radians, or a number of elements")]
 

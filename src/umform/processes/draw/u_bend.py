@@ -8,9 +8,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from umform.errors import InvalidValue
-from umform.processes.draw.spec import Draw, Size, Turn, check_clearance, tight, unusual_pressure
+from umform.processes.draw.spec import Draw, Turn, check_clearance, tight, unusual_pressure
 from umform.processes.limit import allowed_penetration
-from umform.spec.types import ContactPoints, Force, Friction, Penalty
+from umform.spec.types import ContactPoints, Force, Friction, Penalty, Size
 
 if TYPE_CHECKING:
     from umform.analysis.newton.options import NewtonOptions

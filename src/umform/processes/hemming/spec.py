@@ -13,7 +13,7 @@ from umform.processes.air_bending.spec import AirBending
 from umform.processes.air_bending.stack import refuse_stack
 from umform.processes.bend_sequence.spec import Bend, BendSequence
 from umform.spec import About, check_fields, parameters
-from umform.spec.types import FOLLOWS, Length
+from umform.spec.types import FOLLOWS, Size
 
 #: Sizes of the tools of the first bend for a sheet of 1 mm: a V of 30 degrees.
 ACUTE: dict[str, float] = {
@@ -83,6 +83,7 @@ class Hemming:
     gap: Annotated[
         float,
         Ge(0.0),
+        Le(1e5),
         About("mm", cause="a sign", remedy="the thickness of the inner sheet or of the insert; 0 closes the hem"),
     ] = FOLLOWS
     """Distance of flange and base, and thickness of inner sheet or insert; the plate stops at two thicknesses and the
@@ -90,16 +91,17 @@ class Hemming:
     force: Annotated[
         float | None,
         Gt(0.0),
+        Le(1e6),
         About("kN/m", cause="a sign", remedy="a force per length of hem; the table of the documentation has some"),
     ] = None
     """Force of the plate per length of hem, at which it stops; without it, the plate moves to its height."""
-    flange: Length = FOLLOWS
+    flange: Size = FOLLOWS
     """Length of the flange, flat, from the bend line to its end."""
-    base: Length = FOLLOWS
+    base: Size = FOLLOWS
     """Length of the base, flat, from the bend line to its end."""
-    insert_from: Length | None = None
+    insert_from: Size | None = None
     """Distance of inner sheet or insert from the inner face at the bend line; without it, three thicknesses."""
-    loop: Length | None = None
+    loop: Size | None = None
     """Distance of the plate of a rope hem from the bend line; without it, half of the flange."""
     angle: Annotated[
         float,
