@@ -24,6 +24,12 @@ def pressed():
     return press_to_force(COARSE, 400.0, progress=False, frames=5)
 
 
+def test_nothing_is_left_of_the_force_after_unloading(pressed):
+    """Two thousandths of it, as of a bend in the air, are a part of the force that bends the legs."""
+    force = pressed.bend.result["stroke_force"]
+    assert abs(force[-1]) <= 2e-5 * abs(force).max()
+
+
 @pytest.mark.parametrize(("die", "punch", "radius"), [(88.0, 88.0, 1.5), (90.0, 85.0, 0.5), (80.0, 60.0, 3.0)])
 def test_at_the_bottom_tip_and_flanks_are_a_thickness_apart(die, punch, radius):
     """The point of the round tip that faces the flank is one thickness from the exact surface of the die, (5.90)."""

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import umform as uf
 from umform.errors import InvalidValue
 from umform.processes.bend_sequence.sides import Strip
 from umform.processes.hemming import Hemming, hemming
@@ -56,7 +57,20 @@ def test_force_is_balanced_between_plate_and_table(hem):
     loaded = int(np.argmax(hem.force))
     forces = [hem.result[f"{tool}_fz"][loaded] for tool in ("plate", "table", "insert")]
     assert abs(sum(forces)) < 1e-6 * max(map(abs, forces))
-    assert hem.force[-1] < 0.01 * hem.measures.largest_force
+
+
+def test_nothing_is_left_of_the_force_after_release(hem, flat):
+    """A thousandth of the force that closes a flat hem bends its flange by half of its springback."""
+    for one in (hem, flat):
+        assert abs(one.force[-1]) <= 1e-6 * one.measures.largest_force
+
+
+def test_a_hem_that_closes_on_itself_has_derivatives(flat):
+    """Along the path of its run, whose plate passes the loss of contact in its last increment."""
+    case = replace(FLAT, sheet=replace(FLAT.sheet, stroke=flat.first.bends[0].measures.stroke))
+    found = uf.derivatives(case, ["sheet.material.E"], ["height", "loop_gap"], progress=False)
+    assert found.warnings == []
+    assert found["height", "sheet.material.E"].value < 0.0  # stiffer: less springback
 
 
 def test_flange_and_base_keep_their_length(hem):
