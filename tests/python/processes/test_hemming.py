@@ -25,6 +25,15 @@ THICK = replace(COARSE, sheet=replace(SHEET, thickness=2.0))
 FLAT = Hemming(base=13.0, increments=96, sheet=acute(elements_per_thickness=1.5, layers=1, increment=0.0125))
 
 
+def test_a_bend_that_its_die_lets_go_keeps_its_derivatives():
+    """Its last increment passes the loss of contact with the die; a point of the punch touches without a force."""
+    bend = replace(FLAT, sheet=replace(FLAT.sheet, stroke=5.6)).first
+    found = uf.derivatives(bend, ["sheet.punch_radius"], ["bend 1: angle"], progress=False)
+    force, active = found.run["stroke_force"], {tool: found.run[f"{tool}_active"] for tool in ("die", "punch")}
+    assert abs(force[-1]) < 1e-9 < abs(force[-2]) and active["die"][-1] == 0 < active["punch"][-1]
+    assert found.warnings == [] and found["bend 1: angle", "sheet.punch_radius"].value is not None
+
+
 @pytest.fixture(scope="module")
 def told():
     return []
@@ -66,7 +75,7 @@ def test_nothing_is_left_of_the_force_after_release(hem, flat):
 
 
 def test_a_hem_that_closes_on_itself_has_derivatives(flat):
-    """Along the path of its run, whose plate passes the loss of contact in its last increment."""
+    """Along the path of its run."""
     case = replace(FLAT, sheet=replace(FLAT.sheet, stroke=flat.first.bends[0].measures.stroke))
     found = uf.derivatives(case, ["sheet.material.E"], ["height", "loop_gap"], progress=False)
     assert found.warnings == []
