@@ -25,8 +25,9 @@ _SHORT = 1.0 - 1e-9
 #: Following runs have the force of the leading one, up to this part of the force at the beginning, once it is below the
 #: second part; the most solutions for it.
 _CLOSE, _NEAR_END, _CLOSER = 1e-13, 1e-2, 5
-#: Below this part of the force at the beginning it says nothing of where contact is lost. Where the force falls to the
-#: second part of the last one, contact is lost; following runs then go back farther, by the third part of the value.
+#: Below this part of the force at the beginning it says nothing of where contact is lost. Where the force falls to this
+#: part of the last one, that of a tool to the second part, contact is lost; following runs then go back farther, by the
+#: third part of the value.
 _LEFT, _SNAPPED, _AWAY = 1e-6, 1e-3, 1e-3
 #: Force of a tool, relative to that at the beginning, above which the sheet stays in its tools at the end.
 _CLAMPED = 1e-3
@@ -218,8 +219,11 @@ class Releasing:
         if led.done and led_to == 0.0:  # the way back is complete, in any run
             target = 0.0
         lost = led.done and run.evaluation.touching(ranks) and not _clamped(lead, led.scale)
-        lost = lost and (isinstance(control, ToolWay) or not lead.evaluation.touching(ranks))
-        if lost and abs(wanted) <= _SNAPPED * abs(led.before[1]):  # it snaps off: no tool near it any more
+        retracts = isinstance(control, ToolWay)
+        lost = lost and (retracts or not lead.evaluation.touching(ranks))
+        if lost and abs(wanted) <= (_SNAPPED if retracts else _LEFT) * abs(
+            led.before[1]
+        ):  # it snaps off: no tool near it
             held, target = False, target + math.copysign(_AWAY * led.start_value, way)
         near = held and (led.done or abs(wanted) < _NEAR_END * led.scale)
         if near:

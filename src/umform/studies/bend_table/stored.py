@@ -21,7 +21,7 @@ from umform.processes.air_bending.spec import AirBending
 from umform.spec import check_value
 
 #: Kind of the entries, and version of their numbers: increase it with any change of the code that changes a bend.
-KIND, RESULTS = "bend", 1
+KIND, RESULTS = "bend", 2
 Store.versions[KIND] = RESULTS
 #: Tolerance of the angle in degrees: 0.0003 mm of bend allowance at R + K T = 3 mm.
 TOLERANCE = 0.005
