@@ -25,7 +25,8 @@ COARSE, ROUGH = 3.0, 5.0
 #: Larger change of the roll-in that is known, and why.
 KNOWN = 0.042
 CAUSE = (
-    "The fold itself has not converged: its largest gap changes by 43 % from 4 to 6 elements, and the roll-in follows it"
+    "The fold itself has not converged: its largest gap changes by 43 % from 4 to 6 elements, and the roll-in "
+    "follows it"
 )
 #: Gap of a closed hem and allowed penetration in thicknesses; largest change of the roll-in to the finer mesh, mm.
 CLOSED, DEEPEST, SAME = 0.01, 0.005, 0.02
