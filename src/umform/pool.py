@@ -118,7 +118,7 @@ def _in_processes(calls: Mapping[int, Callable[[], Answer]], count: int) -> _Ans
         except BaseException:
             for process in set(multiprocessing.active_children()) - others:
                 process.terminate()
-            pool.shutdown(wait=False, cancel_futures=True)
+            pool.shutdown(cancel_futures=True)  # waits for its thread, which the end of Python would meet half closed
             raise
         finally:
             for name, value in before.items():
