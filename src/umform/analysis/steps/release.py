@@ -221,9 +221,8 @@ class Releasing:
         lost = led.done and run.evaluation.touching(ranks) and not _clamped(lead, led.scale)
         retracts = isinstance(control, ToolWay)
         lost = lost and (retracts or not lead.evaluation.touching(ranks))
-        if lost and abs(wanted) <= (_SNAPPED if retracts else _LEFT) * abs(
-            led.before[1]
-        ):  # it snaps off: no tool near it
+        part = _SNAPPED if retracts else _LEFT
+        if lost and abs(wanted) <= part * abs(led.before[1]):  # it snaps off: no tool near it any more
             held, target = False, target + math.copysign(_AWAY * led.start_value, way)
         near = held and (led.done or abs(wanted) < _NEAR_END * led.scale)
         if near:
