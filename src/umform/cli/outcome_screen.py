@@ -67,7 +67,7 @@ def print_table(rows: Sequence[Sequence[str]], title: str | None = None) -> None
     from umform.results.quantity import Bad
 
     header, *cells = rows
-    table = Table(title=title, box=box.SIMPLE_HEAD)
+    table = Table(title=title, box=box.SIMPLE_HEAD, min_width=len(title or ""))
     for number, name in enumerate(header):
         text = number == 0 or name in _TEXT
         table.add_column(name, justify="left" if text else "right", no_wrap=number == 0)

@@ -29,7 +29,7 @@ MEASURES = "Measures"
 _NAMED = 4
 #: Standard deviations of the scatter in half of a band: 95 % of a normal distribution.
 SIGMAS = 2.0
-_SCATTER = "with two standard deviations by the scatter of parameters"
+_SCATTER = "two standard deviations by the scatter of parameters"
 #: File of the quantities of an outcome.
 QUANTITIES = "quantities.csv"
 

@@ -77,7 +77,7 @@ class Band:
         return replace(
             self,
             error=math.hypot(self.error, error),
-            source=f"{self.source}; {source}" if self.source else source,
+            source=f"{self.source}; with {source}" if self.source else source,
             sources={**self.sources, name: error},
         )
 

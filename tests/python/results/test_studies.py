@@ -139,7 +139,7 @@ def test_scatter_widens_a_band():
     bands = [one.band for one in after.quantities]
     assert bands[0].error == pytest.approx(math.hypot(before.quantities[0].band.error, 4.0))
     assert bands[0].sources["scatter"] == 4.0 and bands[0].source.endswith("by the scatter of parameters")
-    assert bands[1].error == 1.0 and bands[1].source == "with two standard deviations by the scatter of parameters"
+    assert bands[1].error == 1.0 and bands[1].source == "two standard deviations by the scatter of parameters"
     assert before.quantities[1].band is None
 
 

@@ -28,7 +28,7 @@ from umform.sheet_metals import sheet_text
 Floats = NDArray[np.float64]
 #: Penetration, relative to the thickness, that is reported.
 _DEEP = 0.02
-_STROKE = "of the stroke for the angle: that of the angle over its change with the stroke"
+_STROKE = "for the stroke, that of the angle over its change with the stroke"
 #: Columns of a bending table.
 _TABLE = ("stroke", "loaded_angle", "angle", "springback", "force", "radius", "k_factor", "bend_deduction")
 

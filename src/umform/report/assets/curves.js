@@ -40,6 +40,13 @@ class Curves {
     return `${this.label(x)} ${digits(Number(Number(this.table.columns[x][row]).toPrecision(precision)))}`;
   }
 
+  // The step of a row, such as the release after a stroke; empty if there is only one.
+  step(row) {
+    const { step } = this.table.columns;
+    const last = step ? step[step.length - 1] : 1;
+    return last > 1 ? `step ${step[row]} of ${last}` : "";
+  }
+
   // One unit of the picture is one pixel of the page, so that its letters are as large as all others.
   resize() {
     const { clientWidth, clientHeight } = this.svg;

@@ -241,7 +241,9 @@ class ShapeView {
     this.legend(range);
     const { row } = this.head.frames[this.frame];
     element("shape-frame").value = this.frame;
-    element("shape-time").textContent = `${window.umform.curves.text(row, 4)} · state ${this.frame} of ${this.count - 1}`;
+    const { curves } = window.umform;
+    const place = [curves.step(row), curves.text(row, 4), `state ${this.frame} of ${this.count - 1}`];
+    element("shape-time").textContent = place.filter(Boolean).join(" · ");
     element("shape-time").dataset.row = row;
     document.dispatchEvent(new CustomEvent("frame", { detail: row }));
     this.draw();

@@ -32,6 +32,8 @@ RESULTS, SHARES = "Scatter of the results", "Shares of the variance in %"
 CAPABLE = 1.33
 #: Share of the largest result of its unit below which a result is round-off.
 _ROUND_OFF = 1e-9
+#: Difference of two runs relative to the result that is the wave of a mesh which follows the source.
+_WAVE = 2e-3
 
 
 @dataclass(frozen=True, repr=False)
@@ -141,7 +143,7 @@ class Scattered(Study):
                     one.response.label,
                     predicted,
                     found,
-                    Bad(text) if (difference or 0.0) > ALLOWED else text,
+                    Bad(text) if _is_bent(one, run) else text,
                     one.response.unit,
                 ]
             )
@@ -162,7 +164,7 @@ class Scattered(Study):
         """What makes the numbers doubtful."""
         own = [*self.derivatives.warnings, *self.failures, *self.derivatives.run.warnings]
         for run in self.second_runs:
-            bent = [one.response.label for one in self._of_run(run) if (run.difference(one.name) or 0.0) > ALLOWED]
+            bent = [one.response.label for one in self._of_run(run) if _is_bent(one, run)]
             if bent:
                 own.append(
                     f"{run.title} changes {', '.join(bent)} by more than {100.0 * ALLOWED:g} % less or more than the "
@@ -229,9 +231,23 @@ class Scattered(Study):
         return bars([one for one in self if one.largest], path)
 
 
+def _is_bent(spread: Spread, run: SecondRun) -> bool:
+    """Whether a result does not change as its derivative: by more than a wave and two units of the last digit."""
+    change = run.change(spread.name)
+    if change is None or (run.difference(spread.name) or 0.0) <= ALLOWED:
+        return False
+    result = spread.response
+    digit = 0.0 if result.decimals is None else 10.0**-result.decimals  # of two rounded numbers
+    return abs(change[1] - change[0]) > max(2.0 * digit, _WAVE * abs(result.value or 0.0))
+
+
 def _with_error(quantity: Quantity, deviation: float | None) -> str:
-    """A number with its error, if that is more than a twentieth of the standard deviation."""
-    shown = quantity.band is not None and quantity.band.error > 0.05 * (deviation or 0.0)
+    """A number with its error, if that shows and is more than a twentieth of the standard deviation."""
+    shown = (
+        quantity.band is not None
+        and quantity.band.error > 0.05 * (deviation or 0.0)
+        and quantity.number(quantity.band.error) != quantity.number(0.0)
+    )
     return f"{quantity.text} {quantity.error_text}" if shown else replace(quantity, band=None).text
 
 

@@ -54,6 +54,25 @@ def test_round_off_is_no_warning():
     assert "bow" not in warned
 
 
+def twice(size, decimals):
+    """A result near 1 that changes by twice of what its derivative predicts: by `size` more."""
+
+    def bent(result):
+        part = (force(result).value / 0.0426353606 - 1.0) / 0.06
+        return Quantity("bent", "N", decimals, value=1.0 + size * (part + part**2))
+
+    return bent
+
+
+@pytest.mark.parametrize(
+    ("size", "decimals", "warned"), [(1e-2, None, True), (1e-3, None, False), (1e-2, 3, True), (1e-2, 2, False)]
+)
+def test_waves_of_a_mesh_and_hidden_digits_are_no_warning(size, decimals, warned):
+    found = scatter({"E": "3%"}, of=(twice(size, decimals),))
+    assert found.second_runs[0].difference("bent") == pytest.approx(0.5, rel=1e-2)
+    assert bool(found.warnings) == warned
+
+
 @pytest.mark.parametrize("r", [-0.5, 0.8, 1.0])
 def test_shares_by_covariance_with_correlations(r):
     found = scatter({"E": "3%", "deflection": "4%"}, correlations={("deflection", "E"): r})["force"]
