@@ -15,7 +15,13 @@ from umform.spec.types import Degrees, Length, Positive, Stress
 class Choices:
     """What the form asks besides the parameters of the processes."""
 
-    groups: ClassVar = {"work": "What to do", "die": "Tools", "yield_stress": "Sheet", "mesh": "Solution"}
+    groups: ClassVar = {
+        "work": "What to do",
+        "die": "Tools",
+        "second_material": "Second sheet",
+        "yield_stress": "Sheet",
+        "mesh": "Solution",
+    }
     """Group of the parameters from each of these on."""
 
     work: Literal["bend", "bottom", "outside", "sequence", "hem", "correct", "cup", "u", "flat", "table"] = "bend"
@@ -28,6 +34,8 @@ class Choices:
     """Die; by numbers, or from a drawing."""
     punch: str | None = None
     """Punch; by numbers, or from a drawing."""
+    second_material: str | None = None
+    """Second sheet; a sheet metal of the library, on the first."""
     yield_stress: Stress | None = None
     """Yield stress Re or Rp0.2 of the coil; without it, that of the library."""
     tensile_strength: Stress | None = None

@@ -11,6 +11,7 @@ from typing import Any
 from umform.bench.choices import Choices, FlatChoices, Measured, TableChoices
 from umform.processes.air_bending.goal import Goal
 from umform.processes.air_bending.spec import AirBending, SizeOf
+from umform.processes.air_bending.stack import StackedSheet
 from umform.processes.bend_sequence import BendSequence
 from umform.processes.bend_sequence.outside import OutsidePart
 from umform.processes.draw.cup import ESAFORM, Cup
@@ -46,9 +47,12 @@ _FIRST = (
     *("u_holder_force", "u_friction", "cup_friction"),
 )
 _SHOWN = ("What to do", "Measured bend", "Part", "Hem", "Flat pattern", "Bend table")
+#: Before the names of the parameters of a second sheet.
+SECOND = "second_"
 #: What the form contains at first, where the Spec has no default.
 _AT_FIRST: dict[str, Any] = {
     "angle": 90.0,
+    f"{SECOND}thickness": 1.0,
     "strip_length": 80.0,
     "angles": [90.0, 105.0, 120.0, 135.0, 150.0],
     "bends": [{"position": 20.0, "angle": 90.0}, {"position": 60.0, "angle": 90.0}],
@@ -195,6 +199,7 @@ _SOURCES = (
         only={
             "budget": ("bend", "bottom"),
             "whole": _ALONE,
+            "second_material": ("bend",),
             **dict.fromkeys(("length", "die", "punch"), _IN_TOOLS),
             **dict.fromkeys(("material", "yield_stress", "tensile_strength", "uniform_elongation"), _METAL),
         },
@@ -212,6 +217,7 @@ _SOURCES = (
         },
         omit=("width", "bottoming"),
     ),
+    _Source(StackedSheet, ("bend",), prefix=SECOND),
     _Source(AirBending, ("table",), called=MANY, many=True),
     _Source(Goal, ("table",), called={"angle": "angles"}, many=True),
     _Source(Measured, ("correct",)),

@@ -17,6 +17,7 @@ from umform.bench.folders import LIVE
 from umform.processes.air_bending.brake import force_per_width
 from umform.processes.air_bending.branches import Brake
 from umform.processes.air_bending.section import Section
+from umform.processes.air_bending.stack import edges_of
 from umform.report.looks import UNKNOWN, Units
 from umform.report.words import column_text
 from umform.results.quantity import FORCE_PER_LENGTH
@@ -129,7 +130,7 @@ class BendProgress:
     def __call__(self, run: Run) -> dict[str, Any]:
         """Live data of the present state."""
         brake, result = self.brake, run.result
-        section = Section.of(run.model.mesh, run.model.u)
+        section, top = (Section.of(run.model.mesh, run.model.u, edges_of(brake.case, group)) for group in (0, -1))
         back = bool(brake.run.steps) and isinstance(brake.run.steps[-1], Release)
         self._trials += back and not self._back
         self._back = back
@@ -144,7 +145,7 @@ class BendProgress:
             "angle": round(section.angle, 3),
             "force": round(float(force[-1]), 3),
             "curve": {"x": stroke[::thin].round(4).tolist(), "y": force[::thin].round(3).tolist()},
-            "section": [section.fibre(height).round(4).tolist() for height in (0.0, 1.0)],
+            "section": [face.round(4).tolist() for face in (section.fibre(0.0), top.fibre(1.0))],
         }
 
     def force(self, result: History) -> NDArray[np.float64]:

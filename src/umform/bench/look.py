@@ -128,13 +128,13 @@ def drawing(case: AirBending, *, bodies: bool = False) -> dict[str, Any]:
         punch = punch_body(case, Bodies())
     return {
         "die": die.points(chord, far).tolist(),
-        "punch": np.add(punch.points(chord, far), (0.0, case.thickness)).tolist(),
+        "punch": np.add(punch.points(chord, far), (0.0, case.height)).tolist(),
         "closed": {"die": die.closed, "punch": punch.closed},
         "depth": case.depth,
         "sizes": {"die": case.sizes("die"), "punch": case.sizes("punch")},
         "half_length": case.half_length,
         "largest_stroke": case.largest_stroke,
-        "thickness": case.thickness,
+        "thickness": case.height,
         "shoulder": case.shoulder,
         "radii": case.radii,
     }
@@ -149,7 +149,7 @@ def _expected(wanted: Wanted, case: AirBending) -> dict[str, Any]:
         "forces": [{"operation": one.operation, "force": [one.low, one.high], "beyond": one.beyond} for one in forces],
         "press": largest(forces).over(wanted.choices.length),
         "radius": INNER_RADIUS * case.opening,
-        "ratio": case.opening / case.thickness,
+        "ratio": case.opening / case.thickest,
     }
 
 
@@ -171,7 +171,7 @@ def _collisions(wanted: Wanted, case: AirBending) -> list[dict[str, Any]]:
 
 def _warnings(wanted: Wanted, case: AirBending) -> list[dict[str, Any]]:
     """Warnings by kind and numbers; the page has their texts."""
-    ratio = case.opening / case.thickness
+    ratio = case.opening / case.thickest
     found = _collisions(wanted, case)
     if not _NARROW <= ratio <= _WIDE:
         found.append({"where": "opening", "kind": "ratio", "bounds": {"ratio": round(ratio, 1)}})

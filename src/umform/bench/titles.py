@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from umform.bench.form import DRAWS
+from umform.bench.form import DRAWS, SECOND
 from umform.processes.air_bending.goal import Goal
 
 #: Most letters of the title of a bend table.
@@ -31,7 +31,10 @@ def title_of(values: Mapping[str, Any], goal: Goal) -> str:
     if work in DRAWS:
         size = f"cup of {values['cup_punch']:g} mm" if work == "cup" else f"U of {values['u_punch_width']:g} mm"
         return f"{values['material']} {values[f'{work}_thickness']:g} mm, {size}"
-    return f"{values['material']} {values['thickness']:g} mm, {_bent(values, goal)}"
+    sheets = f"{values['material']} {values['thickness']:g} mm"
+    if values.get(f"{SECOND}material"):
+        sheets += f" + {values[f'{SECOND}material']} {values[f'{SECOND}thickness']:g} mm"
+    return f"{sheets}, {_bent(values, goal)}"
 
 
 def _bent(values: Mapping[str, Any], goal: Goal) -> str:

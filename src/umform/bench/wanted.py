@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from umform.bench.choices import Choices, Measured
-from umform.bench.form import ABOUT_K, BY_MESH, DRAW_MESHES, DRAWS, HEM_MESHES, MANY, MESHES, WORKS, form_fields
+from umform.bench.form import ABOUT_K, BY_MESH, DRAW_MESHES, DRAWS, HEM_MESHES, MANY, MESHES, SECOND, WORKS, form_fields
 from umform.bench.shelf import KINDS, Shelf
 from umform.bench.titles import title_of
 from umform.bench.values import Mistakes, unfit, unknown, value_of
@@ -20,6 +20,7 @@ from umform.materials import J2, Metal
 from umform.processes.air_bending.bottoming import with_travel
 from umform.processes.air_bending.goal import Goal, check_angle
 from umform.processes.air_bending.spec import AirBending
+from umform.processes.air_bending.stack import StackedSheet
 from umform.processes.bend_sequence import Bend, BendSequence
 from umform.processes.bend_sequence.outside import OutsideBend, OutsidePart
 from umform.processes.draw.cup import Cup
@@ -169,8 +170,30 @@ class Wanted:
             width=self.choices.length if self.choices.whole else None,
             bottoming=self.choices.work == "bottom",
             material=self.law()[0],
+            on_top=self.on_top,
         )
         return case if self.goal.travel is None else with_travel(case, self.goal.travel)
+
+    @property
+    def on_top(self) -> tuple[StackedSheet, ...]:
+        """The second sheet, if there is one.
+
+        Raises
+        ------
+        InvalidValue
+            ``where`` is the name of the field.
+        """
+        from umform.sheet_metals import get
+
+        metal = self.choices.second_material
+        if metal is None:
+            return ()
+        given = self.of(StackedSheet)
+        try:
+            return (StackedSheet(**given, material=get(metal, given["thickness"]).law),)
+        except InvalidValue as error:
+            error.where = SECOND + {"sheet_metals": "material"}.get(error.where, error.where)
+            raise
 
     def sheet(self) -> AirBending:
         """Mesh and tools of the bends of a part or of a table; sizes that follow from them have their defaults."""

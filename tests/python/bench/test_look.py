@@ -37,6 +37,28 @@ def test_expected_force_is_the_rule_of_the_shop():
     assert expected["press"]["operation"] == "bend"
 
 
+def test_a_second_sheet_is_below_the_punch_and_needs_a_force():
+    one, two = look({}), look({"second_material": "DC04", "second_thickness": 0.5})
+    assert two["problems"] == []
+    assert two["drawing"]["thickness"] == one["drawing"]["thickness"] + 0.5
+    lowest = [min(z for _, z in found["drawing"]["punch"]) for found in (one, two)]
+    assert lowest[1] - lowest[0] == pytest.approx(0.5)
+    assert two["expected"]["force"][0] > one["expected"]["force"][0]
+
+
+@pytest.mark.parametrize(
+    ("values", "field"),
+    [
+        ({"second_material": "no metal"}, "second_material"),
+        ({"second_material": "DC04", "second_thickness": -1.0}, "second_thickness"),
+        ({"second_material": "DC04", "second_friction": 0.1, "second_bonded": True}, "second_friction"),
+        ({"second_material": "AA6016-T4"}, "rolling"),
+    ],
+)
+def test_a_second_sheet_that_cannot_be_names_its_field(values, field):
+    assert [row["where"] for row in look(values)["problems"]] == [field]
+
+
 HEM = {
     "form": "insert",
     "opening": 16.0,

@@ -4,7 +4,7 @@ import json
 import re
 
 import pytest
-from visits import Visit, serious
+from visits import Visit, quick, serious
 
 
 def test_outside_dimensions_give_flat_length_and_bend_lines(visit):
@@ -46,6 +46,19 @@ def test_a_part_by_outside_dimensions_is_bent_to_them(visit):
     page.click("#do-again")
     page.locator("[data-rule=flat]").wait_for()
     assert "about" not in page.inner_text("[data-rule=flat] dd")  # the bend is in the store now
+
+
+def test_a_second_sheet_of_the_library_is_bent_with_the_first(visit):
+    page = visit.page
+    page.locator("#fields details[data-group='Second sheet'] summary").click()
+    assert page.locator("#f-second_material option").first.inner_text() == "none"
+    page.select_option("#f-second_material", "1.4301")
+    page.fill("#f-second_thickness", "0,5")
+    page.fill("#f-second_friction", "0.1")
+    quick(page, 1.0)
+    page.wait_for_selector("#run:enabled")
+    page.click("#run")
+    page.locator("#results", has_text="springback of sheet 2").wait_for()
 
 
 def test_a_collision_is_red_before_the_run_and_named(visit):

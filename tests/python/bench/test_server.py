@@ -46,6 +46,18 @@ def test_numbers_are_those_of_the_library_to_the_last_bit(bench, done):
         assert done["summary"][name] == expected[name], name
 
 
+def test_two_sheets_are_those_of_the_library(bench):
+    form = {"second_material": "1.4301", "second_thickness": 0.5, "second_friction": 0.1}
+    job = bench.ended(bench.order(**form))
+    assert job["state"] == "done", job["reason"]
+    assert job["title"] == "DC04 2 mm + 1.4301 0.5 mm, V16, 1 mm"
+    bend = air_bending(Wanted.read(job["parameters"]).case(), progress=False)
+    assert [sheet.thickness for sheet in bend.case.on_top] == [0.5]
+    expected = {one.name: one.value for one in bend.quantities}
+    found = {row["name"]: row["value"] for row in job["summary"]["quantities"]}
+    assert found == expected and "sheet2_springback" in found
+
+
 def test_bottoming_is_that_of_the_library(bench):
     form = {"work": "bottom", "angle": None, "travel": 0.0, "mesh": "quick", "die_angle": 88.0, "punch_angle": 88.0}
     wanted = Wanted.read(form)

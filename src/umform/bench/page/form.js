@@ -147,9 +147,11 @@ export class Form {
       return [make("option", { value: "" }, t("again.none")), ...rows.map((row) => make("option", { value: row.id }, `${row.number} · ${row.title}`))];
     }
     const offered = name === "work" ? choices.filter((one) => !VIEWS_OF_WORK.includes(one)) : choices;
-    if (name !== "metals") return offered.map((one) => make("option", { value: one }, t(`${name}.${one}`, {}, one)));
+    const ofMetals = name === "metals" || name === "second_material";
+    if (!ofMetals) return offered.map((one) => make("option", { value: one }, t(`${name}.${one}`, {}, one)));
     const group = (/** @type {boolean} */ card) => metalsWith(this.library.metals, card, "").map((metal) => make("option", { value: metal.name }, nameOf(metal)));
-    return [false, true].map((card) => make("optgroup", { label: heading(card) }, ...group(card)));
+    const none = name === "metals" ? [] : [make("option", { value: "" }, t("second.none"))];
+    return [...none, ...[false, true].map((card) => make("optgroup", { label: heading(card) }, ...group(card)))];
   }
 
   /** The value of an empty field. @param {import("./fields.js").Field} field */

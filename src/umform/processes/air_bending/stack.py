@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Protocol
+from typing import TYPE_CHECKING, Annotated, ClassVar, Protocol
 
 from annotated_types import Ge, Le
 
@@ -28,6 +28,9 @@ class StackedSheet:
     >>> AirBending(thickness=1.0, opening=12.0, stroke=4.0, on_top=[foil], friction=0.2).height
     1.1
     """
+
+    groups: ClassVar = {"thickness": "Second sheet"}
+    """Group of the parameters from each of these on."""
 
     thickness: Length
     """Thickness of the sheet."""
@@ -87,9 +90,9 @@ def bonded_sheets(case: Stacked) -> list[list[int]]:
     return groups
 
 
-def edges_of(case: Stacked) -> list[str]:
-    """Sets of the nodes of the section at y = 0, of the first sheet with those that are bonded to it."""
-    return [of_sheet(case, "y0", number) for number in bonded_sheets(case)[0]]
+def edges_of(case: Stacked, group: int = 0) -> list[str]:
+    """Sets of the nodes of the section at y = 0, of the sheets that are bonded to the first, or of another group."""
+    return [of_sheet(case, "y0", number) for number in bonded_sheets(case)[group]]
 
 
 def between(number: int) -> str:
