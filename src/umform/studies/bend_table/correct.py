@@ -21,6 +21,8 @@ from umform.studies.identification import Identified, MeasuredNumber, Sought, id
 
 #: Bounds of the factor of the flow stress, and of the constant that gives the curve its shape, over that of the card.
 _FACTOR, _SHAPE = (0.5, 2.0), (0.25, 4.0)
+#: Usual standard deviations of measurements, as parts of them.
+_USUAL = {"force": 0.01, "radius": 0.03}
 #: Misfit in standard deviations that the notes name.
 _FAR = 2.0
 #: Constants of a curve that are stresses, and those that give curves their shape, the first that a curve has.
@@ -94,16 +96,24 @@ def correct(
     """
     needed_stroke(case)
     check_value(Goal, "angle", angle)
-    given = {"angle_deviation": angle_deviation, "force": force, "force_deviation": force_deviation}
-    for measured, value in (given | {"radius": radius, "radius_deviation": radius_deviation}).items():
-        check_value(correct, measured, value)
+    check_value(correct, "angle_deviation", angle_deviation)
     curve = case.material.hardening
     shape = _shape(curve, getattr(case.material, "back_stress", None))
     data = [_measured("angle", angle, angle_deviation, case)]
-    if force is not None:
-        data.append(_measured("force", force, 0.01 * force if force_deviation is None else force_deviation, case))
-    if radius is not None:
-        data.append(_measured("radius", radius, 0.03 * radius if radius_deviation is None else radius_deviation, case))
+    others = {"force": (force, force_deviation), "radius": (radius, radius_deviation)}
+    for measured, (value, deviation) in others.items():
+        check_value(correct, measured, value)
+        check_value(correct, f"{measured}_deviation", deviation)
+        if value is not None:
+            data.append(_measured(measured, value, _USUAL[measured] * value if deviation is None else deviation, case))
+        elif deviation is not None:
+            raise InvalidValue(
+                "a standard deviation has no measurement",
+                where=f"{measured}_deviation",
+                value=deviation,
+                cause=f"no {measured} beside it",
+                remedy=f"give {measured}, or leave the deviation out",
+            )
     sought: dict[str, Sought] = {"flow_stress": Sought(*_FACTOR, start=1.0)}
     if force is not None and shape:
         sought[shape] = Sought(*_SHAPE, start=1.0)

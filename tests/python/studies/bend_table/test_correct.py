@@ -109,6 +109,13 @@ def test_measurements_and_deviations_are_positive(given):
     assert refused.value.where == next(iter(given))
 
 
+@pytest.mark.parametrize("measured", ["force", "radius"])
+def test_a_deviation_without_its_measurement_is_refused(measured):
+    with pytest.raises(InvalidValue, match="has no measurement") as refused:
+        correct(CARD, 90.0, **{f"{measured}_deviation": 1.0})
+    assert refused.value.where == f"{measured}_deviation"
+
+
 @pytest.mark.parametrize(("angle", "case"), [(0.0, CARD), (200.0, CARD), (90.0, replace(CARD, stroke=None))])
 def test_a_measurement_that_is_none_is_refused(angle, case):
     with pytest.raises(InvalidValue):
