@@ -16,6 +16,7 @@ from umform.problem import Problem
 from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.problem import problem_of
+from umform.processes.bend_sequence import Bend, BendSequence, bend_sequence
 from umform.processes.draw_bead.case import build
 from umform.processes.draw_bead.spec import DrawBead
 from umform.sheet_metals import get, uniaxial
@@ -51,7 +52,19 @@ def test_force_and_springback_follow_the_yield_stress(bends):
 
 def test_plus_and_minus_are_mirror_images(bends):
     other = air_bending(replace(COARSE, rolling=-45.0), progress=False)
-    assert other.measures.angle == pytest.approx(bends[45.0].measures.angle, abs=1e-6)
+    for name in ("angle", "radius", "smallest_radius", "k_factor", "outer_strain", "thinning"):
+        assert other[name].value == pytest.approx(bends[45.0][name].value, rel=1e-6), name
+
+
+def test_so_are_those_of_a_part():
+    """Its strip is turned over for the second bend."""
+    bends = (Bend(20.0, 150.0), Bend(45.0, 150.0, direction="down"))
+    parts = []
+    for rolling in (45.0, -45.0):
+        sheet = replace(COARSE, stroke=None, rolling=rolling)
+        parts.append(bend_sequence(BendSequence(length=65.0, bends=bends, sheet=sheet), progress=False))
+    one, other = (part.profile for part in parts)
+    assert other == pytest.approx(one, abs=1e-6)
 
 
 def test_the_deck_gives_the_same_bits(bends):

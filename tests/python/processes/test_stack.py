@@ -47,6 +47,18 @@ def test_two_sheets_need_twice_the_force_of_one(free):
     assert free.measures.below_die == 0.0
 
 
+def test_an_oblique_metal_on_top_shears_along_the_bend():
+    """In plane strain by supports only: the element of plane strain has no shear."""
+    metal = uf.sheet_metals.get("AA6016-T4").law
+    oblique = [
+        replace(stack(rolling=angle), on_top=(StackedSheet(1.0, metal, 0.1),), stroke=1.0) for angle in (45.0, -45.0)
+    ]
+    one, other = (air_bending(case, progress=False) for case in oblique)
+    assert one.case.shears and one.case.plane_strain is None and not stack(rolling=45.0).shears
+    for name in ("force", "sheet1_radius", "sheet2_radius", "sheet2_angle", "outer_strain", "sheet1_gap"):
+        assert one[name].value == pytest.approx(other[name].value, rel=1e-6)
+
+
 def test_friction_between_two_sheets_adds_the_moment_of_its_forces(free):
     """With M = 2 M1 + mu N t at the punch, N the force of a shoulder and l its lever: F = 2 F1 / (1 - mu t / l)."""
     rubbed = air_bending(stack(0.5), progress=False)

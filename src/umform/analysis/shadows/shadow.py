@@ -231,13 +231,23 @@ class Shadow:
         return done
 
     def _solved(self, goal: State, u: Floats, du: Floats, factors: Factors | None, guess: Guess) -> Evaluation:
-        """Equilibrium from ``u + du``; a run that does not get there begins with a line search of its own."""
-        try:
-            return self._correct(goal, u, du, factors, guess)
-        except Failed as failure:
-            missed = failure
+        """Equilibrium from ``u + du``.
+
+        A run that does not get there by the factors of the reference takes its own: where the reference is free of its
+        tools, and this run not yet, they are those of a sheet that nothing holds. Then it begins with a line search.
+        """
         system, newton = self.run.model.system, self.run.newton
-        system.revert()
+        missed: Failed | None = None
+        for given in [None] if factors is None else [factors, None]:
+            try:
+                found = self._correct(goal, u, du, given, guess)
+            except Failed as failure:
+                missed = missed or failure
+                system.revert()
+            else:
+                self.kept.own += missed is not None
+                return found
+        assert missed is not None
         system.prepare(goal)
         near = newton.but(residual=_NEAR).solve(goal, du, newton.mode(friction=True))
         found = self._correct(goal, near.x, np.zeros_like(u), None)

@@ -30,7 +30,7 @@ _CHANGE = 1e-9
 
 @dataclass(frozen=True)
 class Section:
-    """Section of half of the bent sheet at y = 0, the lines of nodes through the thickness one after the other.
+    """Section of half of the bent sheet, the lines of nodes through the thickness one after the other.
 
     Attributes
     ----------
@@ -46,20 +46,28 @@ class Section:
 
     @classmethod
     def of(cls, mesh: Mesh, u: Floats, edges: Sequence[str] = ("y0",)) -> Self:
-        """Section of a mesh of half of the sheet under displacements u, shape (n, 3) or (3 n,); edges: its sets."""
+        """Section of a mesh of half of the sheet under displacements u, shape (n, 3) or (3 n,).
+
+        Parameters
+        ----------
+        mesh : Mesh
+            The mesh.
+        u : ndarray
+            Displacements.
+        edges : sequence of str
+            Sets of the nodes in its plane, or in several planes across y, of which the section is the mean.
+        """
         return next(cls.each(mesh, [u], edges))
 
     @classmethod
     def each(cls, mesh: Mesh, states: Iterable[Floats], edges: Sequence[str] = ("y0",)) -> Iterator[Self]:
         """Sections of a mesh of half of the sheet under several displacements, whose lines of nodes are found once."""
-        middle = unique(np.concatenate([mesh.nodes(edge) for edge in edges]))
-        X = mesh.points[middle][:, [0, 2]]
-        lines = len(np.unique(X[:, 0]))
-        order = np.lexsort((X[:, 1], X[:, 0]))
-        X = X[order].reshape(lines, -1, 2)
-        nodes = middle[order]
+        nodes = unique(np.concatenate([mesh.nodes(edge) for edge in edges]))
+        nodes = nodes[np.lexsort(mesh.points[nodes].T[[1, 2, 0]])]  # by x, then z, then y
+        lines, planes = (len(np.unique(mesh.points[nodes, axis])) for axis in (0, 1))
+        X = mesh.points[nodes[::planes]][:, [0, 2]].reshape(lines, -1, 2)
         for u in states:
-            d = u.reshape(-1, 3)[nodes][:, [0, 2]].reshape(lines, -1, 2)
+            d = u.reshape(-1, 3)[nodes][:, [0, 2]].reshape(lines, -1, planes, 2).mean(axis=2)
             yield cls(X, X + d, 2 if mesh.cell == "hex18" else 1)
 
     @property

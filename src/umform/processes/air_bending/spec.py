@@ -226,8 +226,13 @@ class AirBending:
     def plane_strain(self) -> bool | None:
         """Option of the element; None for a sheet of finite width, and for one that shears along the bend."""
         own = not isinstance(self.element, str)
-        shears = getattr(self.material, "directional", False) and self.rolling not in (0.0, 90.0)
-        return None if self.width is not None or shears or own else True
+        return None if self.width is not None or self.shears or own else True
+
+    @property
+    def shears(self) -> bool:
+        """Whether a section in plane strain shears along the bend: in an oblique rolling direction of a metal."""
+        directional = any(getattr(sheet.material, "directional", False) for sheet in self.sheets)
+        return self.width is None and directional and (self.rolling or 0.0) % 90.0 != 0.0
 
     @property
     def way(self) -> float:

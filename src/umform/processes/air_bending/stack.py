@@ -68,6 +68,10 @@ class Stacked(Protocol):
     def rolling(self) -> float | None:
         """See `AirBending`."""
 
+    @property
+    def shears(self) -> bool:
+        """See `AirBending`."""
+
 
 def of_sheet(case: Stacked, what: str, number: int = 0) -> str:
     """Name of a set of one of the sheets, counted from the die from 0: ``upper``, or ``upper of sheet1`` of several."""
@@ -91,8 +95,14 @@ def bonded_sheets(case: Stacked) -> list[list[int]]:
 
 
 def edges_of(case: Stacked, group: int = 0) -> list[str]:
-    """Sets of the nodes of the section at y = 0, of the sheets that are bonded to the first, or of another group."""
-    return [of_sheet(case, "y0", number) for number in bonded_sheets(case)[group]]
+    """Sets of the nodes of the section, of the sheets that are bonded to the first, or of another group."""
+    return [edge for number in bonded_sheets(case)[group] for edge in edges_of_sheet(case, number)]
+
+
+def edges_of_sheet(case: Stacked, number: int) -> list[str]:
+    """Sets of the nodes of the section of one sheet: its face y0, and y1 if it shears along the bend."""
+    faces = ("y0", "y1") if case.shears else ("y0",)
+    return [of_sheet(case, face, number) for face in faces]
 
 
 def between(number: int) -> str:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from umform.analysis.run import Result
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.spec import AirBending
-from umform.processes.air_bending.stack import name_of, of_sheet
+from umform.processes.air_bending.stack import edges_of_sheet, name_of
 from umform.results.quantity import Band, Quantity, in_rows
 
 Floats = NDArray[np.float64]
@@ -39,7 +39,7 @@ class SheetOfStack:
 def stack_of(case: AirBending, result: Result, loaded: Floats) -> tuple[SheetOfStack, ...]:
     """The sheets of a bend from the die upwards, at its end and with displacements under load; none of a single one."""
     mesh, u = result.model.mesh, result.model.u
-    edges = [[of_sheet(case, "y0", number)] for number in range(len(case.sheets))] if case.on_top else []
+    edges = [edges_of_sheet(case, number) for number in range(len(case.sheets))] if case.on_top else []
     pairs = [(Section.of(mesh, loaded, edge), Section.of(mesh, u, edge)) for edge in edges]
     found = []
     for number, (under_load, released) in enumerate(pairs):

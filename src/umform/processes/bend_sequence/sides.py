@@ -17,7 +17,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Strip:
-    """Section of the strip at y = 0, the lines of nodes through the thickness one after the other.
+    """Section of the strip, the lines of nodes through the thickness one after the other.
 
     Attributes
     ----------
@@ -33,8 +33,12 @@ class Strip:
 
     @classmethod
     def of(cls, mesh: Mesh, u: Floats, edge: str = "y0") -> Strip:
-        """Section of a mesh of a flat strip under displacements u, shape (n, 3) or (3 n,); edge: its set of nodes."""
-        section = Section.of(mesh, u, [edge])
+        """Section of a mesh of a flat strip under displacements u, shape (n, 3) or (3 n,).
+
+        It is the mean of the faces y0, whose nodes are the set `edge`, and y1: in an oblique rolling direction the
+        strip shears.
+        """
+        section = Section.of(mesh, u, [edge, edge.replace("y0", "y1")])
         return cls(section.reference, section.current, section.order)
 
     def at(self, position: float, *, over: bool) -> Strip:

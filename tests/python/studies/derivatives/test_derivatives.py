@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -299,6 +300,17 @@ def test_shadows_of_a_bend_are_near_at_once_and_in_balance():
         assert shadow.balance().force_imbalance.max() < 1e-10
         assert shadow["die_penetration"].max() < 0.01  # what a sheet of 2 mm allows
     assert found.runs.reference.balance().force_imbalance.max() < 1e-12
+
+
+@pytest.mark.parametrize("further", [0.0, -1e-3, 1e-4])
+def test_a_bottomed_sheet_has_derivatives_however_its_tools_let_it_go(further):
+    """By one increment to no contact at all, where the tangent is singular, or by small ones to no force."""
+    case = AirBending(bottoming=True, layers=1, elements_per_thickness=1.0, increment=0.05)
+    case = replace(case, stroke=6.87925646 + further)
+    found = uf.derivatives(case, ["stroke", "thickness"], ["force", "angle"], progress=False)
+    assert not found.warnings
+    assert found["force", "stroke"].value == pytest.approx(3800.0, rel=0.02)
+    assert found["angle", "stroke"].value == pytest.approx(-16.33, rel=0.02)
 
 
 def test_the_picture_shows_the_main_result():
