@@ -53,9 +53,9 @@ def coarse_mesh(case: AirBending, like: AirBending | None = None) -> list[str]:
     return found
 
 
-def of_this_mesh(case: AirBending, quantities: Sequence[Quantity]) -> list[Quantity]:
-    """Numbers of a bend; on a coarse mesh those without an error are marked, but for strokes."""
-    coarse = bool(coarse_mesh(case))
+def of_this_mesh(case: AirBending, quantities: Sequence[Quantity], like: AirBending | None = None) -> list[Quantity]:
+    """Numbers of a bend; on a mesh coarser than that of `like` those without an error are marked, but for strokes."""
+    coarse = bool(coarse_mesh(case, like))
     return [replace(one, of_mesh=coarse and one.band is None and one.name not in STROKES) for one in quantities]
 
 

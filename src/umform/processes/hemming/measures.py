@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from umform.analysis.run import Result
 from umform.problem.problem import Problem
-from umform.processes.air_bending.remarks import coarse_mesh, extrapolated, tools_text
+from umform.processes.air_bending.remarks import coarse_mesh, extrapolated, of_this_mesh, tools_text
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.sheet import studied_mesh
 from umform.processes.bend_sequence.part import Part, after
@@ -134,7 +134,7 @@ class Hem(Outcome):
         """The measures, and the angle of the first bend: a goal, unless the sheet has a stroke."""
         first = Quantity("angle of the first bend", "degrees", 2, name="first_angle")
         angle = replace(first, value=self.first.bends[0].measures.angle)
-        found = self.banded(quantities_of(self.measures))
+        found = of_this_mesh(self.case.sheet, self.banded(quantities_of(self.measures)), acute())
         if self.case.force is not None:
             found = [replace(one, band=GIVEN) if one.name in _PRESSED else one for one in found]
         if self.case.sheet.stroke is None:
