@@ -134,7 +134,9 @@ def softness(case: Any, values: Mapping[str, float | None]) -> dict[str, float]:
 
 
 def length(case: Any) -> float:
-    """Length that errors in mm are proportional to: the thickness of a hem, which all its lengths follow."""
+    """Length that errors in mm are proportional to: the thickness of a hem or of a drawn part."""
+    if isinstance(case, Cup | UBend):
+        return case.thickness
     return case.sheet.thickness if isinstance(case, Hemming) else 1.0
 
 

@@ -85,14 +85,15 @@ many parts: 2.2 for 11, 2.6 for 5, 4.3 for 2. Here no factor is fitted. On large
 of their size, on smaller ones it falls in proportion to it. Bends with fewer layers than the default, or with elements
 of 8 nodes, have no bands: the studies have none. Bends are in plane strain; bends with a width have their bands. Each
 bend of a sequence has the bands of single ones, flanges have their own; the finest mesh of a sequence has four
-layers, that of a single bend a stack of eight.
+layers, that of a single bend a stack of eight. Errors of hems, cups and U-bends in mm that are not proportional to the
+number are so to the thickness.
 
 **Hems.** Flat, open and rope hems have a study each, those over an inner sheet or an insert have one together
 (*filled*), and hems of all forms by a force another, of flat ones and one over an insert: there the force is given,
-height and gap follow. Errors in mm that are not proportional to the number are so to the thickness; softness has no
-part. The finest mesh has eight elements on a thickness and four layers. On it the fold itself has not converged:
-largest gap, creep, roll-in and inner strain have the wide bands that the studies show. Studies of three parts are
-small: their factor is 3.2, and the check by two others, with a factor of 4.3, is a weak one.
+height and gap follow. Softness has no part. The finest mesh has eight elements on a thickness and four layers. On it
+the fold itself has not converged: largest gap, creep, roll-in and inner strain have the wide bands that the studies
+show. Studies of three parts are small: their factor is 3.2, and the check by two others, with a factor of 4.3, is a
+weak one.
 
 **Sharp bends.** The errors of bends depend less on thickness over inside radius than on the hardening that is left at
 the outer face. They are taken as proportional to a power of {exponent}, the likeliest one, of the *softness*: the yield
@@ -121,7 +122,7 @@ all answers together; where a row below has less, the bands of that process are 
 Root mean squares of the errors of the default mesh, without the factor, and of what one refinement alone changes: the
 finer mesh and the layers on the default mesh, the others on the coarse one; `all but the mesh` is what all others
 change together on the fine mesh, and what an extrapolation over meshes lacks. Those of bends and hems are for a
-softness of 1, those of hems in mm for a thickness of 1 mm.
+softness of 1, those of hems, cups and U-bends in mm for a thickness of 1 mm.
 
 {errors}
 """

@@ -247,7 +247,7 @@ class Cup(Draw):
                 {"kind": "rigid", "name": "gauge", "nodes": {"min": [*axis, -math.inf], "max": [*axis, math.inf]}},
             ],
             "controls": {
-                **pressed("under_holder", force),
+                **pressed("under_holder", force, blocks_for=t),
                 "stroke": {"kind": "tool", "contact": "under_punch", "direction": "-z"},
             },
             # On the punch, an ironed wall cannot buckle while the forces of the die decrease, see theory 4.18.

@@ -331,12 +331,15 @@ class Drawn(Outcome):
         if not small and isinstance(case, Cup):
             return None
         if small and isinstance(case, UBend):
-            return StudiedMesh(case.kind, COARSE, case.turn / coarse["turn"]) if case.stacked == 1 else None
+            found = StudiedMesh(case.kind, COARSE, case.turn / coarse["turn"])
+            return replace(found, length=case.thickness) if case.stacked == 1 else None
         spec: type = type(case)
         usual = parameters(spec)["turn"].default
         if isinstance(case, UBend):
-            return StudiedMesh(case.kind, DEFAULT, case.turn / usual)
-        return StudiedMesh.nearest(case.kind, case.turn / usual, coarse["turn"] / usual)
+            found = StudiedMesh(case.kind, DEFAULT, case.turn / usual)
+        else:
+            found = StudiedMesh.nearest(case.kind, case.turn / usual, coarse["turn"] / usual)
+        return replace(found, length=case.thickness)
 
     def _of_cup(self) -> list[Quantity]:
         heights = [

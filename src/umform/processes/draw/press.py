@@ -11,9 +11,9 @@ from umform.analysis.steps import Free, Pace, Step
 
 #: Tolerances of drawing: what one increment leaves over is a force of the next. Tighter ones change no number.
 OPTIONS = NewtonOptions(residual=1e-3, increment=1e-2, keep=True)
-#: Stiffness of the distance blocks relative to the force on them, per mm.
+#: Stiffness of the distance blocks: that of the force on them over the thickness, times this.
 _BLOCKS = 200.0
-#: Travel of the holder at which the blocks begin to carry load, mm.
+#: Travel of the holder, over the thickness, at which the blocks begin to carry load.
 _AT_ONCE = 1e-5
 #: Increments in which tools open.
 _OPENING = 6
@@ -41,15 +41,18 @@ class Press:
         return cls(tuple(steps[:opens]), tuple(steps[opens:]))
 
 
-def pressed(contact: str, force: float | None, *, blocks: bool = True) -> dict[str, Any]:
-    """Table of the control of a holder under a force; distance blocks keep it from coming nearer than it is at first.
+def pressed(contact: str, force: float | None, *, blocks_for: float | None = None) -> dict[str, Any]:
+    """Table of the control of a holder under a force; distance blocks for a sheet of a thickness, if it is given, keep
+    it from coming nearer than it is at first.
 
     Empty without a force: the holder keeps its distance.
     """
     if force is None:
         return {}
-    stop = {"at": _AT_ONCE, "stiffness": _BLOCKS * force, "below": True}
-    return {"hold": {"kind": "press", "contact": contact, "direction": "z", "stops": [stop] if blocks else []}}
+    stops: list[dict[str, Any]] = []
+    if blocks_for is not None:
+        stops = [{"at": _AT_ONCE * blocks_for, "stiffness": _BLOCKS * force / blocks_for, "below": True}]
+    return {"hold": {"kind": "press", "contact": contact, "direction": "z", "stops": stops}}
 
 
 def press_steps(

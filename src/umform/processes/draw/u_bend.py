@@ -240,7 +240,7 @@ class UBend(Draw):
                 {"kind": "rigid", "name": "gauge", "nodes": "x0"},
             ],
             "controls": {
-                **pressed("under_holder", force, blocks=False),
+                **pressed("under_holder", force),
                 "stroke": {"kind": "tool", "contact": "under_punch", "direction": "-z"},
             },
             "steps": press_steps(

@@ -69,6 +69,22 @@ def cup():
     return draw(CUP, frames=3, progress=False)
 
 
+def test_distance_blocks_and_bands_in_mm_follow_the_thickness():
+    """The blocks give a two-hundredth of the thickness under the force; forces grow with the square of the lengths."""
+    thick = replace(
+        CUP,
+        holder_force=8.0**2 * CUP.holder_force,
+        **{one: 8.0 * getattr(CUP, one) for one in ("thickness", "blank_radius", "punch_radius", "punch_edge")},
+        **{one: 8.0 * getattr(CUP, one) for one in ("die_radius", "die_edge", "stroke")},
+    )
+    for case in (CUP, thick):
+        (stop,) = case.problem().contents.controls["hold"].stops
+        assert stop.stiffness * case.thickness / 200.0 == pytest.approx(case.holder_force / case.parts)
+        assert stop.at == pytest.approx(1e-5 * case.thickness)
+    lengths = [replace(cup(), case=case).studied.length for case in (CUP, thick, U, replace(U, element="BEND18"))]
+    assert lengths == [1.0, 8.0, U.thickness, U.thickness]
+
+
 def test_a_cup_is_symmetric_and_in_balance():
     drawn = cup()
     assert drawn.ending is None
