@@ -10,7 +10,7 @@ import typer
 
 from umform.cli.given import Given, given_by
 from umform.cli.metal import by_name
-from umform.cli.options import SHEET, option
+from umform.cli.options import SHEET, SOLUTION, is_typed, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
@@ -32,6 +32,8 @@ _NONE = (
     "stroke",
     "bottoming",
 )
+#: Options of computed bends beside those of the solution.
+_COMPUTED = ("rolling", "friction", "store")
 
 
 @app.command()
@@ -42,6 +44,7 @@ _NONE = (
     opening=None,
 )
 def flat(
+    context: typer.Context,
     part: Annotated[Path, typer.Argument(metavar="PART.step", help="STEP file of one bent part.")],
     given: Given,
     metal: Annotated[str | None, option("Name of `umform metal list`, or a file of a metal (.toml).", SHEET)] = None,
@@ -85,6 +88,8 @@ def flat(
 
     print_warnings_once()
     allowance = _provider(metal, k_factor, table)
+    if allowance is not None and not bend:
+        _refuse_idle(context, "--table" if k_factor is None else "--k-factor")
     opening = given.pop("opening")
     tooling, bodies = Tooling(AirBending(**given), metal, opening), Bodies()
     if bend and metal is None:
@@ -135,6 +140,20 @@ def _provider(metal: str | None, k_factor: float | None, table: Path | None) -> 
     if table is not None:
         return AllowanceTable.read(table)
     return None if k_factor is None else KFactor(k_factor)
+
+
+def _refuse_idle(context: typer.Context, source: str) -> None:
+    """Refuse options of computed bends beside another source of the flat lengths."""
+    for one in context.command.params:
+        solves = getattr(one, "rich_help_panel", None) == SOLUTION or one.name in _COMPUTED
+        if solves and one.name is not None and is_typed(context, one.name):
+            raise InvalidValue(
+                "this option says nothing without computed bends",
+                where=one.opts[0],
+                value=context.params[one.name],
+                cause=f"the flat lengths are those of {source}, and --bend is not given",
+                remedy=f"leave it or {source} out, or add --bend",
+            )
 
 
 def _show(pattern: FlatPattern) -> None:

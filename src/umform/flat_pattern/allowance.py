@@ -19,8 +19,6 @@ from umform.studies.bend_table.formats.reading import Reading
 #: Part by which radius and thickness of a row of a table may differ from those of a bend.
 _ROW = 0.01
 _COLUMNS = ("angle", "radius", "thickness", "allowance")
-#: Metal, thickness, opening of the die and radius of the punch.
-Setup = tuple[str, float, float, float]
 
 
 @dataclass(frozen=True)
@@ -109,6 +107,8 @@ class AllowanceTable:
         ------
         FileProblem
             If it cannot be read, or a column is missing.
+        InvalidValue
+            If a number is negative or infinite, or a bend has two allowances.
         """
         path = Path(path)
         try:
@@ -125,7 +125,18 @@ class AllowanceTable:
                 remedy=f"a CSV file with the columns {', '.join(_COLUMNS)}; degrees by which the sheet is bent, mm; or "
                 "bends.csv of `umform bend table`",
             ) from error
-        return cls(tuple((a, r, t, length) for a, r, t, length in rows), path.name)
+        found: dict[tuple[float, float, float], float] = {}
+        for a, r, t, length in rows:
+            possible = all(0.0 <= number < math.inf for number in (a, r, t, length))
+            if not possible or found.setdefault((a, r, t), length) != length:
+                raise InvalidValue(
+                    "a table of bend allowances has each bend once, and no negative numbers",
+                    where=path.name,
+                    value=f"{length:g} mm, {_named(a, r, t)}",
+                    cause="a sign, an empty line, a deduction in place of an allowance, or bends of two metals or dies",
+                    remedy="flat lengths between the tangent lines; a table for each metal and die",
+                )
+        return cls(tuple((a, r, t, length) for (a, r, t), length in found.items()), path.name)
 
     def __call__(self, angle: float, radius: float, thickness: float) -> Allowance:
         """The allowance of a bend; its radius and thickness must be in the table, its angle within it."""
@@ -150,7 +161,7 @@ class DeductionTable:
     Made by :meth:`AllowanceTable.read`.
     """
 
-    readings: Mapping[Setup, Reading]
+    readings: Mapping[table_csv.Sizes, Reading]
     """Deductions over the angle between the legs, for each sheet and tools."""
     name: str
     """Name of the file."""
@@ -179,7 +190,7 @@ class DeductionTable:
         }
         if kept or not self.readings:
             return replace(self, readings=kept)
-        setups = dict.fromkeys(f"{name} with V {V:g}" for name, _, V, _ in self.readings)
+        setups = dict.fromkeys(f"{name} with V {V:g}" for name, _, V, _, _ in self.readings)
         raise InvalidValue(
             "the table is that of another metal or die",
             where=self.name,
@@ -211,7 +222,11 @@ def _not_in_table(name: str, angle: float, radius: float, thickness: float, have
     return InvalidValue(
         "the table has no allowance for this bend",
         where=name,
-        value=f"bent by {angle:.4g} degrees, inside radius {radius:.4g}, thickness {thickness:.4g}",
+        value=_named(angle, radius, thickness),
         cause=f"{have}; nothing is extrapolated",
         remedy="add rows to the table, or --k-factor",
     )
+
+
+def _named(angle: float, radius: float, thickness: float) -> str:
+    return f"bent by {angle:.4g} degrees, inside radius {radius:.4g}, thickness {thickness:.4g}"

@@ -140,6 +140,8 @@ def test_the_command_refuses_and_writes_nothing(step, z, tmp_path):
         ((z, "--k-factor", ".44", "--table", "x.csv"), "one source"),
         ((z, "--k-factor", ".44", "--bend"), "--metal DC04"),
         ((z, "--metal", "cheese"), "umform metal list"),
+        ((z, "--k-factor", ".44", "--layers", "3"), "without computed bends"),
+        ((z, "--k-factor", ".44", "--rolling", "45"), "without computed bends"),
     ):
         done = run("flat", *words, "--out", out)
         said = done.output + str(done.exception)

@@ -56,8 +56,8 @@ def test_the_form_of_a_file_is_developed_by_what_it_names(tmp_path):
     assert by_factor == developed(
         OutsidePart((50.0, 40.0), (OutsideBend(90.0),)), AirBending(), allowance=KFactor(0.44)
     )
-    head = "metal,thickness mm,opening mm,punch_radius mm,angle degrees,bend_deduction mm\n"
-    (tmp_path / "bends.csv").write_text(f"{head}DC04,2,16,1.5,90,3.8\nDC04,2,20,1.5,90,4.0\n")
+    head = "metal,thickness mm,opening mm,punch_radius mm,die_radius mm,angle degrees,bend_deduction mm\n"
+    (tmp_path / "bends.csv").write_text(f"{head}DC04,2,16,1.5,2,90,3.8\nDC04,2,20,1.5,2,90,4.0\n")
     form = sequence_form({**data, "table": "bends.csv"})
     for opening, length in ((16.0, 86.2), (20.0, 86.0)):
         assert developed_of(form, AirBending(opening=opening), tmp_path).length == pytest.approx(length)

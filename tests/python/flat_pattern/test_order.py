@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 from brackets import BRACKETS, strip, write
 
+from umform.errors import InvalidValue
 from umform.flat_pattern import AllowanceTable, KFactor, Orders, Tooling, flat
 from umform.flat_pattern.operator_sheet import steps_of, write_sheet
 from umform.processes.bend_sequence import Bodies
@@ -98,6 +99,10 @@ def test_a_table_gives_the_allowance_and_is_not_extrapolated(tmp_path, step):
     for bend in ((130.0, 2.0, 2.0), (90.0, 3.0, 2.0), (90.0, 2.0, 1.0)):
         with pytest.raises(ValueError, match="no allowance for this bend"):
             table(*bend)
+    for row in ("90,2,2,4.9", "150,2,2,nan", "150,2,2,-1.2"):
+        path.write_text(f"angle,radius,thickness,allowance\n60,2,2,3.1\n90,2,2,4.4\n{row}\n")
+        with pytest.raises(InvalidValue, match="each bend once"):
+            AllowanceTable.read(path)
     path.write_text("angle,radius,allowance\n60,2,3.1\n")
     with pytest.raises(OSError, match="thickness"):
         AllowanceTable.read(path)
@@ -108,8 +113,8 @@ def test_a_table_gives_the_allowance_and_is_not_extrapolated(tmp_path, step):
 def test_a_table_of_bend_table_gives_deductions(tmp_path, step):
     """What `umform bend table` writes: deductions over the angle between the legs, for one set of tools."""
     path = tmp_path / "bends.csv"
-    head = "metal,thickness mm,opening mm,punch_radius mm,angle degrees,bend_deduction mm\n"
-    rows = "DC04,2,16,1.5,90,3.8\nDC04,2,16,1.5,120,1.9\n"
+    head = "metal,thickness mm,opening mm,punch_radius mm,die_radius mm,angle degrees,bend_deduction mm\n"
+    rows = "DC04,2,16,1.5,2,90,3.8\nDC04,2,16,1.5,2,120,1.9\n"
     path.write_text("# of umform\n" + head + rows)
     made = flat(step("l"), allowance=AllowanceTable.read(path))
     assert made.size.max() == pytest.approx(44.0 + 34.0 - 3.8, abs=1e-6)  # outer lengths less the deduction
@@ -121,9 +126,10 @@ def test_a_table_of_bend_table_gives_deductions(tmp_path, step):
         with pytest.raises(ValueError, match="another metal or die") as error:
             flat(step("l"), allowance=AllowanceTable.read(path), tooling=other)
         assert "DC04 with V 16" in error.value.cause
-    path.write_text(head + rows + "DC04,2,12,1.5,90,3.7\n")
-    with pytest.raises(ValueError, match="2 metals and tools have this thickness"):
-        AllowanceTable.read(path)(90.0, 2.0, 2.0)
+    for other in ("DC04,2,12,1.5,2,90,3.7\n", "DC04,2,16,1.5,3,90,3.9\n"):  # another opening, another die radius
+        path.write_text(head + rows + other)
+        with pytest.raises(ValueError, match="2 metals and tools have this thickness"):
+            AllowanceTable.read(path)(90.0, 2.0, 2.0)
 
 
 @pytest.mark.parametrize("name", ["l", "z"])

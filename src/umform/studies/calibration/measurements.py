@@ -156,6 +156,8 @@ def read_tension(
         If columns are missing or the numbers contradict their units or their kind.
     """
     plastic_given, strain, stress = _pairs(path, percent, names, empty=False)
+    if plastic_given:
+        strain = strain + stress / young
     if engineering:
         top = int(np.argmax(stress)) + 1
         strain, stress = np.log1p(strain[:top]), (stress * (1.0 + strain))[:top]
@@ -167,8 +169,6 @@ def read_tension(
             cause="engineering values, force over the first area, or rows of the neck",
             remedy="engineering=True for engineering values; rows up to the largest force",
         )
-    if plastic_given:
-        strain = strain + stress / young
     _check_elastic(path, strain, stress, young)
     if not (np.diff(strain) > 0.0).all():
         row = int(np.flatnonzero(np.diff(strain) <= 0.0)[0]) + 1

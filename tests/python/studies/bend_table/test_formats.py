@@ -30,7 +30,7 @@ def _readings(name, table, folder):
     setups = [part.setup for part in table.parts]
     if name == "csv":
         read = table_csv.read(folder / "bends.csv")
-        return [read[s.metal, s.case.thickness, s.case.opening, s.case.punch_radius] for s in setups]
+        return [read[s.metal, s.case.thickness, s.case.opening, s.case.punch_radius, s.case.die_radius] for s in setups]
     if name == "json":
         read = table_json.read(folder / "bends.json")
         return [read[s.name] for s in setups]

@@ -39,6 +39,11 @@ def test_engineering_values_are_converted_up_to_the_largest_force(file):
 def test_plastic_strains_get_their_elastic_part(file):
     found = read_tension(file("plastic_strain,stress\n0,200\n0.01,240\n0.02,260\n"), 2e5)
     assert found.strain == pytest.approx([0.001, 0.0112, 0.0213])
+    text = "plastic_strain,stress\n0,200\n0.1,300\n0.2,320\n"
+    total = np.array([0.001, 0.1015, 0.2016])  # elongation: the plastic one and force over first area over E
+    found = read_tension(file(text), 2e5, engineering=True)
+    assert found.strain == pytest.approx(np.log1p(total), rel=1e-12)
+    assert found.stress == pytest.approx(np.array([200.0, 300.0, 320.0]) * (1.0 + total), rel=1e-12)
 
 
 @pytest.mark.parametrize(

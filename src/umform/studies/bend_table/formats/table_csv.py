@@ -35,6 +35,9 @@ COLUMNS: dict[str, Callable[[Setup, StoredBend], object]] = {
     "springback degrees": lambda setup, one: one.measures.springback,
     "found_angle degrees": lambda setup, one: one.measures.angle,
 }
+#: Metal; thickness, opening, radii of punch and die in mm.
+Sizes = tuple[str, float, float, float, float]
+_SIZES = ("thickness", "opening", "punch_radius", "die_radius")
 
 
 def write(table: BendTable, folder: Path) -> list[Path]:
@@ -50,12 +53,12 @@ def write(table: BendTable, folder: Path) -> list[Path]:
     return [path]
 
 
-def read(path: Path) -> dict[tuple[str, float, float, float], Reading]:
-    """Tables by metal, thickness, opening and radius of the punch: deductions over the angle."""
+def read(path: Path) -> dict[Sizes, Reading]:
+    """Tables by metal, thickness, opening, radii of punch and die: deductions over the angle."""
     lines = [line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
-    found: dict[tuple[str, float, float, float], Reading] = {}
+    found: dict[Sizes, Reading] = {}
     for row in csv.DictReader(lines):
-        thickness, opening, radius = (float(row[f"{name} mm"]) for name in ("thickness", "opening", "punch_radius"))
-        part = found.setdefault((row["metal"], thickness, opening, radius), Reading(thickness, {}))
+        thickness, opening, punch, die = (float(row[f"{name} mm"]) for name in _SIZES)
+        part = found.setdefault((row["metal"], thickness, opening, punch, die), Reading(thickness, {}))
         part.deductions[float(row["angle degrees"])] = float(row["bend_deduction mm"])
     return found
