@@ -7,9 +7,9 @@ import pytest
 from formed_parts import cylinder, grid
 
 import umform as uf
-from umform.errors import FileProblem, InvalidValue, UnfitTriangles
+from umform.errors import FileProblem, InvalidValue, NoConvergence, UnfitTriangles
 from umform.flat_pattern.one_step.part import sheet_of
-from umform_book.drawing.revolved import disc
+from umform_book.drawing.revolved import cup, disc
 
 STEEL = uf.J2(210e3, 0.3, hardening=uf.Swift(520.0, 0.004, 0.2))
 
@@ -97,6 +97,12 @@ def test_triangles_of_mixed_turns_are_put_in_order():
     sheet = sheet_of(points, mixed, 1.0)
     assert (sheet.normals[:, 2] > 0.0).all()
     assert len(sheet.loops) == 1
+
+
+def test_a_deep_cup_whose_edge_is_clamped():
+    with pytest.raises(NoConvergence, match="no minimum") as error:
+        uf.blank(cup(6, 34.0), uf.Blank(STEEL, 1.0, clamped=True))
+    assert "clamped" in error.value.cause and "not clamped" in error.value.remedy
 
 
 @pytest.mark.parametrize(

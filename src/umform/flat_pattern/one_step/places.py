@@ -79,6 +79,11 @@ class FlatProblem:
         of_flat : bool
             The energy is that of the material: its minimum with all edges held is the equilibrium. Otherwise that over
             the area of the formed part, whose minimum always exists.
+
+        Raises
+        ------
+        NoConvergence
+            If no minimum is found.
         """
         equations = Equations(len(X), self.sheet.triangles, self._supported(X), symmetric=True)
         solver, free = make_solver(equations.pattern), equations.free
@@ -89,7 +94,10 @@ class FlatProblem:
             first, second = _of_material(D, w) if of_flat else _of_part(self.formed.area, w)
             gradient = equations.vector(at_corners(first))[free]
             if not _positive(solver, equations.matrix(between_corners(second))):
-                solver.factor(equations.matrix(between_corners(_projected(second))))
+                try:
+                    solver.factor(equations.matrix(between_corners(_projected(second))))
+                except SingularMatrix:  # triangles that are nearly lost
+                    break
             change = np.zeros(2 * len(X))
             change[free] = -solver.solve(gradient)
             step = change.reshape(-1, 2)
@@ -280,6 +288,6 @@ def _not_found(what: str, iterations: int) -> NoConvergence:
         what,
         where="flat pattern",
         value=f"{iterations} iterations",
-        cause="strains far beyond what the metal bears, or forces of binder and beads that tear it",
-        remedy="smaller forces, a finer mesh in its radii, or without forces to see the strains",
+        cause="strains far beyond what the metal bears, or a clamped edge, or forces of binder and beads, that tear it",
+        remedy="smaller forces, a finer mesh in its radii, or without forces and not clamped to see the strains",
     )
