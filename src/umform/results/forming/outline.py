@@ -15,6 +15,9 @@ from umform.results.shape import outer_quads
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 
+#: Cosine of half the angle between two sides from which they meet in a corner.
+_CORNER = np.cos(np.radians(30.0))
+
 
 @dataclass(frozen=True)
 class Outline:
@@ -103,8 +106,19 @@ def draw_in(mesh: Mesh, u: Floats, edge: Selector = "rim") -> Outline:
     for end in (0, 1):
         np.add.at(inwards, sides[:, end], np.stack([-along[:, 1], along[:, 0]], axis=1))
     inwards = inwards[order] / np.linalg.norm(inwards[order], axis=1, keepdims=True)
+    for k in np.flatnonzero(~closed):
+        nodes = np.flatnonzero(piece == k)
+        for last, beside in (nodes[[0, 1]], nodes[[-1, -2]]):
+            _bend_on(inwards, last, beside)
     way = ((after - before)[order] * inwards).sum(axis=1)
     return Outline(before[order], after[order], way, piece, closed)
+
+
+def _bend_on(inwards: Floats, last: int, beside: int) -> None:
+    """Turn the normal of the last node of an edge, which is that of one side, as far as the edge bends there."""
+    side, next_to = inwards[last], inwards[beside]
+    if (same := float(side @ next_to)) > _CORNER:
+        inwards[last] = 2.0 * same * side - next_to
 
 
 def _sides(mesh: Mesh, cells: Numbers, fibre: Numbers, places: Floats) -> Numbers:
