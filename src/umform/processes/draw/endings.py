@@ -108,7 +108,8 @@ def _tearing(case: Cup | UBend, result: Result, limit: FormingLimit, early: bool
     still = early and _drawn_in(case, result) < 0.02 * case.way
     what = "the holder is too strong: the sheet does not flow in and tears" if still else "the sheet tears"
     text = (f"{beyond}; " if beyond is not None else "") + f"thinning up to {thinnest:.3g} %"
-    remedy = "less holder force or friction, larger radii, a smaller blank"
+    hold = "a larger holder gap, less friction" if case.holder_force is None else "less holder force or friction"
+    remedy = f"{hold}, larger radii, a smaller blank"
     return _Defect("held" if still else "torn", tears_from(result), what, text, remedy)
 
 
@@ -130,7 +131,8 @@ def _wrinkling(case: Cup | UBend, result: Result) -> _Defect | None:
     text = f"it stands off both tools by {air:.3g}"
     if lift[-1] > allowed:
         text += f" and lifts the holder by {lift[-1]:.3g}"
-    return _Defect("wrinkled", since, "the sheet wrinkles under the holder", text, "a stronger holder")
+    remedy = "a smaller holder gap" if case.holder_force is None else "a stronger holder"
+    return _Defect("wrinkled", since, "the sheet wrinkles under the holder", text, remedy)
 
 
 def _strokes(result: Result) -> Floats:

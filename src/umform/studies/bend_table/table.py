@@ -227,14 +227,14 @@ def setups(
     punch_radii: Sequence[float] = (),
     die_radii: Sequence[float] = (),
 ) -> list[Setup]:
-    """All combinations of metals, thicknesses and tools; what is not given is that of the case.
+    """All combinations of metals, thicknesses and tools, each once; what is not given is that of the case.
 
     Metals are names of the library, or paths of files of `umform bend correct` or `umform metal fit`.
 
     Raises
     ------
     InvalidValue
-        The library has no such metal, or tools do not fit a thickness.
+        The library has no such metal, tools do not fit a thickness, or two metals have one name.
 
     Examples
     --------
@@ -250,12 +250,20 @@ def setups(
         "die_radius": die_radii,
     }
     chosen = [sorted(set(values)) or [getattr(case, name)] for name, values in lists.items()]
-    found = []
+    found: dict[str, Setup] = {}
     for metal, sizes in itertools.product(metals, itertools.product(*chosen)):
         sheet = metal_of(metal, sizes[0])
         changes: dict[str, Any] = dict(zip(lists, sizes, strict=True))
-        found.append(Setup(sheet.name, replace(case, **changes, material=sheet.law)))
-    return found
+        one = Setup(sheet.name, replace(case, **changes, material=sheet.law))
+        if found.setdefault(one.name, one) != one:
+            raise InvalidValue(
+                "two metals of a table have one name",
+                where=metal,
+                value=sheet.name,
+                cause="another metal before it has this name, too; that of a file is its own without the ending",
+                remedy="another name for one of the files, such as coil-1.toml",
+            )
+    return list(found.values())
 
 
 def bend_table(

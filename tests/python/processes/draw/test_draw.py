@@ -338,7 +338,13 @@ def test_a_holder_that_is_too_strong_tears_the_sheet(force, friction, kind):
 def test_a_loose_holder_lets_the_flange_wrinkle():
     drawn = draw(replace(CUP, holder_force=3e3, holder_gap=3.0, stroke=12.0), frames=0, progress=False)
     assert drawn.ending is not None and drawn.ending.kind == "wrinkled" and not drawn.ending.early
-    assert "stands off both tools" in drawn.warnings[0]
+    assert "stands off both tools" in drawn.warnings[0] and drawn.ending.text.endswith("a stronger holder")
+    fixed = replace(drawn.case, holder_force=None)
+    folded, torn = (
+        ending_of(fixed, drawn.result, drawn.limit, None),
+        ending_of(fixed, cup().result, np.zeros_like, None),
+    )
+    assert folded.text.endswith("a smaller holder gap") and "; a larger holder gap, less friction" in torn.text
 
 
 def test_wrinkles_lift_the_holder():

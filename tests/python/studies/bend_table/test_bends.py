@@ -8,9 +8,10 @@ from dataclasses import replace
 import pytest
 
 from umform.errors import InvalidValue
-from umform.materials import Perfect
+from umform.materials import J2, Perfect, Swift
+from umform.problem.metal_file import write_metal
 from umform.processes.air_bending import find_stroke
-from umform.studies.bend_table import bend, bend_key, bend_table, stored_bends
+from umform.studies.bend_table import bend, bend_key, bend_table, setups, stored_bends
 from umform.studies.bend_table.stored import RESULTS
 
 
@@ -50,6 +51,17 @@ def test_a_table_of_one_setup_shows_each_bend(table, store):
     shown = []
     bend_table([table.parts[0].setup], [120, 135, 150], store=store, progress=lambda *told: shown.append(told[1]))
     assert shown[:3] == pytest.approx([1 / 3, 2 / 3, 1.0])
+
+
+def test_a_sheet_is_once_in_a_table_and_its_name_is_its_own(case, tmp_path):
+    assert [one.metal for one in setups(["DC04", "1.0338", "DC04"], case)] == ["DC04"]
+    coils = [tmp_path / name / "metal.toml" for name in ("one", "two")]
+    for strength, coil in zip((500.0, 520.0), coils, strict=True):
+        coil.parent.mkdir()
+        write_metal(coil, J2(206e3, 0.3, hardening=Swift(strength, 0.005, 0.2)), [])
+    with pytest.raises(InvalidValue, match="two metals of a table have one name") as error:
+        setups([str(coil) for coil in coils], case)
+    assert error.value.where == str(coils[1]) and error.value.value == "metal"
 
 
 def test_the_key_is_of_all_that_determines_the_bend(case):
