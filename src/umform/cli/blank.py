@@ -15,6 +15,7 @@ from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.warnings import print_warnings_once
 
 _HELD, _PART = "What holds the sheet", "Part"
+_FRICTION = 0.1
 
 
 @app.command()
@@ -33,8 +34,13 @@ def blank(
     rolling: Annotated[float, option("Angle of the rolling direction to x in degrees.", SHEET)] = 0.0,
     holder_force: Annotated[float, option("Force of the blank holder in N.", _HELD)] = 0.0,
     friction: Annotated[
-        float, option("Coefficient of friction under the holder, and of punch and die on radii.", _HELD)
-    ] = 0.1,
+        float | None,
+        option(
+            f"Coefficient of friction under the holder, and of punch and die on radii; default: {_FRICTION:g}, and "
+            "none if the edge is clamped.",
+            _HELD,
+        ),
+    ] = None,
     bead: Annotated[float, option("Restraining force of draw beads along the outer edge in N/mm.", _HELD)] = 0.0,
     gap: Annotated[
         float | None, option("Distance of punch and die in mm: walls are not thicker; default: no limit.", _HELD)
@@ -76,6 +82,7 @@ def blank(
 
     print_warnings_once()
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, thickness)
+    friction = (0.0 if clamped else _FRICTION) if friction is None else friction
     case = Blank(law, thickness, rolling, holder_force, friction, bead, gap, clamped)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/blank"), FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))

@@ -115,6 +115,7 @@ def test_a_deep_cup_whose_edge_is_clamped():
         ({"rolling": np.nan}, "rolling"),
         ({"clamped": True, "bead": 50.0}, "bead"),
         ({"clamped": True, "holder_force": 2e4}, "holder_force"),
+        ({"clamped": True, "friction": 0.1}, "friction"),
     ],
 )
 def test_numbers_that_cannot_be(given, where):

@@ -31,7 +31,7 @@ class Blank:
     holder_force: NotNegative = 0.0
     """Force of the blank holder."""
     friction: Friction = 0.0
-    """Coefficient of friction under the holder, and of punch and die where the sheet is curved."""
+    """Coefficient of friction under the holder, and of punch and die where the sheet is curved; none if clamped."""
     bead: NotNegative = 0.0
     """Restraining force of draw beads per length of the outer edge, N/mm."""
     gap: Length | None = None
@@ -58,3 +58,11 @@ class Blank:
                     cause="clamped=True beside it",
                     remedy="leave one of them out",
                 )
+        if self.clamped and self.friction:
+            raise InvalidValue(
+                "the estimate of a part whose edge is held as it lies has no friction",
+                where="friction",
+                value=self.friction,
+                cause="clamped=True beside it",
+                remedy="leave it out; a run of the part has friction of the punch",
+            )
