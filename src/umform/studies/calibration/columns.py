@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
+from contextlib import suppress
 from os import PathLike
 from pathlib import Path
 
@@ -103,13 +105,13 @@ def number(path: str | PathLike[str], row: Row, column: str, *, empty: bool = Fa
     text = cells.get(column, "")
     if empty and not text:
         return None
-    try:
-        return float(text)
-    except ValueError:
-        raise FileProblem(
-            f"the {column} is not a number",
-            where=f"{path}, line {line}",
-            value=repr(text),
-            cause="an empty cell, a unit behind the number, or a decimal comma",
-            remedy="a number as 0.05 or 275",
-        ) from None
+    with suppress(ValueError):
+        if math.isfinite(value := float(text)):
+            return value
+    raise FileProblem(
+        f"the {column} is not a number",
+        where=f"{path}, line {line}",
+        value=repr(text),
+        cause="an empty cell, a unit behind the number, or a decimal comma",
+        remedy="a number as 0.05 or 275",
+    )

@@ -113,7 +113,11 @@ def read_directions(path: Path, names: Names = None) -> Directions:
     else:
         scale = _first(stresses, path)
     normalised = {angle: stress / scale for angle, stress in stresses.items()}
-    return Directions(normalised, r, None if biaxial[0] is None else biaxial[0] / scale, biaxial[1])
+    try:
+        return Directions(normalised, r, None if biaxial[0] is None else biaxial[0] / scale, biaxial[1])
+    except InvalidValue as error:
+        error.where = str(path)
+        raise
 
 
 def _first(stresses: dict[float, float], path: Path) -> float:
