@@ -347,9 +347,17 @@ def columns(rows: Sequence[Sequence[Quantity]], *, units: bool = False) -> dict[
 
 
 def list_columns(quantities: Sequence[Quantity]) -> dict[str, list[Any]]:
-    """Columns of a CSV file with a row for each quantity."""
-    rows = [one.record() | {"error": None, "source": None} | (one.record()["band"] or {}) for one in quantities]
-    return {name: [row[name] for row in rows] for name in ("name", "label", "value", "unit", *_BEHIND)}
+    """Columns of a CSV file with a row for each quantity; one of the finest mesh if others are extrapolated."""
+    rows = []
+    for one in quantities:
+        row = one.record()
+        rows.append(row | {"error": None, "source": None, "middle": None} | (row["band"] or {}) | {"value": one.best})
+    found = {name: [row[name] for row in rows] for name in ("name", "label", "value", "unit", *_BEHIND)}
+    extrapolated = [row["middle"] is not None for row in rows]
+    if not any(extrapolated):
+        return found
+    finest = [one.value if other else None for one, other in zip(quantities, extrapolated, strict=True)]
+    return found | {"finest_mesh": finest}
 
 
 #: Columns of a row of a quantity behind its unit.

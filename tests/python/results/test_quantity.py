@@ -141,6 +141,9 @@ def test_a_record_gives_the_quantity_back():
         one = replace(HEIGHT, limit=3.0, band=band)
         kept = json.loads(json.dumps(one.record(), allow_nan=False))
         assert repr(Quantity.of(kept)) == repr(one)  # NaN differs from itself
+    extrapolated = replace(HEIGHT, band=Band(0.1, "meshes", middle=HEIGHT.value + 0.3))
+    columns = list_columns([HEIGHT, extrapolated])  # those of the printed table
+    assert columns["value"] == [HEIGHT.value, HEIGHT.value + 0.3] and columns["finest_mesh"] == [None, HEIGHT.value]
     (row,) = zip(*list_columns([replace(HEIGHT, limit=3.0, band=Band(0.1, "meshes"))]).values(), strict=True)
     assert row == ("height", "height", 12.3456, "mm", 0.1, "meshes", False, 3.0, True)
 
