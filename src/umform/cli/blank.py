@@ -15,7 +15,8 @@ from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.warnings import print_warnings_once
 
 _HELD, _PART = "What holds the sheet", "Part"
-_FRICTION = 0.1
+#: Coefficient of friction of lubricated sheet.
+_LUBRICATED = 0.1
 
 
 @app.command()
@@ -36,7 +37,7 @@ def blank(
     friction: Annotated[
         float | None,
         option(
-            f"Coefficient of friction under the holder, and of punch and die on radii; default: {_FRICTION:g}, and "
+            f"Coefficient of friction under the holder, and of punch and die on radii; default: {_LUBRICATED:g}, and "
             "none if the edge is clamped.",
             _HELD,
         ),
@@ -82,7 +83,7 @@ def blank(
 
     print_warnings_once()
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, thickness)
-    friction = (0.0 if clamped else _FRICTION) if friction is None else friction
+    friction = (0.0 if clamped else _LUBRICATED) if friction is None else friction
     case = Blank(law, thickness, rolling, holder_force, friction, bead, gap, clamped)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/blank"), FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
