@@ -8,6 +8,7 @@ from typer.testing import CliRunner
 
 import umform as uf
 from umform import cli
+from umform.errors import FileProblem
 from umform.flat_pattern.net import net_blank
 from umform.flat_pattern.net.corrections import _factor
 from umform.flat_pattern.net.edge import Edge
@@ -138,6 +139,14 @@ def test_the_command(tmp_path):
     refused = CliRunner().invoke(cli.app, words[:2])
     assert refused.exit_code != 0
     assert "--outline" in str(refused.exception) + refused.output
+
+
+def test_a_row_of_an_outline_that_is_no_point_is_refused(tmp_path):
+    path = tmp_path / "flange.csv"
+    path.write_text("x,y\n40,0\n0,40 mm\n-40,0\n0,-40\n")
+    with pytest.raises(FileProblem, match="a row of the outline is no point") as error:
+        outline_of(path)
+    assert error.value.where.endswith("row 3")
 
 
 def test_a_first_blank_is_given(tmp_path):

@@ -106,7 +106,15 @@ def outline_of(path: str | Path) -> Floats:
             remedy="a DXF drawing with one closed curve, or a CSV file with columns x, y or x, y, z",
         ) from error
     rows = np.atleast_2d(rows)
-    return np.asarray(rows[np.isfinite(rows).all(axis=1)])
+    known = np.isfinite(rows).all(axis=1)
+    if not known[1:].all():  # the first one may be a heading
+        raise FileProblem(
+            "a row of the outline is no point",
+            where=f"{path}, row {int(np.argmin(known[1:])) + 2}",
+            cause="an empty cell, or a unit behind a number",
+            remedy="x, y or x, y, z in mm in each row below the heading",
+        )
+    return np.asarray(rows[known])
 
 
 def height(value: float) -> AtHeight:
