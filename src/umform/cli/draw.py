@@ -236,7 +236,7 @@ def _on_mesh(spec: type[Cup | UBend], given: Given, coarse: bool, fine: bool) ->
 
 
 def _limit(file: Path | None) -> Any:
-    """The forming limit of a CSV file; lines that are no numbers, such as a heading, are left out."""
+    """The forming limit of a CSV file; its first row may be a heading."""
     if file is None:
         return None
     import numpy as np
@@ -246,7 +246,11 @@ def _limit(file: Path | None) -> Any:
 
     try:
         rows = np.genfromtxt(file, delimiter=",", comments="#")
-        rows = rows[np.isfinite(rows).all(axis=-1)] if rows.ndim == 2 else rows
+        if rows.ndim == 2:
+            known = np.isfinite(rows).all(axis=1)
+            if not known[1:].all():
+                raise ValueError(f"row {int(np.argmin(known[1:])) + 2} is no pair of numbers")
+            rows = rows[known]
         return LimitTable(*(rows.T if rows.ndim == 2 and rows.shape[1] == 2 else (rows, rows)))
     except (OSError, ValueError, InvalidValue) as error:
         raise FileProblem(

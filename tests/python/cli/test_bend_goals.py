@@ -98,12 +98,14 @@ GPA = ["--young", "210", "--poisson", "0.3", "--curve", "Swift,520,0.004,0.22"]
             ["draw", "u", "--want", "theta1=90+-1", "--by", "friction", "--limit-curve", "no.csv"],
             "forming limit cannot",
         ),
+        (["draw", "u", "--limit-curve", "limit.csv"], "row 3 is no pair of numbers"),
         (["--stroke", "4", "--scatter", "thickness=1%", "--tolerance-of", "thickness=0.1"], "cannot scatter twice"),
     ],
 )
 def test_what_is_wrong_with_studies_is_said_before_the_first_run(words, said, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("part.toml").write_text("length = 45.0\n[[bends]]\nposition = 20.0\nstroke = 4.0\n")
+    Path("limit.csv").write_text("minor,major\n-0.2,0.4\n0.0 mm,0.3\n0.2,0.4\n")
     monkeypatch.setattr("umform.analysis.run.open_run.OpenRun.take", lambda *given: pytest.fail("a run"))
     done = CliRunner().invoke(app, words if words[0] == "draw" else ["bend", *words])
     assert done.exit_code == 1
