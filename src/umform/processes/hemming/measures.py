@@ -134,12 +134,12 @@ class Hem(Outcome):
         """The measures, and the angle of the first bend: a goal, unless the sheet has a stroke."""
         first = Quantity("angle of the first bend", "degrees", 2, name="first_angle")
         angle = replace(first, value=self.first.bends[0].measures.angle)
-        found = of_this_mesh(self.case.sheet, self.banded(quantities_of(self.measures)), acute())
+        wanted = self.case.sheet.stroke is None
+        found = self.banded([*quantities_of(self.measures), *[angle] * wanted])
+        found = of_this_mesh(self.case.sheet, found, acute())
         if self.case.force is not None:
             found = [replace(one, band=GIVEN) if one.name in _PRESSED else one for one in found]
-        if self.case.sheet.stroke is None:
-            return [*found, *self.banded([angle])]
-        return [*found, replace(angle, band=self._band(angle, None), of_mesh=True)]
+        return found if wanted else [*found, replace(angle, band=self._band(angle, None), of_mesh=True)]
 
     @property
     def studied(self) -> StudiedMesh | None:
