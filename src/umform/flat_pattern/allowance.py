@@ -7,12 +7,14 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Protocol
+from typing import Annotated, Protocol
 
 import numpy as np
+from annotated_types import Ge, Le
 
 from umform.errors import FileProblem, InvalidValue
 from umform.sheet_metals import cards, names
+from umform.spec import About, check_arguments, check_fields
 from umform.studies.bend_table.formats import table_csv
 from umform.studies.bend_table.formats.reading import Reading
 
@@ -69,18 +71,23 @@ class AllowanceProvider(Protocol):
 class KFactor:
     """Allowance angle (R + K t), K by ANSI: the neutral line at K t from the inner face."""
 
-    k: float
-    """K-factor, 0 to 1."""
+    k: Annotated[
+        float,
+        Ge(0.0),
+        Le(1.0),
+        About(
+            cause="the factor of DIN 6935, which is twice as large, or percent",
+            remedy="K of ANSI: .5 is the middle of the sheet; half of the factor of DIN 6935",
+        ),
+    ]
+    """K-factor."""
 
     def __post_init__(self) -> None:
-        if not 0.0 <= self.k <= 1.0:
-            raise InvalidValue(
-                "a K-factor is between 0 and 1",
-                where="k_factor",
-                value=self.k,
-                cause="the factor of DIN 6935, which is twice as large, or percent",
-                remedy="K of ANSI: .5 is the middle of the sheet; half of the factor of DIN 6935",
-            )
+        try:
+            check_fields(self)
+        except InvalidValue as error:
+            error.where = "k_factor"  # of the command, and of a file of bends
+            raise
 
     def __call__(self, angle: float, radius: float, thickness: float) -> Allowance:
         """The allowance of a bend."""
@@ -110,6 +117,7 @@ class AllowanceTable:
         InvalidValue
             If a number is negative or infinite, or a bend has two allowances.
         """
+        check_arguments(AllowanceTable.read, cls.__name__, path=path)
         path = Path(path)
         try:
             text = path.read_text(encoding="utf-8-sig")

@@ -13,6 +13,7 @@ from umform.processes.air_bending.goal import Goal
 from umform.processes.bend_sequence import Part, bend_sequence
 from umform.processes.plausible import accepted
 from umform.progress import Show
+from umform.spec import check_arguments
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,6 +61,7 @@ def bend_part(orders: Orders, *, tolerance: float = Goal.tolerance, progress: Sh
     NoConvergence
         If the strip cannot be bent so far.
     """
+    check_arguments(bend_part, orders=orders, tolerance=tolerance)
     pattern = orders.pattern
     if not pattern.order or not orders.is_prismatic:
         raise InvalidValue(

@@ -14,6 +14,7 @@ from umform.flat_pattern.tooling import ComputedBends, Tooling
 from umform.io.store import Store
 from umform.problem.metal_file import metal_of
 from umform.processes.bend_sequence.spec import Bodies
+from umform.spec import check_arguments
 from umform.surfaces.cad.read_solid import DEVIATION
 
 #: Part of the inside radius of the drawing by which that of an air bend differs without a warning.
@@ -72,6 +73,7 @@ def flat(
     >>> from umform.flat_pattern import KFactor
     >>> uf.flat("bracket.step", allowance=KFactor(0.44)).size  # doctest: +SKIP
     """
+    check_arguments(flat, path=path, metal=metal, allowance=allowance, tooling=tooling, bodies=bodies, store=store)
     if metal is None and tooling is None and allowance is None:
         raise InvalidValue(
             "nothing says how long a bend is in the flat",

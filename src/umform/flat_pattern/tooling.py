@@ -12,6 +12,8 @@ from umform.problem.metal_file import metal_of
 from umform.processes.air_bending.formulas import INNER_RADIUS
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.plausible import accepted
+from umform.spec import check_fields
+from umform.spec.types import Length
 from umform.studies.bend_table import bend as stored_bend
 
 #: Openings of dies in mm that shops have.
@@ -34,9 +36,12 @@ class Tooling:
     """Mesh and tools, and the metal if none is named; the thickness is that of the part."""
     metal: str | None = None
     """Name of the metal in the library of sheet metals, or the path of a file of one."""
-    opening: float | None = None
+    opening: Length | None = None
     """Opening of the die in mm; without it, one of `OPENINGS` of 8 to 12 thicknesses whose usual inside radius, 0.16 of
     the opening, is nearest to that of the drawing."""
+
+    def __post_init__(self) -> None:
+        check_fields(self)
 
     def case(self, angle: float, radius: float, thickness: float) -> AirBending:
         """Sheet and tools of a bend.
@@ -83,6 +88,9 @@ class ComputedBends:
     """Tools of each bend."""
     store: Store | None = None
     """Where bends are kept; default: that of the user."""
+
+    def __post_init__(self) -> None:
+        check_fields(self)
 
     def __call__(self, angle: float, radius: float, thickness: float) -> Allowance:
         """The allowance of a bend.

@@ -15,7 +15,7 @@ the help of a command starts quickly.
 from umform.spec.display import ParametersInNotebook
 from umform.spec.in_deck import InDeck, OneOf, deck_keys, entries, note_of
 from umform.spec.parameter import About, FieldOf, Parameter, declared, hint_of, parameters, sentences
-from umform.spec.paths import Scalar, changed, each, scalars
+from umform.spec.paths import Scalar, changed, each, listed, scalars
 from umform.spec.rule import Checked, Rule, check_arguments, check_fields, check_value
 from umform.spec.takes import takes
 from umform.spec.words import names_its_words
@@ -39,6 +39,7 @@ __all__ = [
     "each",
     "entries",
     "hint_of",
+    "listed",
     "names_its_words",
     "note_of",
     "parameters",

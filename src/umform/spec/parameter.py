@@ -8,7 +8,7 @@ import math
 import operator
 import re
 import sys
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, field, fields
 from functools import cache, reduce
 from itertools import pairwise
@@ -55,27 +55,34 @@ class About:
 
 @dataclass(frozen=True)
 class Kind:
-    """One type that a value may have: a number with bounds, a flag, a word, or an object of any kind.
+    """One type that a value may have: a number with bounds, a flag, a word, an array, or an object of any kind.
 
-    Further conditions have ``fits(value)``, in the order of the annotation.
+    Further conditions have ``fits(value)``, in the order of the annotation. ``entries`` are the types that an entry of
+    an array may have.
     """
 
     type: type
     choices: tuple[Any, ...] = ()
     bounds: tuple[Any, ...] = ()
     rules: tuple[Any, ...] = ()
+    entries: tuple[Kind, ...] = ()
 
     def fits(self, value: Any) -> bool:
         """Whether a value has this type and lies within the bounds."""
         if self.choices:
-            return value in self.choices
-        if self.type is float:
-            typed = not isinstance(value, bool) and isinstance(value, Real) and math.isfinite(value)
-        elif self.type is int:
-            typed = not isinstance(value, bool) and isinstance(value, Integral)
-        else:
-            return isinstance(value, self.type)
-        return typed and all(holds(value, limit) for _, limit, holds, _ in self.limits())
+            return isinstance(value, Hashable) and value in self.choices
+        if not self.is_of(value) or (self.type is float and not math.isfinite(value)):
+            return False
+        return all(holds(value, limit) for _, limit, holds, _ in self.limits())
+
+    def is_of(self, value: Any) -> bool:
+        """Whether a value has this type, and each of its entries one of theirs."""
+        if self.entries:
+            listed = isinstance(value, Collection) and are_several(value)
+            return listed and all(any(kind.is_of(entry) for kind in self.entries) for entry in value)
+        if self.type in (float, int):
+            return not isinstance(value, bool) and isinstance(value, Real if self.type is float else Integral)
+        return isinstance(value, self.type)
 
     def limits(self) -> Iterator[tuple[str, float, Callable[[Any, Any], bool], str]]:
         """Name, limit, comparison and text of each bound."""
@@ -91,7 +98,7 @@ class Kind:
             return "true or false"
         by = {name: f"{limit:.15g}" for name, limit, _, _ in self.limits()}
         nouns: dict[Any, str] = {int: "a whole number", float: "a number", str: "a text", object: "an object"}
-        nouns |= {Collection: "an array", Callable: "a function"}
+        nouns |= {Collection: "an array", Mapping: "a dictionary", Callable: "a function"}
         noun = nouns.get(self.type, f"an object {self.type.__name__}")
         if {"ge", "le"} <= set(by):
             return f"{noun} from {by['ge']} to {by['le']}"
@@ -100,6 +107,8 @@ class Kind:
         if by == {"gt": "0"}:
             return "positive and finite" if self.type is float else f"{noun} above zero"
         texts = [f"{text} {by[name]}" for name, _, _, text in self.limits()]
+        if self.entries:
+            noun = f"{noun} whose entries are each {' or '.join(dict.fromkeys(map(str, self.entries)))}"
         return " ".join([noun, *([f"of {' and '.join(texts)}"] if texts else [])])
 
 
@@ -172,7 +181,9 @@ class Parameter:
 
     @property
     def subject(self) -> str:
-        """The same with its article, which the name of a person does not have."""
+        """The same with its article, which the name of a person does not have; without a sentence, the name."""
+        if not self.sentence:
+            return self.name
         return self._clauses[0] if re.match(r"[A-Z]\w*'s ", self.sentence) else f"the {self.noun}"
 
     @property
@@ -259,7 +270,7 @@ def _over(under: About, over: About) -> About:
 
 
 def hint_of(spec: Any, one: Field[Any]) -> Any:
-    """The annotation of a field; names that are imported for types only are objects of any kind."""
+    """The annotation of a field; classes that are imported for types only are known by their names."""
     kind: Any = one.type
     if isinstance(kind, FieldOf):
         kind = kind.hint or parameters(kind.spec)[kind.name].hint
@@ -274,10 +285,17 @@ def hint_of(spec: Any, one: Field[Any]) -> Any:
 
 
 class _Names(dict[str, Any]):
-    """Names of a module; others are `object`."""
+    """Names of a module; others are `_Named`."""
 
     def __missing__(self, name: str) -> Any:
-        return vars(sys.modules["builtins"]).get(name, object)
+        return vars(sys.modules["builtins"]).get(name) or _Named(name, (), {})
+
+
+class _Named(type):
+    """In place of a class that is not imported: its objects are those of all classes of this name."""
+
+    def __instancecheck__(cls, value: object) -> bool:
+        return any(base.__name__ == cls.__name__ for base in type(value).__mro__)
 
 
 def _arms(hint: Any, extras: tuple[Any, ...] = ()) -> Iterator[tuple[Any, tuple[Any, ...]]]:
@@ -296,12 +314,25 @@ def _kind(hint: Any, extras: tuple[Any, ...]) -> Kind:
     rules = tuple(extra for extra in extras if hasattr(extra, "fits"))
     if get_origin(hint) is Literal:
         return Kind(str, get_args(hint), (), rules)
-    known = hint if isinstance(hint, type) and hint is not Any and not getattr(hint, "_is_protocol", False) else object
-    if get_origin(hint) in (tuple, list, Sequence):
+    known: Any = object
+    if isinstance(hint, type) and hint is not Any and not getattr(hint, "_is_protocol", False):
+        known = hint
+    entries: tuple[Kind, ...] = ()
+    if get_origin(hint) in (tuple, list, Sequence, Collection):
         known = Collection  # lists, tuples, arrays
-    elif get_origin(hint) is Callable:
+        entries = tuple(_kind(*arm) for part in get_args(hint) if part is not ... for arm in _arms(part))
+    elif get_origin(hint) in (dict, Mapping):
+        known = Mapping
+    elif get_origin(hint) is Callable or (getattr(hint, "_is_protocol", False) and "__call__" in vars(hint)):
         known = Callable
-    return Kind(known, (), tuple(extra for extra in extras if type(extra) in _BOUNDS), rules)
+    elif isinstance(known, _Named) and rules:
+        known = object  # the rules say better what it must be
+    return Kind(known, (), tuple(extra for extra in extras if type(extra) in _BOUNDS), rules, entries)
+
+
+def are_several(values: Any) -> bool:
+    """Whether values are those of a list, a tuple, an array; a text is one value."""
+    return isinstance(values, Iterable) and not isinstance(values, str) and getattr(values, "shape", 1) != ()
 
 
 @cache

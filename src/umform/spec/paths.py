@@ -8,7 +8,7 @@ from typing import Any
 
 from umform.errors import InvalidValue
 from umform.spec.in_deck import entries
-from umform.spec.parameter import Parameter
+from umform.spec.parameter import Parameter, are_several
 
 
 @dataclass(frozen=True)
@@ -36,6 +36,11 @@ class Scalar:
 def each(names: Any) -> Any:
     """Names as they are given; a text or a function alone is a list of one."""
     return [names] if isinstance(names, str) or callable(names) else names
+
+
+def listed(values: Any) -> Any:
+    """Several values as a tuple; one alone, of any type, is a tuple of one."""
+    return tuple(values) if are_several(values) else (values,)
 
 
 def scalars(spec: Any, path: str = "", unit: str = "", sentence: str = "") -> Iterator[Scalar]:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from typing import Any
 
 from umform.errors import InvalidValue, NotFinite
-from umform.spec.parameter import parameters
+from umform.spec.parameter import Parameter, are_several, parameters
 
 
 @dataclass(frozen=True)
@@ -124,11 +124,23 @@ def check_value(spec: Any, name: str, value: Any) -> None:
         return
     kind = parameter.kind_of(value)
     if kind is None:
-        subject = name if bool in (kind.type for kind in parameter.kinds) else parameter.subject
-        what = f"{subject} must be {parameter.must_be}"
-        raise _error(what, name, value, parameter.about.cause, parameter.remedy, parameter.about.error)
+        told = all(kind.type in (int, float, str, Collection, object) for kind in parameter.kinds)
+        what = f"{parameter.subject if told else name} must be {parameter.must_be}"
+        cause = parameter.about.cause or _cause(parameter, value)
+        raise _error(what, name, value, cause, parameter.remedy, parameter.about.error)
     for rule in kind.rules:
         rule.check(name, value)
+
+
+def _cause(parameter: Parameter, value: Any) -> str:
+    """Why a value is none of a parameter, where its type does not say it."""
+    if value is None:
+        return "a missing value"
+    if any(kind.is_of(value) for kind in parameter.kinds):
+        return "a typing error"
+    entries = [kind for one in parameter.kinds for kind in one.entries] if are_several(value) else []
+    wrong = [one for one in value if not any(kind.is_of(one) for kind in entries)] if entries else []
+    return f"an entry of type {type(wrong[0]).__name__}" if wrong else f"a value of type {type(value).__name__}"
 
 
 def _error(

@@ -30,7 +30,7 @@ def names_its_words(kind: C) -> C:
                 f"{kind.__name__} has no parameter {unknown[0]}",
                 where=kind.__name__,
                 value=named[unknown[0]],
-                cause="a parameter of another step, or another spelling",
+                cause=f"a parameter of something other than {kind.__name__}, or another spelling",
                 remedy=f"its parameters are {', '.join(words)}",
             )
         made(self, *arguments, **named)

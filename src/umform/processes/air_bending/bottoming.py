@@ -13,7 +13,7 @@ from umform.processes.air_bending.goal import Goal
 from umform.processes.air_bending.search import Found
 from umform.processes.air_bending.spec import AirBending
 from umform.progress import Tick, progress_bar
-from umform.spec import check_value
+from umform.spec import check_arguments, check_value
 
 #: Relative tolerance of the force, and number of trials.
 _TOLERANCE, _MOST_TRIALS = 0.005, 30
@@ -61,6 +61,7 @@ def press_to_force(
     NoConvergence
         If the sheet cannot be pressed to this force.
     """
+    check_arguments(press_to_force, case=case, tolerance=tolerance, frames=frames, solver=solver)
     force = force_per_metre
     check_value(Goal, "force_per_metre", force)
     if not case.bottoming:
@@ -68,6 +69,7 @@ def press_to_force(
             "these tools are to bend in the air",
             where="bottoming",
             value=case.bottoming,
+            cause="bottoming=False",
             remedy="AirBending(bottoming=True, punch_angle=88, die_angle=88)",
         )
     with progress_bar(progress) as tick:

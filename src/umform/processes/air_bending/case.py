@@ -7,6 +7,7 @@ from umform.processes.air_bending.branches import FRAMES, Brake
 from umform.processes.air_bending.goal import needed_stroke
 from umform.processes.air_bending.spec import AirBending
 from umform.progress import progress_bar
+from umform.spec import check_arguments
 
 
 def air_bending(
@@ -52,6 +53,7 @@ def air_bending(
     True
     >>> bend.write("bend")  # doctest: +SKIP
     """
+    check_arguments(air_bending, case=case, frames=frames, solver=solver)
     stroke = needed_stroke(case)
     with progress_bar(progress) as tick:
         return (brake or Brake(case, solver, max(1, frames))).bend(stroke, tick)

@@ -17,7 +17,7 @@ from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.air_bending.stack import bonded_sheets
 from umform.progress import Tick, progress_bar, silent
-from umform.spec import check_value
+from umform.spec import check_arguments, check_value
 
 _MOST_TRIALS = 10
 
@@ -107,6 +107,7 @@ def find_stroke(
     >>> abs(found.measures.angle - 150.0) < 0.1
     True
     """
+    check_arguments(find_stroke, case=case, frames=frames, solver=solver)
     check_angle(case, angle)
     check_value(Goal, "tolerance", tolerance)
     with progress_bar(progress) as tick:
@@ -183,6 +184,7 @@ def bending_table(
     >>> rows[0].angle > rows[1].angle
     True
     """
+    check_arguments(bending_table, case=case, strokes=strokes, solver=solver)
     ordered = sorted(strokes)
     for stroke in ordered:
         replace(case, stroke=stroke)  # refuses a stroke beyond air bending
@@ -208,7 +210,7 @@ def angle_table(
     Parameters
     ----------
     case, solver, progress, brake
-        As of `bending_table`.
+        As for :func:`bending_table`.
     angles : sequence of float
         Angles between the legs in degrees, in any order.
     tolerance : float
@@ -235,6 +237,7 @@ def angle_table(
     >>> rows[0].stroke < rows[1].stroke
     True
     """
+    check_arguments(angle_table, case=case, angles=angles, solver=solver)
     ordered = sorted(angles, reverse=True)
     for angle in ordered:
         check_angle(case, angle)

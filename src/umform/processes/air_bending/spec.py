@@ -13,7 +13,7 @@ from annotated_types import Ge, Gt, Le
 from umform.errors import InvalidValue
 from umform.processes.air_bending.stack import StackedSheet, bonded_sheets, check_stack
 from umform.processes.rules import PLASTIC, check_contact_points, check_rolling
-from umform.spec import About, check_fields, note_of, parameters
+from umform.spec import About, check_fields, listed, names_its_words, note_of, parameters
 from umform.spec.types import ContactPoints, Degrees, Friction, Length, Positive, Rolling
 
 if TYPE_CHECKING:
@@ -55,6 +55,7 @@ class SizeOf:
     size: str
 
 
+@names_its_words
 @dataclass(frozen=True)
 class AirBending:
     r"""Air bending, in mm, N and MPa. ::
@@ -151,8 +152,7 @@ class AirBending:
             check_drawn(self.punch_section, self.die_section)
             for name, value in self.drawn_sizes.items():
                 object.__setattr__(self, name, value)
-        alone = isinstance(self.on_top, StackedSheet)
-        object.__setattr__(self, "on_top", (self.on_top,) if alone else tuple(self.on_top))
+        object.__setattr__(self, "on_top", listed(self.on_top))
         check_fields(self)
         check_contact_points(self.element, self.contact_points)
         _check_consistency(self)

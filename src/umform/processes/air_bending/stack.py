@@ -9,13 +9,14 @@ from annotated_types import Ge, Le
 
 from umform.errors import InvalidValue
 from umform.processes.rules import PLASTIC, check_rolling
-from umform.spec import About, check_fields
+from umform.spec import About, check_fields, names_its_words
 from umform.spec.types import Length
 
 if TYPE_CHECKING:
     from umform.materials import J2, Metal
 
 
+@names_its_words
 @dataclass(frozen=True)
 class StackedSheet:
     """A sheet on those below it, such as a protective foil or the second of two blanks.
@@ -35,7 +36,7 @@ class StackedSheet:
     thickness: Length
     """Thickness of the sheet."""
     material: Annotated[J2 | Metal, PLASTIC]
-    """Its law."""
+    """Law of the sheet."""
     friction: Annotated[float, Ge(0.0), Le(2.0), About(cause="per cent instead of a part of one")] = 0.0
     """Coefficient of friction with the sheet below."""
     bonded: bool = False

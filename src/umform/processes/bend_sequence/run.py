@@ -12,6 +12,7 @@ from umform.processes.bend_sequence.problem import flat_strip
 from umform.processes.bend_sequence.spec import BendSequence
 from umform.processes.bend_sequence.strip_brake import StripBrake
 from umform.progress import Show, Tick, progress_bar
+from umform.spec import check_arguments
 
 #: Approximate number of states of a bend that are kept for pictures and for collisions.
 FRAMES = 30
@@ -52,6 +53,7 @@ def bend_sequence(
     >>> part = bend_sequence(case)  # doctest: +SKIP
     >>> part.bends[1], part.quantities  # doctest: +SKIP
     """
+    check_arguments(bend_sequence, sequence=sequence, tolerance=tolerance, frames=frames)
     mesh, before, done = flat_strip(sequence), None, list[BendDone]()
     with progress_bar(progress) as tick:
         for number in range(len(sequence.bends)):

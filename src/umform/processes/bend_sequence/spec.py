@@ -10,7 +10,7 @@ from umform.errors import InvalidValue
 from umform.processes.air_bending.goal import check_angle
 from umform.processes.air_bending.spec import AirBending, sizes_of
 from umform.processes.air_bending.stack import refuse_stack
-from umform.spec import About, check_fields
+from umform.spec import About, check_fields, listed, names_its_words
 from umform.spec.types import Degrees, Length
 
 #: Parameters of the tools that may differ between bends.
@@ -19,6 +19,7 @@ TOOLS = (*sizes_of("die").values(), *sizes_of("punch").values())
 MOST_BENDS = 50
 
 
+@names_its_words
 @dataclass(frozen=True)
 class Bend:
     """One bend of a part, to an angle or to a stroke.
@@ -42,8 +43,8 @@ class Bend:
     """Tools of this bend that differ from those of the sequence; their names are `TOOLS`."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "tools", dict(self.tools))
         check_fields(self)
+        object.__setattr__(self, "tools", dict(self.tools))
         _check_bend(self)
 
     @property
@@ -52,6 +53,7 @@ class Bend:
         return self.direction == "down"
 
 
+@names_its_words
 @dataclass(frozen=True)
 class Bodies:
     """Bodies for the detection of collisions, besides tips and V: punch and die, ram and table."""
@@ -75,6 +77,7 @@ class Bodies:
         check_fields(self)
 
 
+@names_its_words
 @dataclass(frozen=True)
 class BendSequence:
     """A strip with several bends, in order.
@@ -100,7 +103,7 @@ class BendSequence:
     """Bodies for the detection of collisions."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "bends", (self.bends,) if isinstance(self.bends, Bend) else tuple(self.bends))
+        object.__setattr__(self, "bends", listed(self.bends))
         check_fields(self)
         refuse_stack(self.sheet, "sheet")
         _check_sequence(self)
@@ -152,12 +155,13 @@ def _check_bend(bend: Bend) -> None:
             cause="none of them is given" if bend.angle is None else "both are given",
             remedy="angle = 90",
         )
-    unknown = sorted(set(bend.tools) - set(TOOLS))
+    unknown = sorted(set(bend.tools) - set(TOOLS), key=str)
     if unknown:
         raise InvalidValue(
             "this is no size of the tools of a bend",
             where=where,
-            value=", ".join(unknown),
+            value=", ".join(map(str, unknown)),
+            cause="another spelling",
             remedy="one of " + ", ".join(TOOLS),
         )
 
@@ -197,7 +201,11 @@ def _check_place(sequence: BendSequence, bend: Bend, count: int) -> None:
             raise
     if bend.position >= sequence.length:
         raise InvalidValue(
-            "the bend line lies beyond the strip", where=f"bend {count}", value=bend.position, cause="another unit"
+            "the bend line lies beyond the strip",
+            where=f"bend {count}",
+            value=bend.position,
+            cause="another unit",
+            remedy=f"less than the length {sequence.length:g} of the strip",
         )
     least, at = case.reach + case.thickness, bend.position
     nearest = min(at, sequence.length - at, sequence.zone(bend))

@@ -25,6 +25,7 @@ from umform.results.balanced import Balanced, balanced
 from umform.results.quantity import Quantity, values
 from umform.results.run_record import run_record
 from umform.results.shape import Shape
+from umform.spec import check_arguments
 from umform.timing import Timing
 
 if TYPE_CHECKING:
@@ -186,6 +187,7 @@ def free_bending(case: FreeBending | None = None, *, frames: int = 1, progress: 
     InvalidValue
         If a parameter does not fit.
     """
+    check_arguments(free_bending, case=case, frames=frames)
     case = case or FreeBending()
     model, punch = build(case)
     down = Move(punch, to=-case.stroke, steps=case.steps)

@@ -10,7 +10,7 @@ from annotated_types import Ge, Le
 
 from umform.errors import InvalidValue
 from umform.processes.rules import whole
-from umform.spec import About, Rule, check_fields
+from umform.spec import About, Rule, check_fields, names_its_words
 from umform.spec.types import ContactPoints, Length, Penalty, Stress
 
 #: What the numbers of this example rest on; said wherever they are shown.
@@ -35,6 +35,7 @@ _TWO_COUNTS = Rule(
 )
 
 
+@names_its_words
 @dataclass(frozen=True)
 class FreeBending:
     """One case of free bending, in mm, N and MPa.

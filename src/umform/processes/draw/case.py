@@ -12,6 +12,7 @@ from umform.processes.draw.endings import Ending, ending_of
 from umform.processes.draw.u_bend import UBend
 from umform.progress import Show
 from umform.results.forming import FormingLimit, KeelerBrazier, add_forming_fields
+from umform.spec import check_arguments
 
 log = logging.getLogger("umform")
 
@@ -58,6 +59,7 @@ def draw(
     >>> cup = draw(case)  # doctest: +SKIP
     >>> cup.quantities, cup.fields["limit_margin"].min()  # doctest: +SKIP
     """
+    check_arguments(draw, case=case, limit=limit, frames=frames, solver=solver)
     for warning in case.warnings:
         log.warning(warning)
     model, press = case.build()

@@ -11,7 +11,7 @@ from annotated_types import Ge, Le
 
 from umform.errors import InvalidValue
 from umform.processes.draw.spec import Draw, Turn, check_clearance, tight, unusual_pressure
-from umform.spec import About, Rule
+from umform.spec import About, Rule, names_its_words
 from umform.spec.types import ContactPoints, Force, Friction, Size
 
 if TYPE_CHECKING:
@@ -39,6 +39,7 @@ _EVEN = Rule(
 )
 
 
+@names_its_words
 @dataclass(frozen=True, kw_only=True)
 class Cup(Draw):
     r"""A round cup, in mm, N and MPa. ::

@@ -11,6 +11,7 @@ from umform.processes.draw.u_bend import UBend
 from umform.processes.limit import Limit
 from umform.progress import Show, parts, progress_bar
 from umform.results.forming import FormingLimit
+from umform.spec import check_arguments
 
 #: Measures that are extrapolated. The radius of the wall is not: it does not converge evenly.
 EXTRAPOLATED = ("largest punch force", "draw-in, mean", "largest springback", "theta1", "theta2")
@@ -33,7 +34,7 @@ def extrapolated(
     Parameters
     ----------
     case, limit, frames, solver, progress
-        See :func:`umform.processes.draw.draw`.
+        As for :func:`draw`.
 
     Returns
     -------
@@ -45,6 +46,7 @@ def extrapolated(
     InvalidValue
         If the coarser mesh is too coarse.
     """
+    check_arguments(extrapolated, case=case)
     if not COARSER * case.turn <= 45.0:
         raise InvalidValue(
             "the coarser of two meshes has too large elements",

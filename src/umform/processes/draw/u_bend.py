@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from umform.errors import InvalidValue
 from umform.processes.draw.spec import Draw, Turn, check_clearance, tight, unusual_pressure
 from umform.processes.limit import allowed_penetration
+from umform.spec import names_its_words
 from umform.spec.types import ContactPoints, Force, Friction, Penalty, Size
 
 if TYPE_CHECKING:
@@ -46,6 +47,7 @@ def _options() -> NewtonOptions:
     return replace(OPTIONS, extrapolate=2)
 
 
+@names_its_words
 @dataclass(frozen=True, kw_only=True)
 class UBend(Draw):
     r"""A U-bend, in mm, N and MPa. ::

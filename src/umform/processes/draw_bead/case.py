@@ -14,6 +14,7 @@ from umform.processes.draw_bead.problem import problem_of
 from umform.processes.draw_bead.spec import FEWEST, DrawBead
 from umform.processes.limit import FINER, Limit
 from umform.progress import Show, parts, progress_bar
+from umform.spec import check_arguments
 
 #: Margin of the penalty that follows from a coarser mesh.
 _MARGIN = 1.2
@@ -33,7 +34,7 @@ def extrapolated(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", 
     Parameters
     ----------
     case, frames, solver, progress
-        See :func:`drawn_through`.
+        As for :func:`drawn_through`.
 
     Returns
     -------
@@ -45,6 +46,7 @@ def extrapolated(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", 
     InvalidValue
         If the coarsest mesh would have too few elements.
     """
+    check_arguments(extrapolated, case=case)
     if case.elements < 2.0 * FEWEST:
         raise InvalidValue(
             "the coarsest of three meshes has too few elements",
@@ -113,5 +115,6 @@ def drawn_through(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto",
     >>> drawn = drawn_through(DrawBead(material=uf.sheet_metals.get("DC04").law))  # doctest: +SKIP
     >>> drawn.quantities  # doctest: +SKIP
     """
+    check_arguments(drawn_through, case=case, frames=frames, solver=solver)
     model, steps = build(case)
     return Drawn.of(case, solve(model, steps, frames=frames, solver=solver, progress=progress))

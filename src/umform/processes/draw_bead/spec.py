@@ -11,7 +11,7 @@ from annotated_types import Ge, Le
 from umform.errors import InvalidValue
 from umform.processes.limit import allowed_penetration
 from umform.processes.rules import PLASTIC, check_contact_points, check_rolling
-from umform.spec import About, check_fields
+from umform.spec import About, check_fields, names_its_words
 from umform.spec.types import ContactPoints, Friction, Length, Penalty, Rolling
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ _SHARPEST, _ROUNDEST = 1.0, 200.0
 FEWEST = 2.0
 
 
+@names_its_words
 @dataclass(frozen=True, kw_only=True)
 class DrawBead:
     r"""A draw bead, in mm, N and MPa. ::

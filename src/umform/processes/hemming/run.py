@@ -10,6 +10,7 @@ from umform.processes.hemming.measures import Hem, measured
 from umform.processes.hemming.problem import FORCE, edge_of, loading_steps, problem_of_hem, start_of, way_column
 from umform.processes.hemming.spec import Hemming
 from umform.progress import Show, parts, progress_bar
+from umform.spec import check_arguments
 
 
 def hemming(case: Hemming, *, tolerance: float = 0.1, frames: int = FRAMES, progress: Show = None) -> Hem:
@@ -39,6 +40,7 @@ def hemming(case: Hemming, *, tolerance: float = 0.1, frames: int = FRAMES, prog
     >>> hem = hemming(Hemming(form="inner", gap=0.5))  # doctest: +SKIP
     >>> hem.quantities  # doctest: +SKIP
     """
+    check_arguments(hemming, case=case, tolerance=tolerance, frames=frames)
     first = bend_sequence(case.first, tolerance=tolerance, frames=frames, progress=progress)
     problem = problem_of_hem(case, first)[0]
     made = problem.build()

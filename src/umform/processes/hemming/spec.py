@@ -12,7 +12,7 @@ from umform.errors import InvalidValue
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.air_bending.stack import refuse_stack
 from umform.processes.bend_sequence.spec import Bend, BendSequence
-from umform.spec import About, check_fields, parameters
+from umform.spec import About, check_fields, names_its_words, parameters
 from umform.spec.types import FOLLOWS, Size
 
 #: Sizes of the tools of the first bend for a sheet of 1 mm: a V of 30 degrees.
@@ -52,6 +52,7 @@ def acute(thickness: float = 1.0, **given: Any) -> AirBending:
     return AirBending(thickness=thickness, **scaled(ACUTE, thickness) | FOLDED | given)
 
 
+@names_its_words
 @dataclass(frozen=True)
 class Hemming:
     """Hemming in mm, N and MPa. ::

@@ -15,7 +15,7 @@ from umform.processes.air_bending.problem import problem_of
 from umform.processes.air_bending.remarks import coarse_mesh
 from umform.processes.air_bending.spec import AirBending
 from umform.progress import Show
-from umform.spec import check_value
+from umform.spec import check_arguments, check_value
 from umform.spec.types import Length, Positive
 from umform.studies.identification import Identified, MeasuredNumber, Sought, identify
 
@@ -94,6 +94,7 @@ def correct(
     NoConvergence
         The first run does not converge.
     """
+    check_arguments(correct, case=case, name=name)
     needed_stroke(case)
     check_value(Goal, "angle", angle)
     check_value(correct, "angle_deviation", angle_deviation)

@@ -18,7 +18,7 @@ from umform.processes.air_bending.problem import problem_of
 from umform.processes.air_bending.remarks import coarse_mesh, extrapolated
 from umform.processes.air_bending.search import bent_to_angle
 from umform.processes.air_bending.spec import AirBending
-from umform.spec import check_value
+from umform.spec import check_arguments, check_value
 
 #: Kind of the entries, and version of their numbers: increase it with any change of the code that changes a bend.
 KIND, RESULTS = "bend", 2
@@ -133,6 +133,7 @@ def bend(
     >>> found = bend(AirBending(thickness=1.0, opening=8.0), 120.0)  # doctest: +SKIP
     >>> found.allowance  # doctest: +SKIP
     """
+    check_arguments(bend, case=case, angle=angle)
     (found,) = bends(case, [angle], tolerance=tolerance, store=store, solver=solver)
     return found
 
@@ -152,7 +153,7 @@ def bends(
     Parameters
     ----------
     case, tolerance, store, solver
-        As of :func:`bend`.
+        As for :func:`bend`.
     angles : sequence of float
         Angles between the legs in degrees.
     each : callable
@@ -166,6 +167,7 @@ def bends(
     list of StoredBend
         In the order of the angles, without those that failed.
     """
+    check_arguments(bends, case=case, angles=angles, store=store, solver=solver)
     store = Store() if store is None else store
     for angle in angles:
         check_bend(case, angle, tolerance)
@@ -200,13 +202,14 @@ def stored_bends(
     Parameters
     ----------
     case, angles, tolerance, store, solver
-        As of :func:`bends`.
+        As for :func:`bends`.
 
     Returns
     -------
     list of StoredBend
         In the order of the angles.
     """
+    check_arguments(stored_bends, case=case, angles=angles, tolerance=tolerance, store=store, solver=solver)
     store = Store() if store is None else store
     entries = [(angle, store.get(bend_key(case, angle, tolerance, solver))) for angle in angles]
     return [_of(case, angle, entry) for angle, entry in entries if entry is not None]
@@ -240,6 +243,7 @@ def check_bend(case: AirBending, angle: float, tolerance: float = TOLERANCE) -> 
 
 def bend_key(case: AirBending, angle: float, tolerance: float = TOLERANCE, solver: str = "auto") -> str:
     """Name of a bend in the store: digest of its problem and of the search."""
+    check_arguments(bend_key, case=case, angle=angle, tolerance=tolerance, solver=solver)
     problem = problem_of(replace(case, stroke=None), case.largest_stroke)
     return key_of(KIND, RESULTS, text([_floats(problem.source.data), float(angle), float(tolerance), solver]))
 

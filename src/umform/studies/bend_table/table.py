@@ -20,6 +20,7 @@ from umform.pool import check_processes, run_all
 from umform.problem.metal_file import metal_of
 from umform.processes.air_bending.spec import AirBending
 from umform.progress import Show, progress_bar
+from umform.spec import check_arguments, check_fields, each
 from umform.studies.bend_table.stored import TOLERANCE, StoredBend, bends, check_bend
 
 #: Angle of punch and die that is not part of the names of files.
@@ -40,6 +41,9 @@ class Setup:
 
     metal: str
     case: AirBending
+
+    def __post_init__(self) -> None:
+        check_fields(self)
 
     @property
     def tools(self) -> str:
@@ -219,7 +223,7 @@ class BendTable:
 
 
 def setups(
-    metals: Sequence[str],
+    metals: str | Sequence[str],
     case: AirBending,
     *,
     thicknesses: Sequence[float] = (),
@@ -243,6 +247,9 @@ def setups(
     >>> [one.case.thickness for one in setups(["DC04"], AirBending(), thicknesses=[1.0, 2.0])]
     [1.0, 2.0]
     """
+    metals = each(metals)
+    check_arguments(setups, metals=metals, case=case, thicknesses=thicknesses, openings=openings)
+    check_arguments(setups, punch_radii=punch_radii, die_radii=die_radii)
     lists = {
         "thickness": thicknesses,
         "opening": openings,
@@ -272,7 +279,7 @@ def bend_table(
     *,
     tolerance: float = TOLERANCE,
     check: bool = False,
-    notes: Sequence[str] = (),
+    notes: str | Sequence[str] = (),
     store: Store | None = None,
     processes: int | None = None,
     progress: Show = None,
@@ -292,7 +299,7 @@ def bend_table(
         Tolerance of the angles in degrees.
     check : bool
         Measure the error of interpolation by a run in the middle between each two angles.
-    notes : sequence of str
+    notes : str or sequence of str
         Lines for the head of each file.
     store : Store, optional
         Default: that of the user.
@@ -316,6 +323,9 @@ def bend_table(
     >>> table = bend_table(setups(["DC04"], AirBending()), [90.0, 120.0])  # doctest: +SKIP
     >>> files = write_table(table, Path("bends"), ["csv", "freecad"])  # doctest: +SKIP
     """
+    check_arguments(bend_table, wanted=wanted, angles=angles, tolerance=tolerance, check=check, store=store)
+    notes = each(notes)
+    check_arguments(bend_table, notes=notes)
     check_processes(processes)
     for setup in wanted:
         for angle in angles:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
 from umform.errors import InvalidValue
+from umform.spec import check_arguments, each
 from umform.studies.bend_table.formats import creo, freecad, inventor, solidworks, table_csv, table_json
 from umform.studies.bend_table.table import BendTable, Setup
 
@@ -62,17 +63,17 @@ def check_formats(names: Iterable[str]) -> None:
             )
 
 
-def write_table(table: BendTable, folder: Path, formats: Iterable[str] = ("csv", "json")) -> list[Path]:
+def write_table(table: BendTable, folder: str | Path, formats: str | Collection[str] = ("csv", "json")) -> list[Path]:
     """Write a table into a folder.
 
     Parameters
     ----------
     table : BendTable
         The table.
-    folder : Path
+    folder : str or Path
         It is made if it is missing.
-    formats : iterable of str
-        Of ``FORMATS``.
+    formats : str or collection of str
+        Names of ``FORMATS``.
 
     Raises
     ------
@@ -81,7 +82,8 @@ def write_table(table: BendTable, folder: Path, formats: Iterable[str] = ("csv",
     FileProblem
         A file cannot be written.
     """
-    formats = list(formats)
+    check_arguments(write_table, table=table, folder=folder, formats=formats)
+    formats, folder = each(formats), Path(folder)
     check_formats(formats)
     folder.mkdir(parents=True, exist_ok=True)
     return [path for name in formats for path in FORMATS[name].write(table, folder)]
