@@ -164,18 +164,13 @@ def test_a_mesh_that_is_too_coarse_to_be_coarsened_is_refused(drawn, monkeypatch
     assert case_module.extrapolated(replace(drawn.case, elements=4.0), progress=False).case.elements == 4.0
 
 
-def test_a_mesh_that_penetrates_too_far_gives_the_finer_one_a_stiffer_penalty(drawn):
-    """Without a warning where the penetration is below half the rise of an arc over an element; else by eq. (4.191)."""
+@pytest.mark.parametrize("elements", [3.0, 30.0])
+def test_a_tool_may_penetrate_by_half_the_rise_of_an_arc_over_an_element(drawn, elements):
+    """Eq. (4.190); 1/200 of the thickness at least. The run has kept it."""
+    case = replace(drawn.case, elements=elements)
+    assert case.allowed == pytest.approx(max((0.5 * np.pi * 3.0 / elements) ** 2 / 16.0 / 3.0, 1.0 / 200.0))
     pairs, result = drawn.result.model.contacts, drawn.result
-    deepest = max(result[f"{pair.name}_penetration"].max() for pair in pairs)
-    assert not any("penetration" in text for text in drawn.warnings) or deepest > drawn.case.allowed
-    same = max(pair.penalty for pair in pairs)
-    finer = replace(drawn.case, elements=4.0 * drawn.case.elements)
-    assert finer.allowed == pytest.approx(max(drawn.case.size**2 / 16.0 / 16.0 / 3.0, 1.0 / 200.0))
-    wanted = 1.2 * (deepest / 4.0 / finer.allowed) ** 2
-    assert case_module.penalty_by(drawn, finer) == pytest.approx(max(1.0, wanted) * same)
-    strict = replace(drawn.case, elements=30.0)
-    assert case_module.penalty_by(replace(drawn, case=replace(strict, elements=60.0)), strict) > 1.5 * same
+    assert max(result[f"{pair.name}_penetration"].max() for pair in pairs) <= drawn.case.allowed
 
 
 def test_a_shallow_bead_has_no_walls_and_a_high_one_has():

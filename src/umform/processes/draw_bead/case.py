@@ -16,8 +16,6 @@ from umform.processes.limit import FINER, Limit
 from umform.progress import Show, parts, progress_bar
 from umform.spec import check_arguments
 
-#: Margin of the penalty that follows from a coarser mesh.
-_MARGIN = 1.2
 #: States that each step keeps for pictures.
 FRAMES = 12
 
@@ -60,22 +58,12 @@ def extrapolated(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", 
     with progress_bar(progress) as bar:
         for part, tick in zip(shares, parts(bar, "3 meshes", shares, moves=2), strict=True):
             mesh = replace(case, elements=case.elements * part)
-            if every and case.penalty is None:
-                mesh = replace(mesh, penalty=penalty_by(every[-1], mesh))
             every.append(drawn_through(mesh, frames=frames if part == 1.0 else 0, solver=solver, progress=tick))
     fine = every[-1]
     limits = Limits(
         Limit.of_three([one.restraint for one in every], FINER), Limit.of_three([one.uplift for one in every], FINER)
     )
     return replace(fine, limits=limits)
-
-
-def penalty_by(coarser: Drawn, case: DrawBead) -> float:
-    """Penalty with which a mesh keeps its allowed penetration, by what a coarser one has reached. eq. (4.191)"""
-    pairs, result = coarser.result.model.contacts, coarser.result
-    deepest = max(float(result[f"{pair.name}_penetration"].max()) for pair in pairs)
-    excess = deepest * coarser.case.elements / case.elements / case.allowed
-    return max(1.0, _MARGIN * excess**2) * max(pair.penalty for pair in pairs)
 
 
 def limits_of(coarse: Drawn, fine: Drawn) -> Limits:

@@ -78,8 +78,7 @@ class DrawBead:
     contact_points: ContactPoints = 4
     """Number of contact points per direction and facet."""
     penalty: Penalty | None = None
-    """Contact pressure per penetration; without it, as for any contact, and on finer meshes by the penetration of the
-    coarser ones."""
+    """Contact pressure per penetration; without it, as for any contact."""
     rolling: Annotated[Rolling, About(remedy="0 along the bead, 90 across it")] | None = None
     """Angle from the line of the bead to the rolling direction; a law with directions needs it."""
 
