@@ -58,7 +58,7 @@ def net(
         )
     stem = f"{deck.stem}-net"
     place = chosen_folder(deck.parent, list(names(stem).values()), overwrite=overwrite)
-    with deck_errors():
+    with deck_errors("height", "corrections"):
         loaded = read(deck, changes or (), trust)
         running.refuse_implausible(loaded, loaded.build(), force=force)
         wanted = height if outline is None else outline_of(outline)

@@ -139,6 +139,9 @@ def test_the_command(tmp_path):
     refused = CliRunner().invoke(cli.app, words[:2])
     assert refused.exit_code != 0
     assert "--outline" in str(refused.exception) + refused.output
+    for wrong in (["--height", "-3"], ["--height", "9", "--corrections", "0"]):
+        refused = CliRunner().invoke(cli.app, [*words[:2], *wrong, "--overwrite"])
+        assert refused.exit_code == 1 and f"where:  {wrong[-2]}" in refused.output
 
 
 def test_a_row_of_an_outline_that_is_no_point_is_refused(tmp_path):
