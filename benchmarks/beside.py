@@ -29,7 +29,7 @@ from umform.model.equations.evaluated import Evaluated
 from umform.problem import load
 from umform.problem.templates import template_file
 from umform.processes.draw import draw
-from umform.processes.draw.press import OPTIONS
+from umform.processes.solution import drawing_options
 from umform.timing import Timing, timings
 from umform_book.drawing import hemisphere, s_rail, square_cup
 from umform_book.page import Page
@@ -83,7 +83,7 @@ TEMPLATES = ("hat-rail", "cup", "square-cup")
 JOBS: dict[str, Callable[[], str]] = {
     **{name: lambda name=name: _drawn(name) for name in ("cup", "U-bend, coarse")},
     **{f"{name}, tight": lambda job=job: job(uf.NewtonOptions()) for name, job in BOOK.items()},
-    **{name: lambda job=job: job(OPTIONS) for name, job in BOOK.items()},
+    **{name: lambda job=job: job(drawing_options()) for name, job in BOOK.items()},
     **{f"template {name}, tight": lambda name=name: _template(name, uf.NewtonOptions()) for name in TEMPLATES},
     **{f"template {name}": lambda name=name: _template(name) for name in TEMPLATES},
 }

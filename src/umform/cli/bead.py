@@ -40,7 +40,7 @@ from umform.processes.draw_bead.spec import DrawBead
 
 
 @app.command()
-@given_by(DrawBead, omit=("material",))
+@given_by(DrawBead, omit=("material", "newton", "pace"))
 @scattering
 def bead(
     given: Given,

@@ -7,8 +7,8 @@ from umform.problem.check import check
 from umform.problem.findings import Level
 from umform.problem.templates import template, template_file, templates, write_template
 from umform.processes import FreeBending, free_bending
-from umform.processes.draw.press import OPTIONS
 from umform.processes.problems import problem_of
+from umform.processes.solution import drawing_options
 from umform_book.nonlinear.hinged_roofs import limit_load
 from umform_book.references import table
 
@@ -35,7 +35,7 @@ def test_the_list_is_whole():
 
 @pytest.mark.parametrize("name", ["cup", "hat-rail", "square-cup"])
 def test_templates_of_drawn_parts_have_the_tolerances_of_drawing(name):
-    assert load(template_file(name)).build().options == OPTIONS
+    assert load(template_file(name)).build().options == drawing_options()
 
 
 @pytest.mark.parametrize("name", SHORT)

@@ -15,7 +15,7 @@ from umform.mesh import Mesh
 from umform.processes.draw import Cup
 from umform.processes.draw.cup import ESAFORM
 from umform.processes.draw.drawn import let_go, passage
-from umform.processes.draw.press import OPTIONS
+from umform.processes.solution import drawing_options
 from umform.results.forming import EarProfile, LargestForce, ear_profile, forming_fields, largest_force, section
 from umform.sheet_metals import get
 from umform_book.page import Page
@@ -89,7 +89,7 @@ class Made:
 
 
 #: Newton's method of `umform draw`, whose tolerances would leave imbalances above those that a page of the book allows.
-NEWTON = replace(OPTIONS, residual=1e-7, increment=1e-4)
+NEWTON = replace(drawing_options(), residual=1e-7, increment=1e-4)
 #: Stroke in mm at which the rim is still on the flat of the die.
 FLANGE = 20.0
 #: Columns of such a table.

@@ -74,7 +74,9 @@ def real(page: Page, elements: float, friction: float) -> Drawn:
     """Draw a strip through the bead."""
     case = bead(elements, friction)
     model, steps = build(case)
-    return Drawn.of(case, page.solve(f"{elements:g} elements, friction {friction:g}", model, steps))
+    return Drawn.of(
+        case, page.solve(f"{elements:g} elements, friction {friction:g}", model, steps, options=case.newton)
+    )
 
 
 def equivalent(page: Page, drawn: Drawn) -> tuple[np.ndarray, np.ndarray]:

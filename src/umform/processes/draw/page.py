@@ -11,6 +11,7 @@ from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.u_bend import UBend
 from umform.processes.draw.words import before_the_run, parameters
+from umform.processes.solution import solution_texts
 from umform.report import parts
 from umform.report.live import Live, style
 from umform.report.looks import MILLIMETRES
@@ -70,9 +71,4 @@ def _middle(drawn: Drawn, live: Live, figures: Mapping[str, Figure]) -> Iterator
 
 def _texts(case: Cup | UBend) -> dict[str, str]:
     """Parameters that are objects, as text."""
-    settings = {name: vars(getattr(case, name)) for name in ("newton", "pace")}
-    texts = {
-        name: ", ".join(f"{key.replace('_', ' ')} {value:g}" for key, value in given.items() if value is not None)
-        for name, given in settings.items()
-    }
-    return texts | {"material": material_text(case.material)}
+    return solution_texts(case.newton, case.pace) | {"material": material_text(case.material)}

@@ -6,11 +6,8 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.steps import Free, Pace, Step
 
-#: Tolerances of drawing: what one increment leaves over is a force of the next. Tighter ones change no number.
-OPTIONS = NewtonOptions(residual=1e-3, increment=1e-2, keep=True)
 #: Stiffness of the distance blocks: that of the force on them over the thickness, times this.
 _BLOCKS = 200.0
 #: Travel of the holder, over the thickness, at which the blocks begin to carry load.
@@ -80,8 +77,3 @@ def press_steps(
     draw = {"kind": "move", "to": {"stroke": way}, "pace": asdict(pace)}
     first, *rest = ({"kind": "free", "contacts": list(names), "increments": _OPENING} for names in opened)
     return [*hold, draw, first | {"on": "gauge"}, *rest]
-
-
-def solution(options: NewtonOptions) -> dict[str, Any]:
-    """Table of the options of Newton's method."""
-    return {name: value for name, value in asdict(options).items() if value is not None}

@@ -10,6 +10,7 @@ from annotated_types import Ge, Le
 
 from umform.errors import InvalidValue
 from umform.processes.rules import PLASTIC, check_contact_points
+from umform.processes.solution import drawing_options, solution_keys, usual_pace
 from umform.spec import About, check_fields, parameters
 from umform.spec.types import ContactPoints, Friction, Penalty, Size
 
@@ -30,21 +31,8 @@ _YOUNG = (1e3, 1e6)
 #: Least pressure of a holder in MPa: one in kN is a thousandth of one in N. The largest is the yield stress.
 _LEAST_PRESSURE = 0.02
 
-
 #: Angle that an element turns over a radius.
 Turn = Annotated[float, Ge(1.0), Le(45.0), About("degrees", cause="radians, or a number of elements")]
-
-
-def _options() -> NewtonOptions:
-    from umform.processes.draw.press import OPTIONS
-
-    return OPTIONS
-
-
-def _pace() -> Pace:
-    from umform.analysis.steps import Pace
-
-    return Pace()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,9 +77,9 @@ class Draw:
     """Number of contact points per direction and facet."""
     penalty: Penalty | None = None
     """Contact pressure per penetration; without it, by the allowed penetration, eq. (4.29)."""
-    newton: NewtonOptions = field(default_factory=_options)
+    newton: NewtonOptions = field(default_factory=drawing_options)
     """Tolerances and predictor."""
-    pace: Pace = field(default_factory=_pace)
+    pace: Pace = field(default_factory=usual_pace)
     """Increments of the stroke."""
 
     def __post_init__(self) -> None:
@@ -117,12 +105,11 @@ class Draw:
     def _sheet(self) -> dict[str, Any]:
         """Tables of the element, the law and the options of the solution."""
         from umform.problem.keys import law_keys
-        from umform.processes.draw.press import solution
 
         return {
             "element": {"name": self.element, "thickness_points": self.thickness_points},
             "material": law_keys(cast("Metal", self.material), "x"),
-            "solution": solution(self.newton),
+            "solution": solution_keys(self.newton),
         }
 
     @cached_property

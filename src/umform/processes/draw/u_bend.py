@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from umform.errors import InvalidValue
 from umform.processes.draw.spec import Draw, Turn, check_clearance, tight, unusual_pressure
 from umform.processes.limit import allowed_penetration
+from umform.processes.solution import drawing_options
 from umform.spec import names_its_words
 from umform.spec.types import ContactPoints, Force, Friction, Penalty, Size
 
@@ -42,9 +43,7 @@ _TIGHT: dict[str, Any] = {"residual": 1e-6, "increment": 1e-5}
 
 def _options() -> NewtonOptions:
     """The parabola suits the steady flow over the edge of the die."""
-    from umform.processes.draw.press import OPTIONS
-
-    return replace(OPTIONS, extrapolate=2)
+    return replace(drawing_options(), extrapolate=2)
 
 
 @names_its_words

@@ -105,4 +105,5 @@ def drawn_through(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto",
     """
     check_arguments(drawn_through, case=case, frames=frames, solver=solver)
     model, steps = build(case)
-    return Drawn.of(case, solve(model, steps, frames=frames, solver=solver, progress=progress))
+    result = solve(model, steps, options=case.newton, frames=frames, solver=solver, progress=progress)
+    return Drawn.of(case, result)

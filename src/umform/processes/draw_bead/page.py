@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from umform.processes.draw_bead.equivalent import in_deck
 from umform.processes.draw_bead.measures import Drawn
 from umform.processes.draw_bead.words import parameters
+from umform.processes.solution import solution_texts
 from umform.report import parts
 from umform.report.materials import material_text
 from umform.report.page import outcome_parts
@@ -30,7 +31,8 @@ def write_page(path: Path, drawn: Drawn, figures: Mapping[str, Figure], note: st
         Source of the material data; may be empty.
     """
     lead = f"plane strain; computed in {drawn.seconds:.1f} s"
-    given = parameters(drawn) | {"material": material_text(drawn.case.material)}
+    case = drawn.case
+    given = parameters(drawn) | solution_texts(case.newton, case.pace) | {"material": material_text(case.material)}
     shape = parts.figure(figures["shape"], "The sheet in the bead at the end.")
     return parts.write_html(path, drawn.title, lead, outcome_parts(drawn, shape, _parts(drawn, figures), given, note))
 

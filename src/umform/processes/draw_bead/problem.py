@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import asdict
 
 from umform.problem.keys import law_keys
 from umform.problem.problem import Problem
 from umform.problem.profiles import profile_table
 from umform.processes.draw_bead.spec import DrawBead
+from umform.processes.solution import solution_keys
 
 
 def problem_of(case: DrawBead) -> Problem:
@@ -33,7 +35,7 @@ def problem_of(case: DrawBead) -> Problem:
             "cells": (round((right - left) / case.size), 1),
             "shift": (left, 0.0, 0.5 * case.thickness),
         },
-        "element": {"name": case.element},
+        "element": {"name": case.element, "plane_strain": case.plane_strain},
         "material": law_keys(case.material, rolling),
         "tools": {
             "lower_tool": {
@@ -59,9 +61,10 @@ def problem_of(case: DrawBead) -> Problem:
             "way": {"kind": "displacement", "nodes": "x1", "direction": "x"},
             "closing": {"kind": "tool", "contact": "above", "direction": "-z"},
         },
+        "solution": solution_keys(case.newton),
         "steps": [
-            {"kind": "move", "to": {"closing": case.closing}},
-            {"kind": "move", "to": {"way": case.way}},
+            {"kind": "move", "to": {name: end}, "pace": asdict(case.pace)}
+            for name, end in (("closing", case.closing), ("way", case.way))
         ],
     }
     return Problem.of(tables, ["A strip of 1 mm width, drawn through a bead. Units: mm, N, MPa."])

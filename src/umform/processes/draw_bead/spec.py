@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields, replace
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from annotated_types import Ge, Le
@@ -11,10 +11,13 @@ from annotated_types import Ge, Le
 from umform.errors import InvalidValue
 from umform.processes.limit import allowed_penetration
 from umform.processes.rules import PLASTIC, check_contact_points, check_rolling
+from umform.processes.solution import drawing_options, usual_pace
 from umform.spec import About, check_fields, names_its_words
 from umform.spec.types import ContactPoints, Friction, Length, Penalty, Rolling
 
 if TYPE_CHECKING:
+    from umform.analysis.newton.options import NewtonOptions
+    from umform.analysis.steps import Pace
     from umform.elements.technology import Element
     from umform.materials import J2, Metal
     from umform.surfaces import Extruded, Profile, UDie
@@ -23,6 +26,11 @@ if TYPE_CHECKING:
 _SHARPEST, _ROUNDEST = 1.0, 200.0
 #: Fewest elements on a quarter turn.
 FEWEST = 2.0
+
+
+def _options() -> NewtonOptions:
+    """Forces in balance to a ten-thousandth: they are what a bead is drawn for."""
+    return replace(drawing_options(), residual=1e-4, increment=1e-3)
 
 
 @names_its_words
@@ -79,6 +87,10 @@ class DrawBead:
     """Number of contact points per direction and facet."""
     penalty: Penalty | None = None
     """Contact pressure per penetration; without it, as for any contact."""
+    newton: NewtonOptions = field(default_factory=_options)
+    """Tolerances and predictor."""
+    pace: Pace = field(default_factory=usual_pace)
+    """Increments."""
     rolling: Annotated[Rolling, About(remedy="0 along the bead, 90 across it")] | None = None
     """Angle from the line of the bead to the rolling direction; a law with directions needs it."""
 
@@ -156,6 +168,12 @@ class DrawBead:
         from umform.surfaces import Extruded
 
         return Extruded(self.profile, origin=(0.0, 0.0, self.thickness + self.height))
+
+    @property
+    def plane_strain(self) -> bool | None:
+        """Option of the element; None for one of your own, and for a strip that shears along the bead."""
+        shears = getattr(self.material, "directional", False) and (self.rolling or 0.0) % 90.0 != 0.0
+        return None if shears or not isinstance(self.element, str) else True
 
     @property
     def size(self) -> float:

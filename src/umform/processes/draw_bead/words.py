@@ -12,5 +12,6 @@ from umform.processes.draw_bead.measures import Drawn
 def parameters(drawn: Drawn) -> dict[str, Any]:
     """Parameters with their defaults; the material as text."""
     case = drawn.case
-    found = {"groove": case.width, "gap": case.air, "draw": case.way}
-    return case.record() | found | {"element": element(case.element).name, "material": full_text(case.material)}
+    found: dict[str, Any] = {"groove": case.width, "gap": case.air, "draw": case.way}
+    found |= {"element": element(case.element).name, "material": full_text(case.material)}
+    return case.record() | found | {"newton": vars(case.newton), "pace": vars(case.pace)}

@@ -21,10 +21,10 @@ from umform.processes.draw.drawn import FORCE, FORCE_OFF
 from umform.processes.draw.endings import ending_of
 from umform.processes.draw.files import draw_blank
 from umform.processes.draw.pictures import limits, pictures, sections
-from umform.processes.draw.press import OPTIONS
 from umform.processes.draw.spec import coarse
 from umform.processes.draw.u_bend import NUMISHEET
 from umform.processes.draw.words import before_the_run
+from umform.processes.solution import drawing_options
 from umform.results.forming import BY_PATHS, ear_profile, passage
 
 STEEL = uf.J2(E=206e3, nu=0.3, hardening=uf.Swift(565.3, 0.0071, 0.259))
@@ -94,7 +94,7 @@ def test_a_cup_is_symmetric_and_in_balance():
     mirrored = [order[tuple(np.round(p, 6))] for p in model.mesh.points[:, [1, 0, 2]]]
     np.testing.assert_allclose(x[mirrored][:, [1, 0, 2]], x, atol=2e-3)  # staggered heights are not mirrored
     forces = result["punch_fz"] + result["die_fz"] + result["holder_fz"]
-    assert abs(forces).max() < OPTIONS.residual * abs(result["die_fz"]).max()
+    assert abs(forces).max() < drawing_options().residual * abs(result["die_fz"]).max()
     assert abs(result.balance().drift[-1]) < 0.02
     assert drawn.forces["holder"][-1] == pytest.approx(20e3, rel=1e-6)
 
