@@ -58,7 +58,7 @@ def test_a_second_sheet_of_the_library_is_bent_with_the_first(visit):
     quick(page, 1.0)
     page.wait_for_selector("#run:enabled")
     page.click("#run")
-    page.locator("#results", has_text="springback of sheet 2").wait_for()
+    page.locator("#result", has_text="sheet 2: springback").wait_for()
 
 
 def test_a_collision_is_red_before_the_run_and_named(visit):

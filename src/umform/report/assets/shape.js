@@ -242,8 +242,8 @@ class ShapeView {
     const { row } = this.head.frames[this.frame];
     element("shape-frame").value = this.frame;
     const { curves } = window.umform;
-    const place = [curves.step(row), curves.text(row, 4), `state ${this.frame} of ${this.count - 1}`];
-    element("shape-time").textContent = place.filter(Boolean).join(" · ");
+    element("shape-step").textContent = curves.step(row);
+    element("shape-time").textContent = `${curves.text(row, 4)} · state ${this.frame} of ${this.count - 1}`;
     element("shape-time").dataset.row = row;
     document.dispatchEvent(new CustomEvent("frame", { detail: row }));
     this.draw();
