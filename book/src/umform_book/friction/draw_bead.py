@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import brentq
@@ -15,6 +16,7 @@ from umform.processes.draw_bead import DrawBead
 from umform.processes.draw_bead.case import build, limits_of
 from umform.processes.draw_bead.equivalent import width
 from umform.processes.draw_bead.measures import Drawn
+from umform.processes.solution import drawing_options
 from umform.surfaces import Plane
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
@@ -39,6 +41,7 @@ def bead(elements: float, friction: float) -> DrawBead:
         groove_radius=EDGE,
         friction=friction,
         elements=elements,
+        newton=replace(drawing_options(), residual=1e-7, increment=1e-4),
     )
 
 
