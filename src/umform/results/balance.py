@@ -147,13 +147,20 @@ class _Tool:
 
     def work_since(self, before: _Tool) -> float:
         """Work of the forces that move the tool against the sheet, from an earlier state. eq. (5.32)"""
-        work = -0.5 * float((before.force + self.force) @ (self.point - before.point))
+        slide, turn, arms = self.point - before.point, np.zeros(3), np.zeros((2, 3))
         if not np.array_equal(self.rotation, before.rotation):
             from scipy.spatial.transform import Rotation  # the import is slow
 
             turn = Rotation.from_matrix(self.rotation @ before.rotation.T).as_rotvec()
-            work -= 0.5 * float((before.moment + self.moment) @ turn)
-        return work
+        if angle := math.hypot(*turn):
+            # the tool slides along the axis of its motion and turns about it; arms from its point to the axis
+            axis = turn / angle
+            across = slide - (slide @ axis) * axis
+            arms[0] = 0.5 * (across + np.cross(axis, across) / math.tan(0.5 * angle))
+            arms[1], slide = arms[0] - across, slide - across
+        force, moment = before.force + self.force, before.moment + self.moment
+        moment = moment - np.cross(arms[0], before.force) - np.cross(arms[1], self.force)
+        return -0.5 * float(force @ slide + moment @ turn)
 
 
 @dataclass(frozen=True)

@@ -92,6 +92,19 @@ def test_tool_that_is_driven():
     assert result["contact_energy"][-1] > 0.3 * result["external_work"][-1]  # the penalty is soft: it counts
 
 
+@pytest.mark.parametrize("place", [(0.0, 0.0, 0.0), (1000.0, 0.0, -2000.0)])
+def test_a_tool_that_turns_does_the_work_of_its_moment_wherever_the_origin_is(place):
+    at = np.array(place)
+    model = Model(strip(10.0, 1.0, 1.0, (10, 1)).transformed(lambda X: X + at), material=STEEL)
+    model.fix(lambda x, y, z: x - at[0] < 4.5)
+    roller = Cylinder(at + np.array([8.0, 0.0, -1.5]), "y", 1.0)
+    fold = model.turn(model.contact("lower", roller, name="roller"), "-y", at + np.array([5.0, 0.0, 0.0]), name="fold")
+    result = solve(model, Move(fold, 0.2, steps=4), frames=0)
+    work = 0.5 * (result["fold_force"][1:] + result["fold_force"][:-1]) @ np.diff(result["fold"])
+    assert work > 5.0
+    assert result.balance().works["roller"][-1] == pytest.approx(work, rel=1e-8)
+
+
 def test_tool_that_turns_and_slides_in_time():
     """A wedge about a skew axis away from the block: force and moment, translation and rotation have their share."""
 
