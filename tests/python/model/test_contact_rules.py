@@ -16,6 +16,7 @@ from umform.model import Model
 from umform.model.contact.encounter import sheet_thickness
 from umform.model.contact.settings import contact_length
 from umform.surfaces import Cylinder, Extruded, Plane, Profile, Sphere
+from umform.surfaces.directions import rotation_matrix
 
 PLASTIC = mt.J2(E=210e3, nu=0.3, hardening=mt.Perfect(200.0))
 ELEMENT = {"hex8": "ANS3DEAS", "hex18": "MI9K3DEAS"}
@@ -133,6 +134,17 @@ def test_only_the_length_across_the_tool_counts():
     across = sheet((20, 1)).contact("lower", roller(), penalty=1000.0, points="auto")
     wide = Model(strip(40.0, 100.0, 1.0, (20, 1)), material=PLASTIC)
     assert wide.contact("lower", roller(), penalty=1000.0, points="auto").points == across.points
+
+
+def test_the_choice_under_a_sphere_does_not_depend_on_the_axes():
+    """A sphere is as sharp in all directions of a face, whichever two of them a decomposition takes."""
+
+    def penalty(turn):
+        Q = rotation_matrix(turn * np.array([1.0, 2.0, 3.0]))
+        model = Model(sheet().mesh.transformed(lambda X: X @ Q.T), material=PLASTIC)
+        return model.contact("upper", Sphere(Q @ [14.0, 3.0, 2.4], 2.0), points=4).penalty
+
+    assert [penalty(turn) for turn in (0.14, 0.36, 0.51)] == pytest.approx([penalty(0.0)] * 3, rel=1e-9)
 
 
 @pytest.mark.parametrize(("cell", "least"), [("hex8", 2), ("hex18", 3)])

@@ -147,7 +147,7 @@ def _sharpest(corners: Floats, tool: _core.Surface, flattest: float) -> tuple[fl
     """Smallest radius of the tool next to some facets (facets, 4, 3), and the length of the facets across it.
 
     The largest eigenvalue of H at a distance g is 1 / (R + g), eq. (4.3); its eigenvector is the direction of
-    curvature.
+    curvature. On a sphere all directions of the face are.
     """
     grid = np.array([(r, s) for r in (-1.0, 0.0, 1.0) for s in (-1.0, 0.0, 1.0)])
     N = 0.25 * np.stack([(1 + a * grid[:, 0]) * (1 + b * grid[:, 1]) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
@@ -156,13 +156,15 @@ def _sharpest(corners: Floats, tool: _core.Surface, flattest: float) -> tuple[fl
     gap, H = np.where(defined, gap, 0.0), np.where(defined[:, None, None], H, 0.0)
     values, directions = np.linalg.eigh(H)
     reach = flattest + np.maximum(gap, 0.0)
-    round_ = values[:, 2] * reach > 1.0
-    radii = np.where(round_, np.maximum(1.0 / np.where(round_, values[:, 2], 1.0) - gap, 0.0), flattest)
-    radii = np.minimum(radii, flattest).reshape(len(corners), -1)
-    along = directions[:, :, 2].reshape(*radii.shape, 3)
+    round_ = values * reach[:, None] > 1.0
+    radii = np.where(round_, np.maximum(1.0 / np.where(round_, values, 1.0) - gap[:, None], 0.0), flattest)
+    radii = np.minimum(radii, flattest).reshape(len(corners), -1, 3)
+    along = directions.reshape(*radii.shape, 3)
     edges = np.roll(corners, -1, axis=1) - corners
     radius = float(radii.min())
     if radius == flattest:  # flat everywhere: no direction is preferred
         return radius, float(np.linalg.norm(edges, axis=-1).max())
-    facet, point = np.nonzero(radii <= 2.0 * radius)
-    return radius, float(np.abs(np.einsum("nak,nk->na", edges[facet], along[facet, point])).max())
+    sharp = (radii <= 2.0 * radius) & (radii < flattest)
+    facet, point = np.nonzero(sharp.any(axis=2))
+    across = (edges[facet] @ along[facet, point]) * sharp[facet, point, None]
+    return radius, float(np.linalg.norm(across, axis=-1).max())
