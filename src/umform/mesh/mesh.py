@@ -177,7 +177,11 @@ class Mesh:
             )
         if ids.min() < 0 or ids.max() >= len(self.points):
             raise InvalidValue(
-                "a node id does not exist", value=int(ids.max()), where=f"mesh of {len(self.points)} points"
+                "a node id does not exist",
+                where=f"mesh of {len(self.points)} points",
+                value=int(ids.min() if ids.min() < 0 else ids.max()),
+                cause="node numbers that start at 1, or those of another mesh",
+                remedy=f"0 to {len(self.points) - 1}",
             )
         return ids
 

@@ -38,6 +38,15 @@ def together(**sheets: Mesh) -> Mesh:
     """
     if not sheets:
         raise InvalidValue("there is no sheet", where="together()", remedy="together(a=mesh, b=another)")
+    for name, mesh in sheets.items():
+        if not isinstance(mesh, Mesh):
+            raise InvalidValue(
+                "sheets are meshes",
+                where=f"together(), {name}",
+                value=type(mesh).__name__,
+                cause="a model, or a list of meshes",
+                remedy="together(a=uf.mesh.strip(...), b=...)",
+            )
     kinds = {name: mesh.cell for name, mesh in sheets.items()}
     if len(set(kinds.values())) > 1:
         raise WrongCellType(

@@ -181,9 +181,14 @@ class Parameter:
 
     @property
     def subject(self) -> str:
-        """The same with its article, which the name of a person does not have; without a sentence, the name."""
+        """The same with its article, which names of persons, and clauses that begin with one, do not have.
+
+        Without a sentence, the name.
+        """
         if not self.sentence:
             return self.name
+        if re.match(r"(An?|The|How) ", self.sentence):
+            return self.sentence[:1].lower() + self._clauses[0][1:]
         return self._clauses[0] if re.match(r"[A-Z]\w*'s ", self.sentence) else f"the {self.noun}"
 
     @property

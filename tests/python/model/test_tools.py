@@ -93,6 +93,15 @@ def test_tools_of_another_model_are_refused():
     assert [one.name for one in model.tools] == ["punch"]
 
 
+def test_a_tool_follows_a_way_and_moves_in_time_by_a_function():
+    model, punch = beam()
+    pad = model.tool("pad", Cylinder((20.0, 0.0, 10.0), "y", 2.0))
+    with pytest.raises(InvalidValue, match="follows the way of another tool"):
+        model.attach(pad, model.press(punch, "z", name="force"))
+    with pytest.raises(InvalidValue, match="a motion in time is a function"):
+        model.set_motion(pad, (0.0, 0.0, -1.0))
+
+
 def test_a_spring_shares_the_force_with_the_sheet():
     model, punch = beam(mt.SVK(E=210e3, nu=0.3))
     force = model.spring(punch, "-z", stiffness=40.0, preload=30.0, name="pad")

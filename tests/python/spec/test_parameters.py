@@ -276,3 +276,11 @@ def test_a_function_takes_the_options_of_another_one():
     assert signature(cut).parameters["turns"].default == 2
     assert "thickness" in signature(uf.mesh.read_shell).parameters
     assert signature(uf.mesh.read_shell).parameters["kink"].default == 100.0
+
+
+@pytest.mark.parametrize(
+    ("name", "start"), [("steps", "the number of"), ("cuts", "how often"), ("time", "the duration")]
+)
+def test_a_clause_with_an_article_gets_no_other_one(name, start):
+    assert parameters(uf.Move)[name].subject.startswith(start)
+    assert parameters(uf.Release)["control"].subject.startswith("a prescribed displacement")

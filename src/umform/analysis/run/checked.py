@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from umform.analysis.steps import Step
 from umform.analysis.steps.arc_length.arc import Arc
@@ -19,6 +19,14 @@ from umform.model.terms.control import Control
 def checked(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
     """The steps, if they are valid for the model."""
     assert model is not None
+    if not isinstance(steps, Step | Iterable):
+        raise InvalidValue(
+            "a run has a step, or a list of steps",
+            where="steps",
+            value=steps,
+            cause="a control, a class in place of its step, or no step at all",
+            remedy="Move(control, to=-1.0, steps=10)",
+        )
     sequence = [steps] if isinstance(steps, Step) else list(steps)
     for number in range(len(sequence)):
         check_step(model, sequence, number)

@@ -78,7 +78,8 @@ class Close:
                 cause="the control of a tool that is driven, or a tool",
                 remedy="what press(), press_turn() or spring() of the model returned; Move for a tool that is driven",
             )
-        if not (np.isscalar(self.force) and np.isfinite(self.force) and self.force != 0.0):
+        number = isinstance(self.force, int | float | np.number)
+        if not number or not np.isfinite(self.force) or self.force == 0.0:
             raise InvalidValue(
                 "a tool is closed with a finite force that is not zero",
                 where=f"Close, {self.control.name}",

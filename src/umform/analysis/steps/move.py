@@ -74,12 +74,12 @@ class Move:
             )
         for control, law in self.follow.items():
             _check_law(control, law)
-        if self.follow and (not self._given() or len(set(self.moved())) < len(self.moved())):
+        if len(set(self.moved())) < len(self.moved()) or (self.follow and not self._given()):
             raise InvalidValue(
-                "a control follows another one",
-                where="Move, follow",
+                "a step moves a control once, and a control follows another one",
+                where="Move, follow" if self.follow else "Move",
                 value=", ".join(control.name for control in self.moved()),
-                cause="it is moved by itself already, or nothing moves that it could follow",
+                cause="a control that is named twice, or nothing moves that it could follow",
                 remedy="name it once: under control with a target, or under follow with a table",
             )
 
@@ -120,31 +120,56 @@ class Move:
         list of float
             One value for each control, followers included.
         """
-        values = [
-            float(target(fraction)) if callable(target) else start + fraction * (target - start)
+        given = [
+            target(fraction) if callable(target) else start + fraction * (target - start)
             for start, target in zip(starts, self.targets(), strict=False)
         ]
-        values += [_at(law, values[0]) for law in self.follow.values()]
-        for control, value in zip(self.moved(), values, strict=True):
+        given += [_at(law, _number(given[0])) for law in self.follow.values()]
+        values = [_number(value) for value in given]
+        for control, value, found in zip(self.moved(), values, given, strict=True):
             if not math.isfinite(value):
-                where = f"fraction {fraction:g} of the step"
-                raise NotFinite(f"the function that moves {control.name} is not finite", where=where, value=value)
+                raise NotFinite(
+                    f"the function that moves {control.name} is not finite",
+                    where=f"fraction {fraction:g} of the step",
+                    value=found,
+                    cause="a division by zero, or a function that returns no number",
+                    remedy="look at the function",
+                )
         return values
 
 
-def _at(law: Law, value: float) -> float:
+def _at(law: Law, value: float) -> Any:
     """Value of a follower for the value of the first control."""
     if callable(law):
-        return float(law(value))
+        return law(value)
     places, values = np.array(sorted(law), dtype=float).T
-    return float(np.interp(value, places, values))
+    return np.interp(value, places, values)
+
+
+def _number(value: Any) -> float:
+    """The value of a function; NaN if it is no number."""
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        return math.nan
 
 
 def _check_law(control: Control, law: Law) -> None:
-    """Reject a follower that is neither a function nor a table."""
+    """Reject a follower that is no control, or has neither a function nor a table."""
+    if not isinstance(control, Control):
+        raise InvalidValue(
+            "followers are controls with their tables",
+            where="Move, follow",
+            value=control,
+            cause="the name of a control, or a tool",
+            remedy="{hold: table}, with what press(), drive() or prescribe() returned",
+        )
     if callable(law):
         return
-    table = np.asarray(law, dtype=float)
+    try:
+        table = np.asarray(law, dtype=float)
+    except (TypeError, ValueError):
+        table = np.empty(0)
     if table.ndim != 2 or table.shape[1:] != (2,) or not np.isfinite(table).all() or len(set(table[:, 0])) < len(table):
         raise InvalidValue(
             "a control follows another one by a function or a table of pairs",

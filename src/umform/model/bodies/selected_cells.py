@@ -39,6 +39,10 @@ def cell_numbers(mesh: Mesh, cells: Cells | None, name: str) -> Numbers:
         raise EmptySet("a body has no cell", where=f"body {name}", remedy="look at its predicate or its numbers")
     if numbers[0] < 0 or numbers[-1] >= count:
         raise InvalidValue(
-            "a cell of a body does not exist", where=f"body {name}", value=int(numbers[-1]), remedy=f"0 to {count - 1}"
+            "a cell of a body does not exist",
+            where=f"body {name}",
+            value=int(numbers[0] if numbers[0] < 0 else numbers[-1]),
+            cause="numbers that start at 1, or those of another mesh",
+            remedy=f"0 to {count - 1}",
         )
     return numbers

@@ -243,12 +243,12 @@ class Tools(list[Tool]):
             If the tool already follows it, or the control belongs to another model.
         """
         tool = self._own(tool)
-        if way not in self.controls or tool in way.tools:
+        if way not in self.controls or not isinstance(way, ToolWay) or tool in way.tools:
             raise InvalidValue(
                 "a tool follows the way of another tool of the model, once",
                 where=f"tool {tool.name}",
                 value=getattr(way, "name", way),
-                cause="its own way, one that it follows already, or one of another model",
+                cause="its own way, one that it follows already, a force, or one of another model",
                 remedy="what drive() or turn() returned for the other tool",
             )
         way.followers.append(tool)
@@ -299,6 +299,14 @@ class Tools(list[Tool]):
             Point of the tool about which it rotates.
         """
         tool = self._own(tool)
+        if not callable(motion):
+            raise InvalidValue(
+                "a motion in time is a function",
+                where=f"motion of tool {tool.name}",
+                value=motion,
+                cause="a translation, or the values of the function",
+                remedy="lambda time: (0.0, 0.0, -5.0 * time)",
+            )
         point = forces.vector3(about, "about")
         tool.motion, tool.reference_point = motion, point
 

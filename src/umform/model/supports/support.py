@@ -130,12 +130,28 @@ def direction_number(name: str) -> int:
     return DIRECTIONS[name]
 
 
+def numbers_of(letters: str | None) -> tuple[str, list[int]]:
+    """Letters and numbers of directions along x, y and z; by default all three."""
+    if letters is None:
+        letters = "xyz"
+    each = letters if isinstance(letters, str) else [letters]
+    return letters, [direction_number(letter) for letter in each]
+
+
 def directions_of(
     axes: Axes, letters: str | None, normals: ArrayLike | None, points: Floats
 ) -> tuple[str, list[Floats]]:
     """Letters and unit vectors (n, 3) of the directions in which a support holds."""
     if normals is not None:
         return "normals", [unit_normals(normals, len(points))]
+    if not hasattr(axes, "letters"):
+        raise InvalidValue(
+            "axes of a support are local axes",
+            where="supports, axes",
+            value=axes,
+            cause="the letter of an axis, or a vector",
+            remedy="cylindrical(origin, axis) or turned(x, y)",
+        )
     found = directions_at(axes, axes.letters if letters is None else letters, points)
     return "".join(letter for letter, _ in found), [vectors for _, vectors in found]
 

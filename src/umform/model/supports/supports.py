@@ -10,7 +10,15 @@ from umform.mesh import Selector
 from umform.mesh.numbers import unique
 from umform.model.supports.axes import GLOBAL, Axes
 from umform.model.supports.held import HELD, Held, refuse_twice
-from umform.model.supports.support import Support, direction_number, directions_of, rows_of_nodes, rows_of_pairs, tie_of
+from umform.model.supports.support import (
+    Support,
+    direction_number,
+    directions_of,
+    numbers_of,
+    rows_of_nodes,
+    rows_of_pairs,
+    tie_of,
+)
 from umform.model.supports.ties import MidLine, node_pairs
 from umform.model.terms.control import Prescribed
 
@@ -69,8 +77,8 @@ class Supports(Held):
         ids = self.mesh.nodes(nodes)
         support = self._new(HELD, directions, ids, here, name)
         if axes is None and normals is None:
-            support.directions = letters = "xyz" if directions is None else directions
-            dofs = [3 * ids + direction_number(letter) for letter in letters]
+            support.directions, numbers = numbers_of(directions)
+            dofs = [3 * ids + number for number in numbers]
             support.held = np.concatenate([support.held, *dofs]).astype(np.int32)
         else:
             support.directions, vectors = directions_of(axes or GLOBAL, directions, normals, self.mesh.points[ids])
@@ -134,8 +142,8 @@ class Supports(Held):
         pairs = node_pairs(self.mesh, nodes)
         support = self._new("hinge", directions, unique(pairs), here, name)
         if axes is None:
-            support.directions = letters = "xyz" if directions is None else directions
-            support.ties = [tie_of(pairs, direction_number(letter), None, support.base) for letter in letters]
+            support.directions, numbers = numbers_of(directions)
+            support.ties = [tie_of(pairs, number, None, support.base) for number in numbers]
         else:
             middle = self.mesh.points[pairs].mean(axis=1)
             support.directions, vectors = directions_of(axes, directions, None, middle)

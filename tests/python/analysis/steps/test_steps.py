@@ -358,6 +358,24 @@ def test_lift_off_and_zero_force_are_told_apart(build):
     assert "contact has lifted off" in result.events[-1]
 
 
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        (lambda pull: Move([pull, pull], [0.1, 0.2], 2), "a step moves a control once"),
+        (lambda pull: Move(pull, lambda fraction: "a", 2), "the function that moves pull is not finite"),
+        (lambda pull: Move([], [], 2, follow={pull: [(0.0, 1.0)]}), "a step moves a control once"),
+        (lambda pull: Move(pull, 0.1, 2, follow={"pull": [(0.0, 1.0)]}), "followers are controls"),
+        (lambda pull: Move(pull, 0.1, 2, follow={pull: "text"}), "a table of pairs"),
+        (lambda pull: None, "a run has a step"),
+        (lambda pull: Move, "a run has a step"),
+    ],
+)
+def test_steps_that_make_no_sense_are_refused(build, wrong, message):
+    model, pull = build.bar()
+    with pytest.raises(InvalidValue, match=message):
+        solve(model, wrong(pull), frames=0)
+
+
 def test_a_control_of_another_model_is_refused(build):
     model, _ = build.bar()
     _, other = build.bar()

@@ -54,7 +54,7 @@ class SheetContactOptions:
     points: ContactPoints | None = None
     """Gauss points per direction of a face, by default 2. Use at least 2 on 4-node and 3 on 9-node faces."""
     cells: Annotated[int, Ge(1), Le(MOST), _CELLS] | None = None
-    """Instead of points: cells per direction of a face, over which a linear gap is integrated up to the moving edge of
+    """Cells per direction of a face in place of points, over which a linear gap is integrated up to the moving edge of
     contact. The tangent is unsymmetric."""
     friction: AnyFriction | None = None
     """Coefficient of friction, or a law; by default none. The tangent is unsymmetric."""
