@@ -113,6 +113,7 @@ class Before(Part):
                 json.loads(one["names"]),
                 float(one.get("penalty", 0.0)),
                 one.get("feet"),
+                one.get("over_cells"),
             )
             for name, one in ((name, found[name]) for name in self.keep)
         }
@@ -198,6 +199,7 @@ def write_state(model: Model, path: File, tables: Mapping[str, Any], note: Mappi
             "history": kept.history,
             "names": json.dumps(kept.history_variables),
             "penalty": kept.penalty,
+            "over_cells": kept.over_cells,
             **({} if kept.feet is None else {"feet": kept.feet}),
         }
         for name, kept in with_friction.items()

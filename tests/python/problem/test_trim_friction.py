@@ -142,6 +142,60 @@ def test_a_tool_that_stays_keeps_the_penalty_that_has_grown(tmp_path):
     assert die.penalty >= before.penalty
 
 
+ROLLED = """
+[tools.roll]
+shape = "Cylinder"
+centre = [8.25, 0.0, CENTRE]
+axis = "y"
+radius = 3.0
+
+[contacts.roll]
+tool = "roll"
+faces = "upper"
+points = 5
+friction = 0.2
+
+[[supports]]
+kind = "fix"
+nodes = "x0"
+
+[controls.way]
+kind = "tool"
+contact = "roll"
+direction = "z"
+"""
+
+
+def rolled(*ways):
+    return "".join(f'[[steps]]\nkind = "move"\nto = {{ way = {way} }}\nincrements = 3\n' for way in ways)
+
+
+def test_a_tool_that_has_moved_keeps_its_penalty_so_that_two_stages_are_one_run(tmp_path):
+    """The estimate for a tool at its last place, and a sheet at its first one, is another."""
+    metal = 'law = "J2"\nhardening = { curve = "Linear", yield_stress = 200.0, modulus = 1000.0 }'
+    sheet = FIRST[FIRST.index("[mesh]") : FIRST.index("[[supports]]")].replace('law = "SVK"', metal)
+    sheet = sheet.replace("cells = [10, 1]", "cells = [4, 1]")
+    for name, text in {
+        "whole": sheet + ROLLED.replace("CENTRE", "3.5") + rolled(-1.0, -1.5),
+        "press": sheet + ROLLED.replace("CENTRE", "3.5") + rolled(-1.0),
+        "next": '[before]\ndeck = "press.toml"\nstate = "state.h5"\nkeep = ["roll"]\n'
+        + ROLLED.replace("CENTRE", "2.5")
+        + rolled(-0.5),
+    }.items():
+        (tmp_path / f"{name}.toml").write_text(f"{text}[solution]\nresidual = 1e-11\n")
+    deck = load(tmp_path / "press.toml")
+    problem = deck.build()
+    problem.solve(progress=False)
+    write_state(problem.model, tmp_path / "state.h5", deck.source.data)
+    after = load(tmp_path / "next.toml").build()
+    roll = after.contacts["roll"]
+    assert roll.penalty == problem.contacts["roll"].penalty
+    assert abs(roll.initial_penalty / roll.penalty - 1.0) > 1e-3
+    staged, whole = after.solve(progress=False), load(tmp_path / "whole.toml").build().solve(progress=False)
+    assert staged["way_force"][0] == pytest.approx(whole["way_force"][3], rel=1e-9)
+    np.testing.assert_allclose(staged.model.u, whole.model.u, atol=1e-9)
+
+
 def test_a_contact_that_keeps_nothing_is_refused(pressed):
     folder, _ = pressed
     (folder / "other.toml").write_text(SECOND.replace("EDGE", "line").replace('keep = ["die"]', 'keep = ["punch"]'))

@@ -37,9 +37,11 @@ class KeptContact:
     history_variables : dict of str to int
         Its parts and their sizes.
     penalty : float
-        The penalty, if it has grown; zero otherwise.
+        The penalty, if it was estimated and grows; zero otherwise.
     feet : ndarray of int, shape (faces, points, 2), optional
         Of a contact of sheets: the faces that the points have met, -1 where they have met none.
+    over_cells : bool, optional
+        Whether the points are those of cells; None in a state of an older program.
     """
 
     faces: Ids
@@ -47,18 +49,20 @@ class KeptContact:
     history_variables: dict[str, int]
     penalty: float = 0.0
     feet: Ids | None = None
+    over_cells: bool | None = None
 
     @classmethod
     def of(cls, contact: Contact | SheetContact) -> KeptContact:
         """The converged history of a pair with friction."""
-        grown = contact.penalty if contact.adapts and contact.penalty > contact.initial_penalty else 0.0
+        penalty, over_cells = contact.penalty if contact.adapts else 0.0, contact.cells is not None
         history, history_variables = _history(contact)
         if isinstance(contact, SheetContact):  # its places and tractions go with the other sheet
             facet = named(history, history_variables)["facet"][..., 0].astype(np.int64)
             rows = np.where(facet > 0, contact.opposite[:, None] + facet - 1, 0)
             feet = np.where(facet[..., None] > 0, contact.faces[rows], -1).astype(np.int32)
-            return cls(contact.faces, history, history_variables, grown, feet)
-        return cls(contact.faces.copy(), _turned(history, history_variables, contact.pose), history_variables, grown)
+            return cls(contact.faces, history, history_variables, penalty, feet, over_cells)
+        turned = _turned(history, history_variables, contact.pose)
+        return cls(contact.faces.copy(), turned, history_variables, penalty, over_cells=over_cells)
 
     def left(self, parents: Numbers, same: NDArray[np.bool_]) -> KeptContact:
         """What a part keeps of it.
@@ -82,7 +86,7 @@ class KeptContact:
         return replace(self, faces=faces, history=self.history[kept], feet=feet)
 
     def put(self, contact: Contact | SheetContact) -> int:
-        """Give a pair with a history of its own that of its points, and the penalty that the stage before has found.
+        """Give a pair with a history of its own that of its points, and an estimated penalty that of the stage before.
 
         Returns the number of faces that have the history.
 
@@ -92,11 +96,17 @@ class KeptContact:
             If it has other points or another law.
         """
         history, history_variables = _history(contact)
-        if history_variables != self.history_variables or history.shape[1:] != self.history.shape[1:]:
+        over_cells = contact.cells is not None
+        if (
+            history_variables != self.history_variables
+            or history.shape[1:] != self.history.shape[1:]
+            or self.over_cells not in (over_cells, None)
+        ):
+            now, before = (" of cells" if cells else "" for cells in (over_cells, self.over_cells))
             raise InvalidValue(
                 "a contact that keeps its history has the points and the law of the one before",
                 where=f"contact {contact.name}",
-                value=f"{history.shape[1]} points a face, {self.history.shape[1]} before",
+                value=f"{history.shape[1]} points a face{now}, {self.history.shape[1]} before{before}",
                 cause="other points, nodes or cells, or a contact without friction",
                 remedy="the same points and friction as in the stage before",
             )

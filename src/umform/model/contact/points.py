@@ -143,8 +143,8 @@ class PairPoints(Term):
         self._standing_penalty = value
 
     def begin_with(self, penalty: float) -> None:
-        """Begin with a penalty that has grown before, if it grows and this one is larger."""
-        if self.adapts and penalty > self.penalty:
+        """Begin with the penalty of a stage before, if it is estimated and grows; 0: there was none."""
+        if self.adapts and penalty > 0.0:
             self._standing_penalty = min(penalty, self.largest_penalty)
             self.use_penalty(self._standing_penalty)
 

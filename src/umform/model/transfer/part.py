@@ -138,7 +138,7 @@ class ModelPart:
 
         Elements that stay keep the tractions, the anchors of sticking points, and the distances slid of their points;
         those that were fitted to the line begin without, and so do points of a sheet whose facet of the other sheet is
-        gone. A penalty that has grown stays. The tool must stand where it stood.
+        gone. A penalty that was estimated, and may have grown, stays. The tool must stand where it stood.
 
         Parameters
         ----------

@@ -112,8 +112,9 @@ def test_sheets_that_stay_are_in_the_equilibrium_of_the_run_before(bent):
     assert result["stack_active"][-1] > 20
 
 
-def test_other_points_are_refused(bent):
-    part, contact = cut(bent[0], points=3)
+@pytest.mark.parametrize("other", [{"points": 3}, {"points": None, "cells": 2}])
+def test_other_points_are_refused(bent, other):
+    part, contact = cut(bent[0], **other)
     with pytest.raises(InvalidValue, match="has the points and the law of the one before"):
         part.keep_friction(contact)
 

@@ -275,8 +275,8 @@ class SheetPasses(Term):
         return self.friction is not None
 
     def begin_with(self, penalty: float) -> None:
-        """Begin with a penalty that has grown before, if it grows and this one is larger."""
-        if self.adapts and penalty > self.penalty:
+        """Begin with the penalty of a stage before, if it is estimated and grows; 0: there was none."""
+        if self.adapts and penalty > 0.0:
             self._standing = min(penalty, self.largest_penalty)
             self.use_penalty(self._standing)
 
