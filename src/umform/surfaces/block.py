@@ -33,8 +33,8 @@ class Section(Protocol):
     def right_handed(self) -> bool:
         """Whether the third direction of :meth:`in_space` and the two of the profile are a right-handed frame."""
 
-    def third(self, width: float, sector: float, elements: int) -> Floats:
-        """Borders of elements along the third direction: over a width, or over a sector in radians."""
+    def third(self, width: float | None, sector: float | None, elements: int) -> Floats:
+        """Borders of elements along the third direction: over a width, or over a sector in degrees; one of both."""
 
     def in_space(self, plane: Floats, third: Floats) -> Floats:
         """Points of the plane of the profile (n, 2) in space, at distances (n,) from it or turned by angles."""
@@ -83,8 +83,8 @@ def elastic_body(
     *,
     size: Positive,
     layers: Layers,
-    width: Positive = 1.0,
-    sector: Sector = 90.0,
+    width: Positive | None = None,
+    sector: Sector | None = None,
     wide: Divisions = 1,
     growth: Positive = 1.0,
     turn: ElementTurn = 5.0,
@@ -107,10 +107,11 @@ def elastic_body(
         Largest length of an element along the face.
     layers : int
         Layers of elements from the face to the back.
-    width : float
-        Width of an extruded tool, from its origin towards positive coordinates.
-    sector : float
-        Sector of a revolved tool, in degrees about its axis from the plane of x and z (of another axis: any plane).
+    width : float, optional
+        Width of an extruded tool, from its origin towards positive coordinates; by default 1.
+    sector : float, optional
+        Sector of a revolved tool, in degrees about its axis from the plane of x and z (of another axis: any plane); by
+        default 90.
     wide : int
         Elements over the width or the sector.
     growth : float
@@ -130,8 +131,8 @@ def elastic_body(
     Raises
     ------
     InvalidValue
-        If the face has no length.
-    InvertedElement, FoldedElement
+        If the face has no length, or the tool has a width in place of a sector, or the reverse.
+    InvertedElement, FoldedElement, WrongNodeOrder
         If columns cross: the back lies in front of the face, or its ends are exchanged.
 
     Examples
@@ -152,7 +153,7 @@ def elastic_body(
     along = np.concatenate(
         [[0.0], *(np.linspace(a, b, n + 1)[1:] for a, b, n in zip(lengths[:-1], lengths[1:], cuts, strict=True))]
     )
-    around = section.third(width, math.radians(sector), wide)
+    around = section.third(width, sector, wide)
     upwards = 1.0 - graded(1.0, layers, growth)[::-1]
     upwards[0], upwards[-1] = 0.0, 1.0
     # the natural coordinates are right-handed with the normal out of the tool: the profile has the solid on its left
@@ -166,6 +167,18 @@ def elastic_body(
 
     made = natural.transformed(placed)
     return made if kept else _sides_exchanged(made)
+
+
+def refuse_other(name: str, value: float | None, tool: str, instead: str) -> None:
+    """Refuse a width of a revolved tool, and a sector of an extruded one."""
+    if value is not None:
+        raise InvalidValue(
+            f"{tool} tool has a {instead} and no {name}",
+            where=f"elastic_body, {name}",
+            value=value,
+            cause="an extruded tool is as wide as its width, a revolved one as its sector",
+            remedy=f"{instead} in place of {name}",
+        )
 
 
 def _pieces(profile: Profile, start: list[float], end: list[float]) -> tuple[list[_Piece], bool]:

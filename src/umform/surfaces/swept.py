@@ -11,6 +11,7 @@ import numpy as np
 from umform import _core
 from umform.errors import InvalidValue
 from umform.mesh import graded
+from umform.surfaces.block import refuse_other
 from umform.surfaces.crossings import refuse_crossings
 from umform.surfaces.directions import Direction, Point, Point2, point, right_angle, unit_vector
 from umform.surfaces.profile import Profile
@@ -96,9 +97,10 @@ class Extruded(Profiled, Swept):
         """Whether the extrusion points towards positive coordinates."""
         return max(self.along(), key=abs) > 0.0
 
-    def third(self, width: float, sector: float, elements: int) -> Floats:
+    def third(self, width: float | None, sector: float | None, elements: int) -> Floats:
         """Borders of elements over a width."""
-        return graded(width, elements)
+        refuse_other("sector", sector, "an extruded", "width")
+        return graded(1.0 if width is None else width, elements)
 
     def in_space(self, plane: Floats, third: Floats) -> Floats:
         """Points of the section at distances from its plane, towards positive coordinates."""
@@ -166,9 +168,10 @@ class Revolved(Profiled, Swept):
         """Radius, axis and the direction of growing angles are a left-handed frame."""
         return False
 
-    def third(self, width: float, sector: float, elements: int) -> Floats:
-        """Borders of elements over a sector in radians."""
-        return graded(sector, elements)
+    def third(self, width: float | None, sector: float | None, elements: int) -> Floats:
+        """Borders of elements over a sector, in radians."""
+        refuse_other("width", width, "a revolved", "sector")
+        return graded(math.radians(90.0 if sector is None else sector), elements)
 
     def in_space(self, plane: Floats, third: Floats) -> Floats:
         """Points of the meridian turned by angles from the plane of x and the axis; of the axis x, from any plane."""

@@ -206,8 +206,8 @@ class Swept(ToolSpec):
         """Whether the two directions of the section and the third one of :meth:`in_space` are a right-handed frame."""
 
     @abstractmethod
-    def third(self, width: float, sector: float, elements: int) -> Floats:
-        """Borders of elements along the third direction: over a width, or over a sector in radians."""
+    def third(self, width: float | None, sector: float | None, elements: int) -> Floats:
+        """Borders of elements along the third direction: over a width, or over a sector in degrees; one of both."""
 
     @abstractmethod
     def in_space(self, plane: Floats, third: Floats) -> Floats:

@@ -70,3 +70,7 @@ def test_refusals():
         die.elastic_body(((2, -4), (12, 0)), ((12, -9), (2, -9)), size=1, layers=1)
     with pytest.raises(uf.errors.InvalidValue, match="size"):
         die.elastic_body(((2, -4), (12, 0)), ((2, -9), (12, -9)), size=-1, layers=1)
+    with pytest.raises(uf.errors.InvalidValue, match="an extruded tool has a width and no sector"):
+        die.elastic_body(((2, -4), (12, 0)), ((2, -9), (12, -9)), size=1, layers=1, sector=30)
+    with pytest.raises(uf.errors.InvalidValue, match="a revolved tool has a sector and no width"):
+        CHANNEL.elastic_body(((25, 10), (10, 1)), ((25, 0), (15, 0)), size=1, layers=6, width=2)
