@@ -27,6 +27,8 @@ _HAIR = 1e-4
 _MOST = 60
 #: Distance from a rigid stop that counts as contact, relative to the largest travel.
 _AT_STOP = 1e-12
+#: An increment of the force is undone if the tool travels farther in it than this times the largest increment.
+_LONGER = 1.0 + 1e-9
 #: Number of iterations up to which an increment counts as easy.
 _EASY = 8
 #: Following runs have the force or the gap of the leading one, up to this part of the force or of the largest travel;
@@ -169,9 +171,9 @@ class Closing:
             self._land(run, step, press)
             return
         size = min(size, room)
-        near = ahead is not None and 0.0 <= sense * ahead <= (2.0 if touches else 1.0) * size
-        if near or (touches and self.failures == 0 and abs(step.force) <= abs(force)):
-            self._land(run, step, press)
+        near = ahead is not None and 0.0 <= sense * ahead <= (2.0 if touches and step.increment is None else 1.0) * size
+        beyond = touches and self.failures == 0 and abs(step.force) <= abs(force)
+        if (near or beyond) and self._land(run, step, press):
             return
         left = self.limit - sense * (press.way.value - self.start_way)
         if left <= 1e-12 * self.limit:
@@ -261,21 +263,28 @@ class Closing:
         done = abs(found - self.start_force) / abs(step.force - self.start_force)
         run.keep(converged, [step.control], name=f"step {run.number}: close", fraction=min(done, 1.0), frame=False)
 
-    def _land(self, run: Run, step: Close, press: Press) -> None:
-        """The increment of the force, with the travel as an unknown."""
-        run.trail = None
+    def _land(self, run: Run, step: Close, press: Press) -> bool:
+        """The increment of the force, with the travel as an unknown; False if it is undone: longer than the largest."""
+        value, saved, attempts = press.way.value, Saved.of(run.model, run.evaluation), run.newton.timing.attempts
+        run.trail, mark = None, attempts.mark()
         step.control.value = _takes(run, press)
         try:
             newton, end = tightened(run, _EXACT * abs(step.force)), self.start_time + step.time
             converged = take_increment(run, [step.force], [step.control], end, None, newton=newton)
         except Failed as failure:
             self._shorten(run, step, 0.25, _touches(run, press), failure)
-            return
+            return True
+        if step.increment is not None and abs(press.way.value - value) > _LONGER * step.increment:
+            attempts.take_back(mark, "closed farther than the largest increment")
+            saved.restore(run)
+            step.control.value, self.taken = _takes(run, press), None
+            return False
         self.done = True
         held = f"pressed with {step.control.name} = {step.force:.6g}, stands at {press.way.name}"
         run.result.note(f"step {run.number}: tool {press.way.tool.name}, {held} = {press.way.value:.6g}")
         name = f"step {run.number}: close"
         run.keep(converged, [step.control], name=name, fraction=1.0, frame=run.frames > 0)
+        return True
 
     def _shorten(self, run: Run, step: Close, part: float, touched: bool, failure: Failed) -> None:
         """Reduce the next increment, or end the run."""
