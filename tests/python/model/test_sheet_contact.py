@@ -75,6 +75,19 @@ def test_the_forces_have_no_resultant_and_no_moment(options):
     assert np.abs(np.cross(x, f).sum(axis=0)).max() < 1e-12 * np.abs(f).sum() * 10.0
 
 
+@pytest.mark.parametrize("cell", ["hex8", "hex18"])
+@pytest.mark.parametrize("options", [{"points": 3}, {"cells": 3}], ids=str)
+def test_the_forces_far_from_the_origin_are_those_at_it(cell, options):
+    """There the coordinates of a foot cannot be found to more digits than those of the nodes have."""
+    mesh = stack((5, 2), (7, 3), cell)
+    u, far = wavy(mesh, 0.02 if cell == "hex8" else 0.005), moved(mesh, 3000.0, -2000.0, 1000.0)
+    (here, one), (there, other) = (model_of(at, **options) for at in (mesh, far))
+    here.evaluate(u)
+    there.evaluate(u)
+    f, g = forces_of(here, one, u)[0], forces_of(there, other, u)[0]
+    assert np.abs(f - g).max() < 1e-7 * np.abs(f).max()
+
+
 def between_walls(first, second, cell="hex8", turned=False, **options):
     """Two plates between flat walls, the contact, and the wall that moves."""
     model, contact = model_of(stack(first, second, cell), turned, **options)

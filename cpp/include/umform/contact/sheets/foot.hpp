@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "umform/contact/sheets/facet_at.hpp"
 
@@ -32,6 +33,13 @@ Mat3 inverse_of_moves(const OnFacet<Nodes>& at, double g) {
     return inverse(J);
 }
 
+/// Change of a natural coordinate at a place that is none: far from the origin the positions have no more digits. side: length of
+/// the tangent.
+inline double no_change(double least, const Vec3& x, double side) {
+    const double far = std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
+    return std::max(least, 16.0 * std::numeric_limits<double>::epsilon() * far / side);
+}
+
 /// The point of a facet, continued beyond its edges up to `farthest`, from which its normal leads to x; whether there is one. eq. (4.301)
 template <int Nodes>
 bool project(const SmoothFacet<Nodes>& facet, const Vec3& x, double farthest, FacetFoot& foot) {
@@ -48,7 +56,8 @@ bool project(const SmoothFacet<Nodes>& facet, const Vec3& x, double farthest, Fa
             for (double& value : step) value /= longest;
         r += step[0], s += step[1], g += step[2];
         if (std::max(std::abs(r), std::abs(s)) > farthest + 2.0) return false;
-        if (longest < 1e-13) {
+        const double shorter = std::sqrt(std::min(dot(at.tau[0], at.tau[0]), dot(at.tau[1], at.tau[1])));
+        if (longest < no_change(1e-13, x, shorter)) {
             foot.r = r, foot.s = s, foot.gap = g, foot.n = OnFacet<Nodes>(facet, r, s).n;
             return std::max(std::abs(r), std::abs(s)) <= 1.0 + farthest;
         }

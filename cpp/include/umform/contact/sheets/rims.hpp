@@ -72,11 +72,12 @@ struct Rim {
             const double step = iteration < 4 || !(curvature > 0.0) ? dot(here.e, here.c1) / dot(here.c1, here.c1)
                                                                     : -here.slope() / curvature;
             const double next = std::clamp(s + step, -1.0, 1.0);
-            const bool still = iteration > 4 && std::abs(next - s) < 1e-14;
+            const double side = std::sqrt(dot(here.c1, here.c1));
+            const bool still = iteration > 4 && std::abs(next - s) < no_change(1e-14, x, side);
             s = next;
             if (!still) continue;
             foot.r = s, foot.s = 0.0, foot.gap = here.gap(), foot.n = here.m;
-            if (std::abs(s) == 1.0) beyond = std::max(s * dot(here.e, here.c1), 0.0) / std::sqrt(dot(here.c1, here.c1));
+            if (std::abs(s) == 1.0) beyond = std::max(s * dot(here.e, here.c1), 0.0) / side;
             return true;
         }
         return false;
