@@ -43,6 +43,8 @@ Share = Annotated[float, Gt(0.0), Le(1.0), About(cause="a percentage, or a sign"
 Count = Annotated[int, Ge(1), About(cause="a fraction, or a sign")]
 #: Number of increments of a step.
 Increments = Annotated[int, Ge(1), Le(1_000_000), About(cause="a fraction, or a sign", remedy="a whole number, 50")]
+#: Number of states of a run that are kept.
+Frames = Annotated[int, Ge(0), About(cause="a part of the states, or a sign", remedy="60; 0 keeps none")]
 #: How often an increment may be halved.
 Cuts = Annotated[int, Ge(0), Le(40), About(cause="a fraction, or a sign")]
 #: Ratio of the largest increment to the first one.

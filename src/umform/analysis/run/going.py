@@ -33,6 +33,8 @@ from umform.results.rest import tell_of_rest
 from umform.results.shared_faces import warn_of_shared_faces
 from umform.results.untouched import warn_of_untouched
 from umform.solvers.one_thread import one_thread
+from umform.spec import check_value
+from umform.spec.types import Frames
 
 if TYPE_CHECKING:
     from umform.analysis.run.checkpoint import Checkpoints
@@ -40,8 +42,11 @@ if TYPE_CHECKING:
 _LOOPS: dict[type, Any] = {Release: Releasing, Arc: Following, Free: Freeing, Close: Closing}
 
 
-def ready(result: Result, solver: str, options: NewtonOptions | None, frames: int, steps: Sequence[Step] = ()) -> Run:
+def ready(
+    result: Result, solver: str, options: NewtonOptions | None, frames: Frames, steps: Sequence[Step] = ()
+) -> Run:
     """Refuse an invalid model, and make the run at its first state; a first step may hold the sheet."""
+    check_value(ready, "frames", frames)
     if not isinstance(options, NewtonOptions | None):
         raise InvalidValue(
             "options are those of Newton's method",

@@ -519,3 +519,6 @@ def test_a_target_is_a_number_or_an_array_of_numbers(wrong):
     assert Move([tip], to=np.array([0.5])).values(0.5, [0.0]) == [0.25]
     with pytest.raises(InvalidValue, match="options are those of Newton"):
         solve(model, Move(tip, to=1.0), options={"residual": 1e-6})
+    for frames in ("a", -1, 0.5):
+        with pytest.raises(InvalidValue, match="frames must be a whole number"):
+            solve(model, Move(tip, to=1.0), frames=frames)
