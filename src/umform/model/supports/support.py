@@ -130,12 +130,11 @@ def direction_number(name: str) -> int:
     return DIRECTIONS[name]
 
 
-def numbers_of(letters: str | None) -> tuple[str, list[int]]:
+def numbers_of(letters: Sequence[str] | None) -> tuple[str, list[int]]:
     """Letters and numbers of directions along x, y and z; by default all three."""
-    if letters is None:
-        letters = "xyz"
-    each = letters if isinstance(letters, str) else [letters]
-    return letters, [direction_number(letter) for letter in each]
+    each = "xyz" if letters is None else letters
+    numbers = [direction_number(letter) for letter in (each if isinstance(each, Sequence) else [each])]
+    return "".join(each), numbers
 
 
 def directions_of(
