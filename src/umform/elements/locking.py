@@ -9,7 +9,7 @@ LOCKING = 0.05
 #: Order of the thickness strain above which the straight director is the limit.
 HIGHEST = 4
 #: More layers than this are not proposed.
-_MOST = 10
+MOST = 10
 
 
 def locking_moment(order: int, strain: float, stiffness: float, layers: int = 1) -> float:
@@ -44,5 +44,5 @@ def layers_for(order: int, thickness: float, radius: float, stiffness: float) ->
         Bulk modulus over yield stress.
     """
     strain = thickness / (2.0 * radius + thickness)
-    fits = (n for n in range(1, _MOST) if locking_moment(min(max(order, 1), HIGHEST), strain, stiffness, n) <= LOCKING)
-    return next(fits, _MOST)
+    fits = (n for n in range(1, MOST) if locking_moment(min(max(order, 1), HIGHEST), strain, stiffness, n) <= LOCKING)
+    return next(fits, MOST)

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from umform.elements.locking import HIGHEST, LOCKING, locking_moment
+from umform.elements.locking import HIGHEST, LOCKING, MOST, locking_moment
 from umform.elements.technology import Element
 from umform.materials import Plastic, Table
 from umform.model import Model
@@ -145,9 +145,10 @@ def against_locking(element: Element, strain: float, stiffness: float, layers: i
             if element.thickness_order == 0:
                 return f"name = '{_FOR_BENDS[element.cell]}'"
             return f"leave thickness_order out, or give {order} or more"
-    while locking_moment(HIGHEST, strain, stiffness, layers) > LOCKING:
-        layers += 1
-    return f"{layers} layers of BEND18: no order follows so sharp a bend in fewer"
+    for more in range(layers + 1, MOST + 1):
+        if locking_moment(HIGHEST, strain, stiffness, more) <= LOCKING:
+            return f"{more} layers of BEND18: no order follows so sharp a bend in fewer"
+    return f"a larger radius, or a yield stress in the unit of E: {MOST} layers do not follow it either"
 
 
 def layers_of(model: Model, h: float) -> int:

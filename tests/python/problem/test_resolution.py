@@ -5,8 +5,10 @@ import math
 import numpy as np
 import pytest
 
+from umform.elements import element as element_of
 from umform.elements.locking import locking_moment
 from umform.problem.findings import Level
+from umform.problem.resolution import against_locking
 
 OK = [Level.OK]
 
@@ -93,6 +95,12 @@ def test_a_hardening_table_that_ends_before_the_bend(texts, found):
     assert "ends at a plastic strain of 0.2" in short.text
     curve["eqps"] = [0.0, 0.5]
     assert found(text, "material", material={"law": "J2", "E": 210e3, "nu": 0.3, "hardening": curve}) == []
+
+
+@pytest.mark.parametrize("stiffness", [1e30, 1e200, float("inf")])
+def test_a_stiffness_of_another_unit_has_a_remedy_at_once(stiffness):
+    remedy = against_locking(element_of("BEND18"), 0.025, stiffness, 1)
+    assert remedy.startswith("a larger radius, or a yield stress in the unit of E")
 
 
 def test_contact_points(texts, found):
