@@ -56,6 +56,8 @@ def test_two_sheets_are_those_of_the_library(bench):
     expected = {one.name: one.value for one in bend.quantities}
     found = {row["name"]: row["value"] for row in job["summary"]["quantities"]}
     assert found == expected and "sheet2_springback" in found
+    (_, low), (_, high) = (face[0] for face in job["live"]["section"])
+    assert high - low == pytest.approx(2.5 + expected["sheet1_gap_in_the_middle"], abs=0.02)
 
 
 def test_bottoming_is_that_of_the_library(bench):

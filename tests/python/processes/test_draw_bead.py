@@ -18,6 +18,7 @@ from umform.processes.draw_bead import case as case_module
 from umform.processes.draw_bead.case import limits_of
 from umform.processes.draw_bead.equivalent import in_deck, in_python
 from umform.processes.draw_bead.files import FILES, write_files
+from umform.processes.draw_bead.problem import problem_of
 from umform.processes.limit import Limit
 
 MILD = uf.J2(E=210e3, nu=0.3, hardening=uf.Swift(520.0, 0.004, 0.22))
@@ -171,6 +172,16 @@ def test_a_tool_may_penetrate_by_half_the_rise_of_an_arc_over_an_element(drawn, 
     assert case.allowed == pytest.approx(max((0.5 * np.pi * 3.0 / elements) ** 2 / 16.0 / 3.0, 1.0 / 200.0))
     pairs, result = drawn.result.model.contacts, drawn.result
     assert max(result[f"{pair.name}_penetration"].max() for pair in pairs) <= drawn.case.allowed
+
+
+def test_a_bead_is_run_in_plane_strain_with_its_own_options(drawn, monkeypatch):
+    assert drawn.result.model.bodies.only.element.plane_strain
+    assert replace(drawn.case, material=uf.sheet_metals.get("AA6016-T4").law, rolling=45.0).plane_strain is None
+    asked = {}
+    monkeypatch.setattr(case_module, "solve", lambda model, steps, **how: asked.update(how) or drawn.result)
+    case_module.drawn_through(drawn.case, progress=False)
+    assert asked["options"] == drawn.case.newton == problem_of(drawn.case).build().options
+    assert (asked["options"].residual, asked["options"].keep) == (1e-4, True)
 
 
 def test_a_shallow_bead_has_no_walls_and_a_high_one_has():
