@@ -44,11 +44,11 @@ class Drawn(Outcome):
     uplift_curve: Floats
     restraint: Annotated[float, Quantity("restraining force", "N/mm", 1, leading=True)]
     """Mean over the steady part of the travel, which begins when the exiting sheet has passed the whole bead."""
-    restraint_spread: Annotated[float, Quantity("its spread, half of largest less smallest", "N/mm", 1)]
+    restraint_spread: Annotated[float, Quantity("half range of the restraining force", "N/mm", 1)]
     """Half of the range of the force over this part: ripple due to the mesh."""
     uplift: Annotated[float, Quantity("uplift force", "N/mm", 1, leading=True)]
     """Mean over the steady part."""
-    uplift_spread: Annotated[float, Quantity("its spread", "N/mm", 1)]
+    uplift_spread: Annotated[float, Quantity("half range of the uplift force", "N/mm", 1)]
     """Half of the range over this part."""
     closing_force: Annotated[float, Quantity("largest force to close", "N/mm", 1, leading=True)]
     """Largest force to close the tools."""
