@@ -46,8 +46,8 @@ class Before(Part):
     """Name of the control, of value 1, of the unbalanced forces: those of tools and supports of that operation, and of
     removed metal. Steps move it to 0. Without it the part was released, and what is left over acts at once."""
     keep: list[Name] = field(default_factory=list)
-    """Names of contacts with friction of that deck and of this one whose points keep their friction, and a penalty that
-    has grown: tools that stay where they stood, and sheets that touch."""
+    """Names of contacts of that deck and of this one whose points keep friction and multipliers, and a penalty that was
+    estimated: tools that stay where they stood, and sheets that touch."""
 
     def restore(self, model: Model, folder: File, tables: Mapping[str, Any]) -> None:
         """Restore a model, built from the data of a deck, to the state.
@@ -90,7 +90,7 @@ class Before(Part):
             model.system.restore(Snapshot(tree["u"], tree["time"], terms=tree["bodies"], began=tree["began"]))
 
     def kept(self, folder: File) -> dict[str, KeptContact]:
-        """The friction of the contacts that keep it.
+        """The history of the contacts that keep it.
 
         Raises
         ------
@@ -100,11 +100,11 @@ class Before(Part):
         found = read_tree(folder / self.state, STATE_KIND).get("contacts", {}) if self.keep else {}
         if missing := [name for name in self.keep if name not in found]:
             raise FileProblem(
-                "the state has no contact with friction of this name",
+                "the state has no contact of this name",
                 where=str(folder / self.state),
                 value=", ".join(missing),
-                cause="another name, a contact without friction, or a state of an older program",
-                remedy="one of " + ", ".join(found) if found else f"friction in the contacts of {self.deck}",
+                cause="another name, or the state of an older program, which has contacts with friction only",
+                remedy="one of " + ", ".join(found) if found else f"run {self.deck} again",
             )
         return {
             name: KeptContact(
@@ -121,7 +121,7 @@ class Before(Part):
     def keep_friction(
         self, model: Model, kept: Mapping[str, KeptContact], contacts: Mapping[str, Contact | SheetContact]
     ) -> None:
-        """Give contacts of the present deck the friction that they keep.
+        """Give contacts of the present deck the history that they keep.
 
         Raises
         ------
@@ -131,7 +131,7 @@ class Before(Part):
         for name, friction in kept.items():
             if name not in contacts:
                 raise InvalidValue(
-                    "the deck has no contact that keeps its friction",
+                    "the deck has no contact of this name",
                     where="keep",
                     value=name,
                     remedy="one of " + (", ".join(contacts) or "none: there is no contact"),
@@ -192,7 +192,6 @@ def write_state(model: Model, path: File, tables: Mapping[str, Any], note: Mappi
     """Write displacements, the history of all bodies, the data of this deck, and a note to build the model again."""
     state = model.system.snapshot()
     bodies = {body.key: state.terms[body.key] for body in model.bodies}
-    with_friction = {pair.name: KeptContact.of(pair) for pair in model.system.touching if pair.has_friction}
     contacts = {
         name: {
             "faces": kept.faces,
@@ -202,7 +201,7 @@ def write_state(model: Model, path: File, tables: Mapping[str, Any], note: Mappi
             "over_cells": kept.over_cells,
             **({} if kept.feet is None else {"feet": kept.feet}),
         }
-        for name, kept in with_friction.items()
+        for name, kept in ((pair.name, KeptContact.of(pair)) for pair in model.system.touching)
     }
     tree = {"points": model.mesh.points, "u": state.u, "time": state.time, "began": state.began, "bodies": bodies}
     tree |= {"contacts": contacts} if contacts else {}

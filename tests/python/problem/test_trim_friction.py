@@ -170,16 +170,18 @@ def rolled(*ways):
     return "".join(f'[[steps]]\nkind = "move"\nto = {{ way = {way} }}\nincrements = 3\n' for way in ways)
 
 
-def test_a_tool_that_has_moved_keeps_its_penalty_so_that_two_stages_are_one_run(tmp_path):
-    """The estimate for a tool at its last place, and a sheet at its first one, is another."""
+@pytest.mark.parametrize("option", ["friction = 0.2\n", "", "augmented = true\n"])
+def test_a_tool_that_has_moved_keeps_its_penalty_so_that_two_stages_are_one_run(tmp_path, option):
+    """The estimate for a tool at its last place, and a sheet at its first one, is another; multipliers keep forces."""
     metal = 'law = "J2"\nhardening = { curve = "Linear", yield_stress = 200.0, modulus = 1000.0 }'
     sheet = FIRST[FIRST.index("[mesh]") : FIRST.index("[[supports]]")].replace('law = "SVK"', metal)
     sheet = sheet.replace("cells = [10, 1]", "cells = [4, 1]")
+    tool = ROLLED.replace("friction = 0.2\n", option)
     for name, text in {
-        "whole": sheet + ROLLED.replace("CENTRE", "3.5") + rolled(-1.0, -1.5),
-        "press": sheet + ROLLED.replace("CENTRE", "3.5") + rolled(-1.0),
+        "whole": sheet + tool.replace("CENTRE", "3.5") + rolled(-1.0, -1.5),
+        "press": sheet + tool.replace("CENTRE", "3.5") + rolled(-1.0),
         "next": '[before]\ndeck = "press.toml"\nstate = "state.h5"\nkeep = ["roll"]\n'
-        + ROLLED.replace("CENTRE", "2.5")
+        + tool.replace("CENTRE", "2.5")
         + rolled(-0.5),
     }.items():
         (tmp_path / f"{name}.toml").write_text(f"{text}[solution]\nresidual = 1e-11\n")
@@ -189,19 +191,20 @@ def test_a_tool_that_has_moved_keeps_its_penalty_so_that_two_stages_are_one_run(
     write_state(problem.model, tmp_path / "state.h5", deck.source.data)
     after = load(tmp_path / "next.toml").build()
     roll = after.contacts["roll"]
-    assert roll.penalty == problem.contacts["roll"].penalty
-    assert abs(roll.initial_penalty / roll.penalty - 1.0) > 1e-3
+    if not roll.augmented:
+        assert roll.penalty == problem.contacts["roll"].penalty
+        assert abs(roll.initial_penalty / roll.penalty - 1.0) > 1e-3
     staged, whole = after.solve(progress=False), load(tmp_path / "whole.toml").build().solve(progress=False)
-    assert staged["way_force"][0] == pytest.approx(whole["way_force"][3], rel=1e-9)
-    np.testing.assert_allclose(staged.model.u, whole.model.u, atol=1e-9)
+    assert staged["way_force"][0] == pytest.approx(whole["way_force"][3], rel=1e-5 if roll.augmented else 1e-9)
+    np.testing.assert_allclose(staged.model.u, whole.model.u, atol=1e-6 if roll.augmented else 1e-9)
 
 
 def test_a_contact_that_keeps_nothing_is_refused(pressed):
     folder, _ = pressed
     (folder / "other.toml").write_text(SECOND.replace("EDGE", "line").replace('keep = ["die"]', 'keep = ["punch"]'))
-    with pytest.raises(UmformError, match=r"(?s)no contact with friction.*punch.*one of die"):
+    with pytest.raises(UmformError, match=r"(?s)no contact of this name.*punch.*one of die"):
         load(folder / "other.toml").build()
     text = SECOND.replace("EDGE", "line").replace("contacts.die", "contacts.base")
     (folder / "renamed.toml").write_text(text)
-    with pytest.raises(UmformError, match=r"(?s)no contact that keeps.*die.*one of base"):
+    with pytest.raises(UmformError, match=r"(?s)no contact of this name.*die.*one of base"):
         load(folder / "renamed.toml").build()

@@ -1,4 +1,4 @@
-"""History of friction, and the penalty, that contact points keep through a cut."""
+"""History and penalty that contact points keep through a cut."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class KeptContact:
 
     @classmethod
     def of(cls, contact: Contact | SheetContact) -> KeptContact:
-        """The converged history of a pair with friction."""
+        """The converged history of a pair."""
         penalty, over_cells = contact.penalty if contact.adapts else 0.0, contact.cells is not None
         history, history_variables = _history(contact)
         if isinstance(contact, SheetContact):  # its places and tractions go with the other sheet
@@ -107,7 +107,7 @@ class KeptContact:
                 "a contact that keeps its history has the points and the law of the one before",
                 where=f"contact {contact.name}",
                 value=f"{history.shape[1]} points a face{now}, {self.history.shape[1]} before{before}",
-                cause="other points, nodes or cells, or a contact without friction",
+                cause="other points, nodes or cells, or friction in one of the two only",
                 remedy="the same points and friction as in the stage before",
             )
         rows = _rows(self.faces, contact.faces)

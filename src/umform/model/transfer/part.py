@@ -53,7 +53,7 @@ class ModelPart:
     remark : str
         Why the cut edge follows elements where it was to lie on the line.
     contacts : dict of str to KeptContact
-        History of the contacts with friction, see :meth:`keep_friction`.
+        History of the contacts, see :meth:`keep_friction`.
     """
 
     model: Model
@@ -134,7 +134,7 @@ class ModelPart:
         )
 
     def keep_friction(self, contact: Contact | SheetContact, before: str = "") -> int:
-        """Let a tool, or sheets that touch, keep the friction of their points through the cut.
+        """Let a tool, or sheets that touch, keep friction, multipliers and penalty of their points through the cut.
 
         Elements that stay keep the tractions, the anchors of sticking points, and the distances slid of their points;
         those that were fitted to the line begin without, and so do points of a sheet whose facet of the other sheet is
@@ -143,7 +143,7 @@ class ModelPart:
         Parameters
         ----------
         contact : Contact
-            A pair of the model of this part, with its points and friction of before.
+            A pair of the model of this part, with its points of before; with friction if it had friction.
         before : str
             Name of the pair in the whole sheet; default: that of ``contact``.
 
@@ -155,15 +155,15 @@ class ModelPart:
         Raises
         ------
         InvalidValue
-            If there was no such pair with friction, or it had other points.
+            If there was no such pair, or it had other points or another law.
         """
         name = before or contact.name
         if name not in self.contacts:
             raise InvalidValue(
-                "the sheet had no contact with friction of this name",
+                "the sheet had no contact of this name",
                 where="keep_friction()",
                 value=name,
-                remedy="one of " + (", ".join(self.contacts) or "none: the stage before had no friction"),
+                remedy="one of " + (", ".join(self.contacts) or "none: the stage before had no contact"),
             )
         self.model.system.evaluate(self.model.system.x)
         contact.begin()
@@ -194,8 +194,8 @@ def _model(whole: Model, mesh: Mesh, parents: Numbers, u: Floats) -> Model:
 
 
 def _contacts(whole: Model, parents: Numbers, same: NDArray[np.bool_]) -> dict[str, KeptContact]:
-    """Histories of the contacts with friction."""
-    return {pair.name: KeptContact.of(pair).left(parents, same) for pair in whole.system.touching if pair.has_friction}
+    """Histories of the contacts."""
+    return {pair.name: KeptContact.of(pair).left(parents, same) for pair in whole.system.touching}
 
 
 def _removed(whole: Model, model: Model) -> Energies:

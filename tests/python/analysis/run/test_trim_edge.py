@@ -202,7 +202,7 @@ def test_contact_points_keep_their_friction_through_a_cut():
     np.testing.assert_allclose(found.friction[:points], die.found.friction[:points], rtol=1e-12, atol=1e-12)
     np.testing.assert_allclose(found.slip[:points], die.found.slip[:points], rtol=1e-12)
     assert die.found.slip[:points].min() > 0.06
-    with pytest.raises(InvalidValue, match="no contact with friction"):
+    with pytest.raises(InvalidValue, match="no contact of this name"):
         part.keep_friction(plane, before="punch")
 
 
