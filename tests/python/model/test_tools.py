@@ -224,7 +224,8 @@ def test_stops_and_moments_that_make_no_sense_are_refused():
     with pytest.raises(InvalidValue, match="presses no tool"):
         model.stop(way, at=0.0, stiffness=1.0)
     with pytest.raises(InvalidValue, match="driven and pressed"):
-        model.press_turn(punch, "y", (1.0, 0.0, 0.0), "again")
+        model.press_turn(punch, "-y", (1.0, 2.0, 0.0), "again")  # the same line
+    model.press_turn(punch, "y", (1.0, 0.0, 0.1), "beside")
 
 
 # Ways and turns ----------------------------------------------------------------------------------------------
@@ -427,7 +428,9 @@ def test_what_is_fixed_when_a_thing_is_made_cannot_be_set():
 
 
 @pytest.mark.parametrize("first", ["drive", "press"])
-@pytest.mark.parametrize(("kind", "direction"), [("way", "-z"), ("way", (0.0, 1.0, 1.0)), ("turn", "y")])
+@pytest.mark.parametrize(
+    ("kind", "direction"), [("way", "-z"), ("way", (0.0, 1.0, 1.0)), ("turn", "y"), ("turn", "-y")]
+)
 def test_a_tool_is_not_driven_and_pressed_along_one_direction_in_either_order(first, kind, direction):
     """A tool that was pressed could be driven afterwards: its way was given and found."""
     model = uf.Model(uf.mesh.strip(4.0, 1.0, 0.5, (4, 1)), material=uf.SVK(E=1e5, nu=0.3))

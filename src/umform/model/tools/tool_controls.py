@@ -201,12 +201,12 @@ def refuse_given_and_found(others: Sequence[ToolWay], way: ToolWay, name: str) -
 
 
 def _along(one: ToolWay, other: ToolWay) -> bool:
-    """Whether two travels of a tool have a common component; a rotation and a translation never do."""
+    """Whether two travels of a tool have a common component: directions that are not perpendicular, or one axis."""
     if isinstance(one, ToolMotion) and isinstance(other, ToolMotion):
         return abs(math.fsum(a * b for a, b in zip(one.direction, other.direction, strict=True))) > 1e-9
-    return (
-        isinstance(one, ToolTurn)
-        and isinstance(other, ToolTurn)
-        and one.axis == other.axis
-        and one.about == other.about
-    )
+    if not (isinstance(one, ToolTurn) and isinstance(other, ToolTurn)):
+        return False
+    between = np.subtract(other.about, one.about)
+    size = 1e-9 * max(np.abs(one.about).max(), np.abs(other.about).max())
+    parallel = np.linalg.norm(np.cross(one.axis, other.axis)) < 1e-9
+    return bool(parallel and np.linalg.norm(np.cross(between, one.axis)) <= size)
