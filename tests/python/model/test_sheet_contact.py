@@ -247,6 +247,12 @@ def test_faces_that_look_the_same_way_are_refused():
         model.sheet_contact("upper of a", "upper of a")
 
 
+def test_a_penetration_that_is_no_contact_is_not_allowed():
+    model_of(stack(), penetration=0.5)
+    with pytest.raises(uf.errors.InvalidValue, match=r"(?s)stack, penetration.*0\.51.*beyond 0\.5.*0\.005, 1/200"):
+        model_of(stack(), penetration=0.51)
+
+
 def hairpin(flank=10.0, radius=2.0, cells=60):
     """A strip of thickness 1 that is bent by half a turn, its upper face inside; one flank is shorter."""
     strip = uf.mesh.strip(2.0 * flank - 2.3 + np.pi * radius, 2.0, 1.0, (cells, 1))

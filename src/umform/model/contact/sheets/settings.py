@@ -134,10 +134,23 @@ def sheet_contact_settings(
         The given values.
     where : str
         For messages.
+
+    Raises
+    ------
+    InvalidValue
+        If a penetration is allowed that is no contact any more.
     """
     depths = [depth_of(mesh, side) for side in sides]
     thinner, reach = min(depth.thickness for depth in depths), min(depth.reach for depth in depths)
     allowed = ALLOWED * thinner if options.penetration is None else float(options.penetration)
+    if allowed > _DEEPEST * reach:
+        raise InvalidValue(
+            "the allowed penetration must be a small part of the thickness",
+            where=f"{where}, penetration",
+            value=allowed,
+            cause=f"another unit; beyond {_DEEPEST * reach:g} a sheet has gone through the other one",
+            remedy=f"omit it: {ALLOWED * thinner:g}, 1/{1 / ALLOWED:g} of the thickness, is allowed then",
+        )
     penalty, largest = options.penalty, 0.0
     if penalty is None:
         stiff = [bending_stress(layer.material, 1e-7, where) / 1e-7 for layer in layers]
