@@ -9,7 +9,7 @@ from typing import Annotated, Literal, Protocol
 import numpy as np
 from annotated_types import Gt, Lt
 
-from umform.errors import InvalidValue
+from umform.errors import FoldedElement, InvalidValue, InvertedElement, WrongNodeOrder
 from umform.mesh import Mesh, graded, grid
 from umform.mesh.generators import Divisions, Layers
 from umform.spec import About, check_arguments
@@ -131,9 +131,8 @@ def elastic_body(
     Raises
     ------
     InvalidValue
-        If the face has no length, or the tool has a width in place of a sector, or the reverse.
-    InvertedElement, FoldedElement, WrongNodeOrder
-        If columns cross: the back lies in front of the face, or its ends are exchanged.
+        If the face has no length, the tool has a width in place of a sector, or the reverse, or columns cross: the back
+        lies in front of the face, or its ends are exchanged.
 
     Examples
     --------
@@ -165,7 +164,16 @@ def elastic_body(
         below = ends[0] + (X[:, :1] / lengths[-1]) * (ends[1] - ends[0])
         return section.in_space(below + X[:, 2:] * (top - below), np.abs(X[:, 1]))
 
-    made = natural.transformed(placed)
+    try:
+        made = natural.transformed(placed)
+    except (InvertedElement, FoldedElement, WrongNodeOrder) as error:
+        raise InvalidValue(
+            "columns of elements between the face and the back cross, or run out of the tool",
+            where="elastic_body, back",
+            value=f"{back[0]} and {back[1]}",
+            cause="the back lies in front of the face, its ends are exchanged, or it is too near to an arc",
+            remedy="a back inside of the tool, with its ends in the order of those of the face",
+        ) from error
     return made if kept else _sides_exchanged(made)
 
 

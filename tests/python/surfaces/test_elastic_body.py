@@ -66,8 +66,9 @@ def test_refusals():
         die.counterpart(1.0).elastic_body(((0, 0), (1, 0)), ((0, 1), (1, 1)), size=1, layers=1)
     with pytest.raises(uf.errors.InvalidValue, match="no length"):
         die.elastic_body(((12, 0), (12, 5)), ((2, -9), (12, -9)), size=1, layers=1)
-    with pytest.raises((uf.errors.FoldedElement, uf.errors.InvertedElement)):
-        die.elastic_body(((2, -4), (12, 0)), ((12, -9), (2, -9)), size=1, layers=1)
+    for back in (((12, -9), (2, -9)), ((2, 4), (12, 4)), ((2, -4), (12, 0))):  # exchanged, in front, on the face
+        with pytest.raises(uf.errors.InvalidValue, match=r"(?s)cross.*elastic_body, back.*order of those of the face"):
+            die.elastic_body(((2, -4), (12, 0)), back, size=1, layers=1)
     with pytest.raises(uf.errors.InvalidValue, match="size"):
         die.elastic_body(((2, -4), (12, 0)), ((2, -9), (12, -9)), size=-1, layers=1)
     with pytest.raises(uf.errors.InvalidValue, match="an extruded tool has a width and no sector"):

@@ -179,7 +179,7 @@ class Hem(Outcome):
     def notes(self) -> list[str]:
         """Whether it closed, tools of the first bend, mesh, extrapolated flow curve."""
         sheet, closed = self.case.sheet, self.case.is_closed and self.is_closed
-        said = [f"closed: at most {max(self.measures.left, 0.0):.3f} mm are left under load"] if closed else []
+        said = [f"closed under load, to {_CLOSED:g} of the thickness"] if closed else []
         mesh, curve = coarse_mesh(sheet, acute()), extrapolated(sheet, self.measures.outer_strain)
         return [*said, tools_text(sheet), *mesh, *curve]
 
