@@ -40,7 +40,7 @@ def chain(segments: Sequence[Segment], tolerance: float, where: str) -> tuple[li
     OpenSection
         If it is empty, or has a gap, a branch, or several curves; the message has the coordinates.
     """
-    segments = [s for s in segments if s.start == s.end or math.dist(s.start, s.end) > tolerance]
+    segments = [s for s in segments if s.length > tolerance]
     if not segments:
         raise OpenSection(
             "there is no line and no arc",
@@ -93,7 +93,7 @@ def _between(segment: Segment, start: Floats, end: Floats, *, closed: bool) -> S
     if isinstance(segment, Line):
         return Line(p, q)
     if closed:
-        return segment
+        return Arc(p, p, segment.centre, segment.clockwise)
     half = 0.5 * segment.turn * segment.angle
     d = end - start
     centre = 0.5 * (start + end) + 0.5 / math.tan(half) * np.array([-d[1], d[0]])

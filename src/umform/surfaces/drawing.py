@@ -9,7 +9,6 @@ from typing import Any
 from umform.spec import check_fields, takes
 from umform.spec.types import Positive, Sharp, Text
 from umform.surfaces.cad import CadTool
-from umform.surfaces.cad.tool import FREE_FORM
 from umform.surfaces.triangulated import Triangulated
 
 
@@ -19,8 +18,8 @@ class Drawing:
 
     file: Text
     """Path, from the folder of the deck; it ends in .step, .stp, .iges, .igs or .stl."""
-    tolerance: Positive = FREE_FORM
-    """Largest distance of the tool from free-form faces of a STEP or IGES file."""
+    tolerance: Positive | None = None
+    """Largest distance of the tool from free-form faces of a STEP or IGES file; by default 0.001 mm."""
     sharp: Sharp | None = None
     """Angle from which an edge is sharp: by default 30 between triangles of STL, 2 between faces."""
     open: bool = False

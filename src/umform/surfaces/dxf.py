@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import importlib
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -20,12 +21,18 @@ from umform.surfaces.segments import Arc, Floats, Line, Segment
 _IGNORED = {"TEXT", "MTEXT", "DIMENSION", "LEADER", "MULTILEADER", "MLEADER", "POINT", "HATCH", "ATTDEF", "VIEWPORT"}
 #: Names of the units of a drawing, by their number in the header.
 _UNITS = {"in": 1, "ft": 2, "mm": 4, "cm": 5, "m": 6, "um": 13}
+#: Largest distance in mm of arcs from the curves in their place, and of ends that are one point, where none is given.
+_TOLERANCE = 1e-3
 #: A direction normal to the drawing plane.
 _UPRIGHT = 1e-9
+#: Parts of the span of a spline: from a knot at which its derivative is taken, for differences where that vanishes.
+_INSIDE, _STEP = 1e-9, 1e-4
 
 
-def read_dxf(path: str | Path, layer: str | None, unit: str, curve_error: float) -> list[Segment]:
-    """Lines and arcs of the model space of a drawing.
+def read_dxf(
+    path: str | Path, layer: str | None, unit: str, tolerance: float | None = None
+) -> tuple[list[Segment], float]:
+    """Lines and arcs of the model space of a drawing, and the tolerance.
 
     Parameters
     ----------
@@ -35,8 +42,8 @@ def read_dxf(path: str | Path, layer: str | None, unit: str, curve_error: float)
         The only layer that is read, case-insensitive.
     unit : str
         Unit of the result: mm, cm, m, um, in or ft; a drawing without a unit is taken as it is.
-    curve_error : float
-        Largest distance of the arcs from ellipses and splines, in this unit.
+    tolerance : float, optional
+        Largest distance of the arcs from ellipses and splines, in this unit; by default 0.001 mm.
 
     Raises
     ------
@@ -59,17 +66,20 @@ def read_dxf(path: str | Path, layer: str | None, unit: str, curve_error: float)
         )
     drawing = _drawing(path)
     factor = ezdxf.units.conversion_factor(drawing.units, _UNITS[unit]) if drawing.units else 1.0
-    chosen = [entity for entity in _flat(drawing.modelspace()) if _on(entity, layer)]
-    if layer is not None and not chosen:
+    entities = list(_flat(drawing.modelspace()))
+    chosen = [entity for entity, own in entities if layer is None or own.lower() == layer.lower()]
+    if not chosen and layer is not None:
         raise InvalidValue(
             "there is nothing on this layer",
             where=str(path),
             value=layer,
             cause="another name, or the section in a paper space",
-            remedy="layers with something on them: " + ", ".join(sorted({e.dxf.layer for e in drawing.modelspace()})),
+            remedy="layers with something on them: " + ", ".join(sorted({own for _, own in entities})),
         )
-    segments = [s for entity in chosen for s in _segments(entity, curve_error / factor, str(path))]
-    return [_scaled(segment, factor) for segment in segments]
+    if tolerance is None:
+        tolerance = _TOLERANCE * ezdxf.units.conversion_factor(_UNITS["mm"], _UNITS[unit])
+    segments = [s for entity in chosen for s in _segments(entity, tolerance / factor, str(path))]
+    return [_scaled(segment, factor) for segment in segments], tolerance
 
 
 def layers_and_unit(path: str | Path) -> tuple[list[str], str]:
@@ -83,7 +93,7 @@ def layers_and_unit(path: str | Path) -> tuple[list[str], str]:
     drawing = _drawing(Path(path))
     units = {number: name for name, number in _UNITS.items()}
     unit = units.get(drawing.units, f"number {drawing.units}") if drawing.units else ""
-    return sorted({str(entity.dxf.layer) for entity in drawing.modelspace()}), unit
+    return sorted({layer for _, layer in _flat(drawing.modelspace())}), unit
 
 
 def write_dxf(path: str | Path, layers: Mapping[str, Sequence[Segment]]) -> Path:
@@ -161,18 +171,25 @@ def dxf_library(what: str, where: str) -> Any:
         ) from error
 
 
-def _flat(entities: Any) -> Iterator[Any]:
-    """Entities, those of blocks and polylines among them."""
+def _flat(entities: Iterable[Any], outer: str | None = None) -> Iterator[tuple[Any, str]]:
+    """Entities with their layers, those of blocks and polylines among them.
+
+    What lies on the layer 0 of a block is on the layer of its reference.
+    """
     for entity in entities:
-        kind = entity.dxftype()
-        if kind in ("INSERT", "LWPOLYLINE") or (kind == "POLYLINE" and entity.is_2d_polyline):
-            yield from _flat(entity.virtual_entities())
+        kind, layer = entity.dxftype(), str(entity.dxf.layer)
+        layer = outer if layer == "0" and outer is not None else layer
+        if kind == "INSERT":
+            for one in entity.multi_insert():
+                yield from _flat(one.virtual_entities(), layer)
+        elif kind == "LWPOLYLINE" or (kind == "POLYLINE" and (entity.is_2d_polyline or entity.is_3d_polyline)):
+            if kind == "POLYLINE":
+                entity.vertices[:] = [
+                    one for one in entity.vertices if not one.dxf.flags & one.SPLINE_FRAME_CONTROL_POINT
+                ]
+            yield from ((piece, layer) for piece in entity.virtual_entities())
         else:
-            yield entity
-
-
-def _on(entity: Any, layer: str | None) -> bool:
-    return layer is None or str(entity.dxf.layer).lower() == layer.lower()
+            yield entity, layer
 
 
 def _segments(entity: Any, curve_error: float, where: str) -> list[Segment]:
@@ -182,24 +199,21 @@ def _segments(entity: Any, curve_error: float, where: str) -> list[Segment]:
         return []
     if kind == "LINE":
         start, end = _pair(entity.dxf.start), _pair(entity.dxf.end)
+        _check_level([entity.dxf.start, entity.dxf.end], curve_error, kind, where)
         return [Line(start, end)] if start != end else []
     if kind in ("ARC", "CIRCLE", "ELLIPSE") and abs(abs(entity.dxf.extrusion[2]) - 1.0) > _UPRIGHT:
-        raise OpenSection(
-            f"this {kind.lower()} does not lie in the plane of the drawing",
-            where=where,
-            value=f"its normal is {tuple(entity.dxf.extrusion)}",
-            cause="a drawing in space",
-            remedy="draw the section in the xy-plane",
-        )
-    if kind == "ARC":
-        centre = _pair(entity.ocs().to_wcs(entity.dxf.center))
-        return [_arc(_pair(entity.start_point), _pair(entity.end_point), centre, entity.dxf.extrusion[2] < 0.0)]
-    if kind == "CIRCLE":
+        _refuse_space(kind, f"its normal is {tuple(entity.dxf.extrusion)}", where)
+    if kind == "CIRCLE" or (kind == "ARC" and (entity.dxf.end_angle - entity.dxf.start_angle) % 360.0 == 0.0):
         centre = _pair(entity.ocs().to_wcs(entity.dxf.center))
         start = (centre[0] + entity.dxf.radius, centre[1])
         return [Arc(start, start, centre)]
+    if kind == "ARC":
+        centre = _pair(entity.ocs().to_wcs(entity.dxf.center))
+        return [_arc(_pair(entity.start_point), _pair(entity.end_point), centre, entity.dxf.extrusion[2] < 0.0)]
     if kind == "SPLINE":
-        return _of_spline(entity.construction_tool(), curve_error)
+        spline = entity.construction_tool()
+        _check_level(spline.control_points, curve_error, kind, where)
+        return _of_spline(spline, curve_error)
     if kind == "ELLIPSE":
         return _of_ellipse(entity, curve_error)
     raise OpenSection(
@@ -208,6 +222,23 @@ def _segments(entity: Any, curve_error: float, where: str) -> list[Segment]:
         value=f"{kind} on the layer {entity.dxf.layer}",
         cause="a solid, a mesh or a picture in the drawing",
         remedy="put the section on a layer of its own and name it",
+    )
+
+
+def _check_level(points: Iterable[Any], most: float, kind: str, where: str) -> None:
+    """Refuse points of one entity at other heights over the drawing plane."""
+    heights = [float(point[2]) for point in points]
+    if max(heights) - min(heights) > most:
+        _refuse_space(kind, f"from z = {min(heights):.6g} to z = {max(heights):.6g}", where)
+
+
+def _refuse_space(kind: str, value: str, where: str) -> None:
+    raise OpenSection(
+        f"this {kind.lower()} does not lie in the plane of the drawing",
+        where=where,
+        value=value,
+        cause="a drawing in space",
+        remedy="draw the section in the xy-plane",
     )
 
 
@@ -220,16 +251,30 @@ def _arc(start: Point2, end: Point2, centre: Point2, clockwise: bool) -> Arc:
 
 
 def _of_spline(spline: Any, curve_error: float) -> list[Segment]:
-    """Split at the knots, where the curvature of a cubic spline has a kink."""
+    """Split at the knots, where the curvature of a cubic spline has a kink, or the spline itself."""
     low, high = spline.knots()[spline.order - 1], spline.knots()[spline.count]
     knots = sorted({float(t) for t in spline.knots() if low <= t <= high})
+    spans = [as_arcs(_span(spline, a, b), [a, b], curve_error) for a, b in pairwise(knots)]
+    return [segment for span in spans for segment in span]
+
+
+def _span(spline: Any, a: float, b: float) -> Curve:
+    """A spline between two knots, where it is smooth; its derivatives at them are those inside."""
+
+    def place(t: float) -> Floats:
+        return np.array(_pair(spline.point(t)))
+
+    size = math.dist(place(a), place(b)) or math.dist(place(a), place(0.5 * (a + b)))
 
     def at(t: float) -> tuple[Floats, Floats]:
-        inside = min(max(t, low), high - 1e-12 * (high - low))
-        x, d = spline.derivative(inside, 1)
-        return np.array(_pair(x)), np.array(_pair(d))
+        inside = min(max(t, a + _INSIDE * (b - a)), b - _INSIDE * (b - a))
+        d = np.array(_pair(spline.derivative(inside, 1)[1]))
+        if float(np.hypot(*d)) * (b - a) < 1e-6 * size:  # control points that coincide
+            h = _STEP * (b - a)
+            d = place(min(t + h, b)) - place(max(t - h, a))
+        return place(t), d
 
-    return as_arcs(at, knots, curve_error)
+    return at
 
 
 def _of_ellipse(entity: Any, curve_error: float) -> list[Segment]:

@@ -100,7 +100,7 @@ class Profile:
         solid: str | None = None,
         origin: Point2 = (0.0, 0.0),
         unit: str = "mm",
-        tolerance: Positive = 1e-3,
+        tolerance: Positive | None = None,
     ) -> Profile:
         """The section in a DXF drawing: lines, arcs, circles and polylines as they are, ellipses and splines as arcs.
 
@@ -120,7 +120,8 @@ class Profile:
         unit : str
             Unit of the model: mm, cm, m, um, in or ft; a drawing without a unit is taken as it is.
         tolerance : float
-            Ends nearer than this are one point; arcs deviate by at most this from ellipses and splines.
+            Ends nearer than this are one point; arcs deviate by at most this from ellipses and splines. By default
+            0.001 mm, in the unit of the model.
 
         Raises
         ------
@@ -132,7 +133,7 @@ class Profile:
         from umform.surfaces.chains import chain  # slow to import
         from umform.surfaces.dxf import read_dxf
 
-        segments, closed = chain(read_dxf(path, layer, unit, tolerance), tolerance, str(path))
+        segments, closed = chain(*read_dxf(path, layer, unit, tolerance), str(path))
         shift = tuple(-c for c in point(origin, "from_dxf.origin", 2))
         made = cls([segment.shifted((shift[0], shift[1])) for segment in segments], closed)
         return made if made._has_solid(solid, str(path)) else made.reversed()

@@ -113,6 +113,12 @@ def test_free_forms_lie_within_the_distance_that_is_said(tmp_path, tolerance):
     assert check_surface(tool, top[::97] + np.array([0, 0, 0.05]), 1e-6).ok(1e-5)
 
 
+def test_the_tolerance_is_in_millimetres_where_none_is_given(tmp_path):
+    path = write(free_form(), tmp_path / "wave.step")
+    assert read_tool(path).deviation < 1e-3
+    assert read_tool(path, scale=1e-3).deviation < 1e-6
+
+
 def _faces(path):
     from umform.surfaces.cad.opencascade import Shape
 

@@ -67,6 +67,16 @@ def test_units(draw, units, unit, factor):
     assert made.segments[0].centre == pytest.approx((2 * factor, factor))
 
 
+def test_the_tolerance_is_in_millimetres_where_none_is_given(draw):
+    for unit, metres in (("mm", 1e-3), ("m", 1.0), ("in", 0.0254)):
+        made = draw(u_die, unit=unit)
+        assert [s.radius * metres for s in made.segments if isinstance(s, Arc)] == pytest.approx(
+            [2e-3, 3e-3, 3e-3, 2e-3]
+        )
+        small = draw(lambda m, doc: m.add_lwpolyline([(0, 0, 1), (0.4, 0, 1)], "xyb", close=True), unit=unit)
+        assert small.area * metres**2 == pytest.approx(0.04e-6 * math.pi)
+
+
 def test_layers_blocks_and_the_origin(draw):
     def add(m, doc):
         block = doc.blocks.new("hole")
@@ -85,6 +95,43 @@ def test_layers_blocks_and_the_origin(draw):
     assert "layer of its own" in str(both.value)
     with pytest.raises(InvalidValue, match=r"nothing on this layer(.*\n)*.*OTHER"):
         draw(add, layer="DIE")
+
+
+def test_the_layer_0_of_a_block_is_that_of_its_reference(draw):
+    def add(m, doc):
+        doc.blocks.new("bore").add_circle((0, 0), 1.0)
+        doc.blocks.new("pair").add_blockref("bore", (1, 1))
+        m.add_blockref("pair", (5, 7), dxfattribs={"layer": "DIE"})
+        m.add_circle((0, 0), 3.0)
+
+    assert draw(add, layer="DIE").segments[0].centre == (6.0, 8.0)
+    assert draw(add, layer="0").segments[0].centre == (0.0, 0.0)
+
+
+def test_all_references_of_a_pattern_are_read(draw):
+    def add(m, doc):
+        doc.blocks.new("side").add_line((0, 0), (1, 0))
+        m.add_blockref("side", (0, 0), dxfattribs={"column_count": 3, "column_spacing": 1})
+        m.add_lwpolyline([(3, 0), (3, 1), (0, 0)])
+
+    assert draw(add).area == pytest.approx(1.5)
+
+
+@pytest.mark.parametrize("ends", [(0, 360), (30, 390), (0, 359.999)])
+def test_an_arc_may_be_a_circle(draw, ends):
+    made = draw(lambda m, doc: m.add_arc((1, 2), 3, *ends))
+    assert len(made.segments) == 1
+    assert made.area == pytest.approx(9 * math.pi)
+
+
+def test_polylines_in_space_and_with_a_frame(draw):
+    assert draw(lambda m, doc: m.add_polyline3d([(0, 0, 2), (10, 0, 2), (10, 5, 2)], close=True)).area == 25.0
+
+    def fitted(m, doc):
+        made = m.add_polyline2d([(0, 0), (5, 9), (10, 0), (10, 5)], close=True)
+        made.vertices[1].dxf.flags = made.vertices[1].SPLINE_FRAME_CONTROL_POINT
+
+    assert draw(fitted).area == 25.0
 
 
 def test_mirrored_arcs_turn_the_other_way(draw):
@@ -125,6 +172,32 @@ def test_ellipses_and_splines_become_arcs(draw, tolerance):
     assert np.abs(Extruded(curve).gap(x)[0]).max() < 1.2 * tolerance
 
 
+def bezier(m, doc=None):
+    """A right triangle with the sides 10 and 5 as one spline with corners."""
+    m.add_rational_spline(
+        [(0, 0), (3, 0), (7, 0), (10, 0), (10, 2), (10, 4), (10, 5), (7, 3.5), (3, 1.5), (0, 0)],
+        [1] * 10,
+        knots=[0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3, 3],
+    )
+
+
+@pytest.mark.parametrize(
+    "add", [bezier, lambda m, doc: m.add_open_spline([(0, 0), (10, 0), (10, 5), (0, 0)], degree=1)]
+)
+def test_splines_may_have_corners(draw, add):
+    made = draw(add)
+    assert made.area == pytest.approx(25.0, rel=1e-9)
+    assert len(made.segments) <= 20
+
+
+def test_end_points_of_splines_may_coincide(draw):
+    points = [(0, 0), (0, 0), (2, 4), (6, 3), (9, 1), (9, 1)]
+    made = draw(lambda m, doc: (m.add_open_spline(points, degree=3), m.add_line((9, 1), (0, 0))))
+    x = np.array([(p.x, 0.0, p.y) for p in ezdxf.math.BSpline(points).approximate(300)])
+    assert np.abs(Extruded(made).gap(x)[0]).max() < 1.2e-3
+    assert len(made.segments) < 40
+
+
 @pytest.mark.parametrize(
     ("add", "message"),
     [
@@ -135,6 +208,14 @@ def test_ellipses_and_splines_become_arcs(draw, tolerance):
         ),
         (lambda m, doc: m.add_3dface([(0, 0), (1, 0), (1, 1)]), "3DFACE on the layer 0"),
         (lambda m, doc: m.add_circle((0, 0), 1, dxfattribs={"extrusion": (1, 0, 0)}), "not lie in the plane"),
+        (
+            lambda m, doc: m.add_lwpolyline([(0, 0), (9, 0), (9, 5)], dxfattribs={"extrusion": (0, 0.6, 0.8)}),
+            r"this line does not lie in the plane(.*\n)*.*from z = 0 to z = 3",
+        ),
+        (
+            lambda m, doc: m.add_open_spline([(0, 0, 0), (2, 4, 0), (6, 3, 1), (9, 1, 0)]),
+            r"this spline does not lie in the plane(.*\n)*.*from z = 0 to z = 1",
+        ),
         (
             lambda m, doc: [m.add_line((0, 0), (1, 0)), m.add_line((1.1, 0), (2, 1))],
             r"4 free ends, the nearest pair 0.1 apart: \(1, 0\), \(1.1, 0\)",

@@ -21,8 +21,8 @@ from umform.surfaces.tool import Tool
 from umform.surfaces.triangles import Floats, Ids, Triangles
 from umform.surfaces.triangulated import Triangulated
 
-#: Largest distance of a tool from free-form faces, where none is given.
-FREE_FORM = 1e-3
+#: Largest distance in mm of a tool from free-form faces, where none is given.
+_FREE_FORM = 1e-3
 #: Initial angle in radians by which triangles turn, smallest factor of the next attempt, number of attempts.
 _ANGLE, _LEAST_SHARE, _ROUNDS = 0.35, 0.5, 8
 #: More triangles are not tried.
@@ -68,7 +68,7 @@ class CadTool(Tool):
         cls,
         path: str | Path,
         *,
-        tolerance: float = FREE_FORM,
+        tolerance: float | None = None,
         open: bool = False,
         sharp: float = 2.0,
         scale: float = 1.0,
@@ -80,7 +80,8 @@ class CadTool(Tool):
         path : str or Path
             A file that ends in .step, .stp, .iges or .igs.
         tolerance : float
-            Largest :attr:`deviation`; triangles are refined until it is met.
+            Largest :attr:`deviation`, in the unit of the model; triangles are refined until it is met. By default
+            0.001 mm.
         open : bool
             The faces may have rims, as a die face without its block. A point whose nearest point is on a rim is
             outside of the tool.
@@ -96,8 +97,8 @@ class CadTool(Tool):
         DrawingError
             If the faces are no surface, or the tolerance is not met; the message names places.
         """
-        positive(tolerance, "CadTool.read", "tolerance")
         shape = Shape(path, positive(scale, "CadTool.read", "scale"))
+        tolerance = _FREE_FORM * scale if tolerance is None else positive(tolerance, "CadTool.read", "tolerance")
         angle, arrow, found = _ANGLE, _ARROW * shape.size, "folds"
         for _ in range(_ROUNDS):
             share = _LEAST_SHARE
