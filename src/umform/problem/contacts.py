@@ -10,6 +10,7 @@ from typing import Annotated, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.errors import InvalidValue
 from umform.model import Model
 from umform.model.contact import Contact, ContactOptions, friction
 from umform.model.tools.tool import Motion
@@ -26,7 +27,8 @@ Floats = NDArray[np.float64]
 class MotionPart(Part):
     """Motion of a tool in time, in addition to the steps: linear between the points of a table.
 
-    The first step goes from time 0 to 1, the second from 1 to 2, and so on.
+    The first step of the deck goes from time 0 to 1, the second from 1 to 2, and so on, if they have no time of their
+    own.
     """
 
     time: Annotated[list[float], Field(min_length=2)]
@@ -48,9 +50,9 @@ class MotionPart(Part):
                 text = f"a motion needs one {name} for each time: there are {len(rows)} for {len(self.time)}"
                 raise Refusal("motion", text)
 
-    def build(self) -> Motion:
-        """Motion as a picklable function of time."""
-        return partial(_motion, self.time, self.translation, self.rotation)
+    def build(self, start: float) -> Motion:
+        """Motion as a picklable function of the time of a model, which is ``start`` at the beginning of the deck."""
+        return partial(_motion, [start + time for time in self.time], self.translation, self.rotation)
 
 
 def _motion(
@@ -109,5 +111,13 @@ class ContactPart(Part, of=ContactOptions, leave=("law",)):
             contact.allowed = math.inf if isinstance(self.allowed, str) else self.allowed
         contact.tool.may_bottom |= self.may_bottom
         if self.motion is not None:
-            model.set_motion(contact, self.motion.build(), self.motion.about)
+            if contact.tool.motion is not None:
+                raise InvalidValue(
+                    "a shared tool has one motion in time",
+                    where="motion",
+                    value=f"tool {contact.tool.name}",
+                    cause="another contact of this tool has given its motion",
+                    remedy="take one of them out, or give the contacts a tool each",
+                )
+            model.set_motion(contact, self.motion.build(model.system.time), self.motion.about)
         return contact

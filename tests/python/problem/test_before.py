@@ -113,6 +113,27 @@ def test_a_deck_goes_on_where_another_has_ended(drawn):
     assert result["elastic_energy"][-1] < 1e-8 * result["elastic_energy"][0]
 
 
+def test_motions_in_time_begin_with_the_deck(drawn):
+    """The time of the model goes on, for laws that know it."""
+    floor = """
+[tools.floor]
+shape = "Plane"
+point = [0.0, 0.0, -3.0]
+[contacts.floor]
+tool = "floor"
+faces = "lower"
+penalty = 1e3
+motion = { time = [0, 1], translation = [[0, 0, 0], [0, 0, 2]] }
+"""
+    (drawn / "moved.toml").write_text(SECOND + floor + OUTPUT)
+    problem = load(drawn / "moved.toml").build()
+    heights = {}
+    for start in (0.0, 0.5, 1.0):
+        problem.model.system.time = 1.0 + start
+        heights[start] = problem.contacts["floor"].pose[1][2]
+    assert heights == {0.0: 0.0, 0.5: 1.0, 1.0: 2.0}
+
+
 def test_a_trimmed_part_is_measured_before_and_after_its_forces_have_gone(drawn):
     measure = '\n[measures.along]\nkind = "section"\n[measures.fit]\nkind = "gauge"\n'
     (drawn / "measured.toml").write_text(SECOND + measure + OUTPUT)

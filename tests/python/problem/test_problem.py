@@ -188,6 +188,15 @@ def test_every_control_is_that_of_the_model(strip):
     assert problem.controls["drive"].direction == (0, 0, 1)
 
 
+def test_a_shared_tool_has_one_motion(strip, errors):
+    text = (strip + CONTROLS).replace('shape = "Plane"', 'shape = "Plane"\nshared = true')
+    motion = CONTROLS[CONTROLS.index("time = ") :]
+    more = f'[contacts.more]\ntool = "floor"\nfaces = "upper"\n[contacts.more.motion]\n{motion}'
+    [found] = errors(text + more)
+    assert (found.what, found.value) == ("a shared tool has one motion in time", "tool floor")
+    assert "contacts.more" in found.where
+
+
 @pytest.mark.parametrize(
     "keys",
     [
