@@ -114,6 +114,7 @@ class Before(Part):
                 float(one.get("penalty", 0.0)),
                 one.get("feet"),
                 one.get("over_cells"),
+                one.get("gaps"),
             )
             for name, one in ((name, found[name]) for name in self.keep)
         }
@@ -199,7 +200,7 @@ def write_state(model: Model, path: File, tables: Mapping[str, Any], note: Mappi
             "names": json.dumps(kept.history_variables),
             "penalty": kept.penalty,
             "over_cells": kept.over_cells,
-            **({} if kept.feet is None else {"feet": kept.feet}),
+            **{key: part for key, part in (("feet", kept.feet), ("gaps", kept.gaps)) if part is not None},
         }
         for name, kept in ((pair.name, KeptContact.of(pair)) for pair in model.system.touching)
     }

@@ -79,7 +79,7 @@ def gaps(model: Model, place: Placing | None = None) -> Iterator[Finding]:
         text = (
             f"gap {deepest:.4g}" if deepest > 0 else f"{inside} of {gap.size} points touch, overlap {abs(deepest):.4g}"
         )
-        if deepest < -_OVERLAP * thickness:
+        if deepest < -_OVERLAP * thickness and not contact.has_begun:  # a tool that stays has its penetration
             found = error if deepest < -_DEEP * thickness else warning
             remedy = "move the tool out of the sheet; an overlap is pressed out in the first increment"
             if place is not None:

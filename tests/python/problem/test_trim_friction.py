@@ -8,6 +8,8 @@ import pytest
 from umform.errors import UmformError
 from umform.problem import load
 from umform.problem.before import write_state
+from umform.problem.check import before_run
+from umform.problem.findings import Level
 
 #: Tool and contact of both operations.
 TOOL = """
@@ -197,6 +199,32 @@ def test_a_tool_that_has_moved_keeps_its_penalty_so_that_two_stages_are_one_run(
     staged, whole = after.solve(progress=False), load(tmp_path / "whole.toml").build().solve(progress=False)
     assert staged["way_force"][0] == pytest.approx(whole["way_force"][3], rel=1e-5 if roll.augmented else 1e-9)
     np.testing.assert_allclose(staged.model.u, whole.model.u, atol=1e-6 if roll.augmented else 1e-9)
+
+
+@pytest.mark.parametrize("rule", ["points = 3", "cells = 3"])
+def test_a_tool_that_keeps_its_friction_stands_where_it_stood(rule, tmp_path):
+    """It is no overlap that is pressed out, and the travel of the stage before belongs to its place."""
+    metal = 'law = "J2"\nhardening = { curve = "Linear", yield_stress = 200.0, modulus = 1000.0 }'
+    sheet = FIRST[FIRST.index("[mesh]") : FIRST.index("[[supports]]")].replace('law = "SVK"', metal)
+    tools = ROLLED.replace("points = 5", f"{rule}\npenalty = 200.0")
+    after = '[before]\ndeck = "press.toml"\nstate = "state.h5"\nkeep = ["roll"]\n'
+    for name, text in {
+        "press": sheet + tools.replace("CENTRE", "3.5") + rolled(-1.0),
+        "next": after + tools.replace("CENTRE", "2.5") + rolled(-0.5),
+        "first": after + tools.replace("CENTRE", "3.5") + rolled(-0.5),
+        "lower": after + tools.replace("CENTRE", "2.45") + rolled(-0.5),
+    }.items():
+        (tmp_path / f"{name}.toml").write_text(text)
+    deck = load(tmp_path / "press.toml")
+    problem = deck.build()
+    problem.solve(progress=False)
+    write_state(problem.model, tmp_path / "state.h5", deck.source.data)
+    deck = load(tmp_path / "next.toml")
+    (found,) = (one for one in before_run(deck, deck.build()) if "overlap" in one.text)
+    assert found.level is Level.OK
+    for name, away in (("first", r"0\.9\d*|1"), ("lower", r"0\.0(5|4\d*)")):
+        with pytest.raises(UmformError, match=rf"(?s)must stand where it stood.*roll.*up to ({away}) away"):
+            load(tmp_path / f"{name}.toml").build()
 
 
 def test_a_contact_that_keeps_nothing_is_refused(pressed):

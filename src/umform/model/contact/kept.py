@@ -42,6 +42,8 @@ class KeptContact:
         Of a contact of sheets: the faces that the points have met, -1 where they have met none.
     over_cells : bool, optional
         Whether the points are those of cells; None in a state of an older program.
+    gaps : ndarray, shape (faces, points), optional
+        Of a contact with a tool: signed distances of the places of the points; None in a state of an older program.
     """
 
     faces: Ids
@@ -50,6 +52,7 @@ class KeptContact:
     penalty: float = 0.0
     feet: Ids | None = None
     over_cells: bool | None = None
+    gaps: Floats | None = None
 
     @classmethod
     def of(cls, contact: Contact | SheetContact) -> KeptContact:
@@ -62,7 +65,8 @@ class KeptContact:
             feet = np.where(facet[..., None] > 0, contact.faces[rows], -1).astype(np.int32)
             return cls(contact.faces, history, history_variables, penalty, feet, over_cells)
         turned = _turned(history, history_variables, contact.pose)
-        return cls(contact.faces.copy(), turned, history_variables, penalty, over_cells=over_cells)
+        gaps = _gaps(turned, history_variables, contact)
+        return cls(contact.faces.copy(), turned, history_variables, penalty, over_cells=over_cells, gaps=gaps)
 
     def left(self, parents: Numbers, same: NDArray[np.bool_]) -> KeptContact:
         """What a part keeps of it.
@@ -79,7 +83,8 @@ class KeptContact:
         kept = np.flatnonzero(cell[self.faces[:, 0]] >= 0)
         faces = np.stack([cell[self.faces[kept, 0]], self.faces[kept, 1]], axis=1).astype(np.int32)
         if self.feet is None:
-            return replace(self, faces=faces, history=self.history[kept])
+            gaps = None if self.gaps is None else self.gaps[kept]
+            return replace(self, faces=faces, history=self.history[kept], gaps=gaps)
         feet = self.feet[kept]
         there = np.where(feet[..., 0] >= 0, cell[feet[..., 0]], -1)
         feet = np.where(there[..., None] >= 0, np.stack([there, feet[..., 1]], axis=-1), -1).astype(np.int32)
@@ -93,7 +98,7 @@ class KeptContact:
         Raises
         ------
         InvalidValue
-            If it has other points or another law.
+            If it has other points or another law, or its tool does not stand where it stood.
         """
         history, history_variables = _history(contact)
         over_cells = contact.cells is not None
@@ -116,11 +121,28 @@ class KeptContact:
             history[kept] = self._on(contact, kept, rows[kept])
             contact.go_on_with(history.reshape(-1, history.shape[-1]))
         else:
+            self._refuse_another_place(contact, rows[kept])
             rotation, shift = contact.pose
             history[kept] = _turned(self.history[rows[kept]], history_variables, (rotation.T, -shift @ rotation))
             contact.restore({"history": history})
         contact.begin_with(self.penalty)
         return len(kept)
+
+    def _refuse_another_place(self, contact: Contact, rows: Numbers) -> None:
+        """Refuse a tool whose distance from held points is another one by more than their elastic slip."""
+        if self.gaps is None:
+            return
+        history = self.history[rows]
+        held = named(history, self.history_variables)["held"][..., 0] > 0.0
+        moved = np.abs(_gaps(history, self.history_variables, contact) - self.gaps[rows])[held]
+        if (moved > contact.slip).any():
+            raise InvalidValue(
+                "a tool that keeps its friction must stand where it stood",
+                where=f"contact {contact.name}",
+                value=f"its surface is up to {moved.max():.4g} away from there, at {len(moved)} points that it held",
+                cause="the tool has travelled in the stage before, and has its first place here",
+                remedy="shift it by that travel, or let the contact begin anew, without its friction",
+            )
 
     def _on(self, contact: SheetContact, faces: Numbers, rows: Numbers) -> Floats:
         """The history of some faces of a contact of sheets; points whose foot is gone keep what has added up."""
@@ -137,6 +159,12 @@ class KeptContact:
                 values[lost] = 0.0
         parts["facet"][..., 0] = np.where(lost, 0, foot)
         return history
+
+
+def _gaps(history: Floats, history_variables: dict[str, int], contact: Contact) -> Floats:
+    """Signed distances of the places of a history, in global axes, to the tool of a contact; shape (faces, points)."""
+    places = named(history, history_variables)["place"]
+    return contact.gap(places.reshape(-1, 3), contact.pose).reshape(places.shape[:2])
 
 
 def _history(contact: Contact | SheetContact) -> tuple[Floats, dict[str, int]]:

@@ -250,6 +250,11 @@ class PairPoints(Term):
         rotation, shift = self.pose if pose is None else pose
         return self.tool.kernel.gap(np.ascontiguousarray((x - shift) @ rotation))[0]
 
+    @property
+    def has_begun(self) -> bool:
+        """Whether its points have a history, of this run or of a stage before."""
+        return "block" in vars(self) and self.block.begun
+
     def gap_now(self, u: Floats) -> Floats:
         """Signed distances of the contact points to the tool in its present pose, shape (n,)."""
         return self._measured(u, self.pose)[1]
@@ -327,8 +332,7 @@ class PairPoints(Term):
     def piece(self, cut: Cut) -> tuple[Ids, NDArray[np.int64], Tree | None]:
         """Faces of the rank, their rows in this contact, and their history if any."""
         faces, rows = cut.faces_of(self.faces)
-        begun = "block" in vars(self) and self.block.begun
-        history = {name: values[rows] for name, values in self.state().items()} if begun else None
+        history = {name: values[rows] for name, values in self.state().items()} if self.has_begun else None
         return faces, rows, history
 
     def fill(self, piece: tuple[Ids, NDArray[np.int64], Tree | None], mesh: Any) -> None:
