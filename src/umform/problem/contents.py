@@ -12,7 +12,7 @@ from umform.problem.contacts import ContactPart
 from umform.problem.controls import ControlPart
 from umform.problem.element import ElementPart
 from umform.problem.material import MaterialPart
-from umform.problem.mesh import MeshPart
+from umform.problem.mesh import MeshPart, OneMesh
 from umform.problem.notes import Field, Later
 from umform.problem.parts import Name, Part
 from umform.problem.settings import Derivatives, Output, Solution, Units
@@ -44,7 +44,7 @@ class Contents(Part):
     """Cuts of the part of the previous operation, in order."""
     placement: Placement | None = None
     """Rigid motion of the part before the first step."""
-    added: dict[Name, MeshPart] = field(default_factory=dict)
+    added: dict[Name, OneMesh] = field(default_factory=dict)
     """Flat sheets that are laid beside the placed part, by name, with its element and metal: the sets are then lower of
     part, upper of NAME, and so on."""
     mesh: MeshPart

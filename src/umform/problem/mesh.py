@@ -14,7 +14,7 @@ from umform import mesh
 from umform.errors import InvertedElement, MeshError, WrongNodeOrder
 from umform.mesh import Floats, Mesh
 from umform.problem.material import MaterialPart
-from umform.problem.notes import Discriminator, Field, Refusal, Tag
+from umform.problem.notes import Built, Discriminator, Field, Refusal, Tag
 from umform.problem.outline import Outlined
 from umform.problem.parts import Name, Part, Positive, Vector, tagged_by, word_or_array
 
@@ -205,8 +205,17 @@ def _generators(*words: str) -> Discriminator:
     )
 
 
+def _of_constant_size(part: Any, folder: Path) -> Any:
+    """Refuse sizes that follow the tools."""
+    del folder
+    if isinstance(part, Outlined) and part.turn is not None:
+        raise Refusal("turn", "elements that follow the tools need a deck with one sheet")
+    return part
+
+
 _WORDS = ("strip", "plate", "grid", "disc", "ring", "outline")
-OneMesh = Annotated[_ONE, _generators(*_WORDS)]
+#: The mesh of one of several sheets.
+OneMesh = Annotated[Annotated[_ONE, _generators(*_WORDS)], Built(Part, _of_constant_size)]
 
 
 class SheetPart(Part):
@@ -218,11 +227,6 @@ class SheetPart(Part):
     """Translation of the mesh."""
     material: MaterialPart | None = None
     """Its law, in place of that of the deck."""
-
-    def __post_init__(self) -> None:
-        """Refuse sizes that follow the tools."""
-        if isinstance(self.mesh, Outlined) and self.mesh.turn is not None:
-            raise Refusal("turn", "elements that follow the tools need a deck with one sheet")
 
     def build(self, cell: str, folder: Path) -> Mesh:
         """Its mesh of cells of a type."""

@@ -200,7 +200,7 @@ def _built(note: Built, inner: Any, value: Any, context: Context) -> Any:
     part = read(inner, value, context)
     try:
         return note.build(part, Path(context.get("folder", ".")))
-    except REFUSED:
+    except (*REFUSED, Refusal):
         raise Unfit from None
 
 

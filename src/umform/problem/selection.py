@@ -34,6 +34,13 @@ def faces_of(mesh: Mesh, selection: Selection) -> Ids:
     return _not_empty(selection.faces(mesh), "face")
 
 
+def sets_in(selection: Selection) -> set[str]:
+    """Names of the sets that a selection lies in."""
+    if isinstance(selection, str):
+        return {selection}
+    return set().union(*map(sets_in, selection.intersection)) if isinstance(selection, Intersection) else set()
+
+
 def _not_empty(ids: Ids, kind: str) -> Ids:
     if len(ids) == 0:
         raise EmptySet(

@@ -10,7 +10,7 @@ from umform.analysis.run import Result
 from umform.analysis.run.stages import continued
 from umform.elements import Rolling
 from umform.elements.technology import Element
-from umform.errors import UmformError
+from umform.errors import InvalidValue, UmformError
 from umform.materials import Material
 from umform.mesh import Mesh
 from umform.model import Model
@@ -24,6 +24,7 @@ from umform.problem.mesh import Together
 from umform.problem.outline import Outlined
 from umform.problem.places import Place
 from umform.problem.rolling import direction
+from umform.problem.selection import sets_in
 from umform.problem.source import Source
 from umform.surfaces import Tool, ToolSizes
 
@@ -74,9 +75,12 @@ class SheetBuilder:
 
     def _with_added(self, model: Model) -> Model | None:
         """The part with the sheets that are laid beside it."""
+        sheets: dict[str, Mesh] = {}
+        for name, one in self.contents.added.items():
+            with self.at("added", name):
+                sheets[name] = one.build(model.mesh.cell, self.source.folder)
         with self.at("added"):
-            cell, folder = model.mesh.cell, self.source.folder
-            return laid_beside(model, **{name: one.build(cell, folder) for name, one in self.contents.added.items()})
+            return laid_beside(model, **sheets) if len(sheets) == len(self.contents.added) else None
         return None
 
     def _formed(self) -> Model | None:
@@ -134,8 +138,19 @@ class SheetBuilder:
         part, folder, tools = self.contents.mesh, self.source.folder, self.tools
         if not isinstance(part, Outlined) or part.turn is None:
             return part.build(cell, folder)
-        touching = {(contact.tool, str(contact.faces)) for contact in self.contents.contacts.values()}
-        if any(tool not in tools for tool, _ in touching):
+        touching = set()
+        for name, contact in self.contents.contacts.items():
+            sides = {"lower", "upper"} & sets_in(contact.faces)
+            touching |= {(contact.tool, side) for side in sides or {""}}
+            with self.at("contacts", name):
+                if not sides:
+                    raise InvalidValue(
+                        "it is not known on which side of the blank this tool lies, whose radii the elements follow",
+                        where="faces",
+                        cause="turn in [mesh], and faces that are no part of the set lower or upper",
+                        remedy='faces = "lower", or { intersection = ["lower", { min = [0, 0, 0] }] }',
+                    )
+        if any(tool not in tools or not side for tool, side in touching):
             return None
         below, above = ([tools[tool] for tool, on in sorted(touching) if on == side] for side in ("lower", "upper"))
         self.sizes = part.sizes(below, above, folder)

@@ -58,6 +58,16 @@ def test_sizes_follow_the_tools_and_are_printed_and_drawn(tmp_path):
     assert picture.read_bytes()[1:4] == b"PNG"
 
 
+def test_sizes_follow_the_tools_of_a_part_of_the_faces():
+    text = deck_text("turn = 45.0").replace("size = 6.0", "size = 12.0")
+    everywhere = "{ min = [-inf, -inf, -inf] }"
+    assert text.count('faces = "lower"') == 1
+    part = text.replace('faces = "lower"', f'faces = {{ intersection = ["lower", {everywhere}] }}')
+    assert Problem.read(part).build().sizes(39.0, 10.0) == Problem.read(text).build().sizes(39.0, 10.0) < 12.0
+    with pytest.raises(DeckError, match=r"on which side of the blank(.*\n)*.*contacts.die \(faces\)"):
+        Problem.read(text.replace('faces = "lower"', f"faces = {everywhere}")).build()
+
+
 def test_a_symmetry_of_nodes_in_no_plane_is_a_warning(tmp_path):
     """The arc of a radius is an edge too, so that the one at x = 0 is edge_4."""
     file = tmp_path / "deck.toml"

@@ -51,6 +51,22 @@ increments = 2
 """
 
 
+@pytest.mark.parametrize(
+    ("mesh", "message"),
+    [
+        ('generator = "together"\nsheets = {}', "this generator is unknown"),
+        (
+            'generator = "outline"\noutline = { corners = [[0, 0], [9, 0], [9, 2]] }\nthickness = 1\nsize = 3\n'
+            "turn = 5",
+            "elements that follow the tools need a deck with one sheet",
+        ),
+    ],
+)
+def test_a_sheet_beside_others_is_one_of_a_constant_size(mesh, message):
+    with pytest.raises(DeckError, match=f"{message}(.*\n)*.*added.cover"):
+        Problem.read(f"{DECK}[added.cover]\n{mesh}\n")
+
+
 def test_sheets_of_a_deck_have_laws_of_their_own():
     problem = Problem.read(DECK)
     prepared = problem.build()
