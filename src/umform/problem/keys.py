@@ -35,6 +35,8 @@ def written_out(material: Any) -> Any:
 
     if not isinstance(material, Mapping) or not isinstance(material.get("library"), str):
         return material
+    if not material.keys() <= {"library", "rolling"}:  # which reading the deck refuses
+        return material
     return law_keys(sheet_metals.get(material["library"]).law, material.get("rolling"))
 
 

@@ -24,7 +24,7 @@ from umform.problem.prepared import Prepared
 from umform.problem.profiles import as_written
 from umform.problem.reading import Unfit, read
 from umform.problem.references import unknown_names
-from umform.problem.source import Source, change, parse, read_file
+from umform.problem.source import Source, change, parse, read_file, within
 from umform.problem.written import deck_text, plain
 from umform.spec import Scalar, scalars
 
@@ -155,7 +155,7 @@ class Problem:
             change(data, changes, self._array)
             changed = replace(type(self)._read(replace(source, data=data)), start=self.start)
         else:
-            earlier = {key: value for key, value in source.changes.items() if key not in changes}
+            earlier = {key: value for key, value in source.changes.items() if not within(key, changes)}
             changed = type(self).read(source.text, source.name, source.folder, earlier | dict(changes), source.trust)
         if same_topology:
             _refuse_other_topology(self.sheet().mesh, changed.sheet().mesh, changes)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path as File
 from typing import Any
@@ -157,6 +157,8 @@ def parse(
 def change(data: dict[str, Any], changes: Mapping[str, Any], default: Callable[[str], Any]) -> None:
     """Give keys of parsed data other values, in place; a key of the law of a library metal writes the law out.
 
+    A table or list comes before the keys within it, in whatever order they are given.
+
     Parameters
     ----------
     data : dict
@@ -171,11 +173,19 @@ def change(data: dict[str, Any], changes: Mapping[str, Any], default: Callable[[
     DeckError
         If a key does not exist.
     """
-    if any(key.startswith("material.") and key not in _OF_A_METAL for key in changes):
-        data["material"] = plain(written_out(data.get("material")))
-    wrong = [problem for key, value in changes.items() if (problem := _change(data, key, plain(value), default))]
+    wrong = []
+    for key in sorted(changes, key=lambda one: (one.count("."), one not in _OF_A_METAL)):
+        if key.startswith("material.") and key not in _OF_A_METAL:
+            data["material"] = plain(written_out(data.get("material")))
+        if problem := _change(data, key, plain(changes[key]), default):
+            wrong.append(problem)
     if wrong:
         raise DeckError(wrong)
+
+
+def within(key: str, others: Iterable[str]) -> bool:
+    """Whether a key is one of others, or in the table or list of one."""
+    return any(f"{key}.".startswith(f"{one}.") for one in others)
 
 
 def _change(data: dict[str, Any], key: str, value: Any, default: Callable[[str], Any]) -> DeckKey | None:

@@ -98,6 +98,17 @@ def test_a_metal_of_the_library(strip, errors):
     assert "line 9, material.library" in told.where
 
 
+def test_a_table_is_changed_before_the_keys_within_it(strip):
+    whole = {"material": {"library": "DC04"}, "material.E": 2e5}
+    for changes in (whole, dict(reversed(whole.items()))):
+        problem = Problem.read(strip, changes=changes)
+        dc04, law = sheet_metals.get("DC04").law, problem.contents.material.law
+        assert pytest.approx(law.E) == 2e5 and law.hardening == dc04.hardening
+        assert problem.with_({"material": {"library": "DC04"}}).contents.material.law == dc04
+        law = problem.with_({"material.nu": 0.25}).contents.material.law
+        assert (law.E, law.nu) == pytest.approx((2e5, 0.25)) and law.hardening == dc04.hardening
+
+
 def test_grid_and_plate(strip):
     lines = 'generator = "grid"\nx = [0, 1, 3]\ny = [0, 2]\nz = [-0.5, 0, 0.5]\n'
     head, tail = strip.split('generator = "strip"')

@@ -11,6 +11,7 @@ from typing import Any
 
 from umform.errors import InvalidValue
 from umform.problem import DeckError, Problem
+from umform.problem.source import within
 from umform.problem.written import toml
 from umform.studies.sweep.jobs import Job, job, record_of
 from umform.studies.sweep.keys import change, find_key, is_text
@@ -203,7 +204,7 @@ def _check_keys(keys: Mapping[str, str]) -> None:
 def _check_changes(changes: Mapping[str, Any], keys: Mapping[str, str]) -> None:
     """Reject another value for all jobs of a key that each job has its own value of."""
     for name, key in keys.items():
-        if lost := [one for one in changes if one == key or one.startswith(f"{key}.")]:
+        if lost := [one for one in changes if within(one, [key])]:
             raise InvalidValue(
                 "a key has a value for all jobs, and is varied",
                 where=lost[0],

@@ -135,6 +135,13 @@ def test_the_table_of_another_study_stays_and_fewer_jobs_are_the_same_study(deck
     assert sweep(deck, {"E": [3e5]}, out=first.parent, overwrite=True).files[0] == first
 
 
+def test_a_key_of_a_law_that_is_varied_too_belongs_to_each_law(deck):
+    vary = {"E": [1e5, 2e5], "material": "DC04,S355"}
+    one, other = (sweep(deck, dict(list(vary.items())[::way]), measures=["pull_force:max"]) for way in (1, -1))
+    assert len(set(one["pull_force:max"])) == 4
+    assert one["pull_force:max"] == [other["pull_force:max"][n] for n in (0, 2, 1, 3)]
+
+
 def test_a_key_with_a_value_for_all_jobs_is_not_varied(deck):
     with pytest.raises(InvalidValue, match="for all jobs"):
         sweep(deck, {"thickness": [1.0]}, changes={"mesh.thickness": 2.0})
