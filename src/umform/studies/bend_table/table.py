@@ -68,8 +68,7 @@ class Between:
     angle, radius, k_factor, allowance, deduction : float
         As of a `StoredBend`.
     error : float
-        Error of allowance and deduction in mm, measured by a run in the middle between the two bends; 0 for a bend of
-        the table.
+        Error of allowance and deduction in mm, measured by runs between the two bends; 0 for a bend of the table.
     """
 
     angle: float
@@ -93,7 +92,7 @@ class Tabled:
     failed : dict of float to str
         Angles without a bend, and the reason.
     checks : tuple of StoredBend
-        Bends in the middle of each interval, if they were asked for.
+        Bends in the middle of each interval, if they were asked for; of one whose bend between has failed several.
     """
 
     setup: Setup
@@ -121,8 +120,8 @@ class Tabled:
         if angle in known:
             one = self.bends[known.index(angle)]
             return Between(angle, one.radius, one.k_factor, one.allowance, one.deduction, 0.0)
-        check = next((one for one in self.checks if _interval(known, one.wanted) == _interval(known, angle)), None)
-        if check is None:
+        checks = [one for one in self.checks if _interval(known, one.wanted) == _interval(known, angle)]
+        if not checks:
             raise InvalidValue(
                 "the error between the angles of the table is not known",
                 where="angle",
@@ -130,8 +129,8 @@ class Tabled:
                 cause="the intervals were not checked by runs",
                 remedy="bend_table(..., check=True), `umform bend table --check`, or add the angle",
             )
-        found = _between(self, angle)
-        return replace(found, error=abs(_between(self, check.wanted).deduction - check.deduction))
+        errors = (abs(_between(self, one.wanted).deduction - one.deduction) for one in checks)
+        return replace(_between(self, angle), error=max(errors))
 
     @property
     def by_radius(self) -> tuple[StoredBend, ...]:
@@ -380,7 +379,8 @@ def _tabled(
         on_failure=miss,
     )
     rows = tuple(one for one in found if one.wanted in angles)
-    checks = tuple(one for one in found if one.wanted not in angles and one.wanted > rows[0].wanted) if rows else ()
+    ends = (rows[0].wanted, rows[-1].wanted) if rows else (math.inf, -math.inf)
+    checks = tuple(one for one in found if one.wanted not in angles and ends[0] < one.wanted < ends[1])
     return Tabled(setup, rows, {angle: why for angle, why in failed.items() if angle in angles}, checks)
 
 

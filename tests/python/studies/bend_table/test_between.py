@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from umform.errors import InvalidValue
 from umform.studies.bend_table import bend, bend_table
+from umform.studies.bend_table import table as module
 
 
 @pytest.fixture(scope="module")
@@ -28,6 +31,22 @@ def test_an_angle_between_has_the_error_of_its_interval(checked, store):
 def test_a_bend_of_the_table_is_itself(checked):
     one = checked.bends[1]
     assert checked.at(135.0).deduction == one.deduction and checked.at(135.0).error == 0.0
+
+
+@pytest.mark.parametrize(("failed", "checks"), [(120, [142.5]), (135, [127.5, 142.5]), (150, [127.5])])
+def test_a_bend_that_fails_takes_its_intervals_with_it(checked, store, monkeypatch, failed, checks):
+    def failing(case, angles, *, on_failure, **options):
+        on_failure(failed, InvalidValue("the sheet springs back flat"))
+        return bends(case, [angle for angle in angles if angle != failed], on_failure=on_failure, **options)
+
+    bends = module.bends
+    monkeypatch.setattr(module, "bends", failing)
+    (part,) = bend_table([checked.setup], [120, 135, 150], check=True, store=store, processes=1).parts
+    assert list(part.failed) == [failed] and [one.wanted for one in part.checks] == checks
+    errors = [abs(part.at(one.wanted).deduction - one.deduction) for one in part.checks]
+    for one in (part, replace(part, checks=part.checks[::-1])):
+        assert one.at(checks[0] + 1.0).error == one.cubic_error == max(errors)
+    assert 0.0 < part.linear_error < 0.1
 
 
 @pytest.mark.parametrize("angle", [119.9, 150.1])
