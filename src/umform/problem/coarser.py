@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections import ChainMap
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
 from umform.analysis.steps import Pace
-from umform.problem.mesh import Disc, Grid, Ring, Strip
+from umform.errors import UmformError
+from umform.model.contact import Contact
+from umform.model.contact.sheets import SheetContact
+from umform.problem.mesh import Disc, Grid, Ring, Strip, Together
 from umform.problem.outline import Outlined
 from umform.problem.prepared import Prepared
 from umform.problem.problem import Problem
@@ -30,21 +34,39 @@ OF_PACE = ("first", "largest", "turn", "strain", "contact")
 
 
 def mesh(deck: Problem) -> Changes:
-    """A mesh whose elements are twice as long; none for a mesh of a file, or of the operation before."""
+    """A mesh whose elements are twice as long; none if one of its sheets is from a file, or of the operation before."""
     part = deck.contents.mesh
     if deck.before is not None or deck.start is not None:
         return {}
+    if not isinstance(part, Together):
+        return _twice_as_long(part, "mesh")
+    sheets = [_twice_as_long(sheet.mesh, f"mesh.sheets.{name}.mesh") for name, sheet in part.sheets.items()]
+    found = dict(ChainMap(*sheets)) if all(sheets) else {}
+    return {} if part.bonds and not _fits(deck, found) else found
+
+
+def _twice_as_long(part: object, path: str) -> Changes:
+    """Changes of a generated mesh; none if it cannot be made coarser."""
     if isinstance(part, Outlined):
-        turn = {} if part.turn is None else {"mesh.turn": min(TIMES * part.turn, _MOST_TURN)}
-        return {"mesh.size": TIMES * part.size, **turn}
+        turn = {} if part.turn is None else {f"{path}.turn": min(TIMES * part.turn, _MOST_TURN)}
+        return {f"{path}.size": TIMES * part.size, **turn}
     if isinstance(part, Grid):
         lines = {name: list(part.of_spec()[name]) for name in ("x", "y")}
-        return {f"mesh.{name}": _every_second(of) for name, of in lines.items() if len(of) > TIMES}
+        return {f"{path}.{name}": _every_second(of) for name, of in lines.items() if len(of) > TIMES}
     if isinstance(part, Strip | Disc | Ring):
         cells = list(part.of_spec()["cells"])
         halves = [_half(count) for count in cells]
-        return {"mesh.cells": halves} if halves != cells else {}
+        return {f"{path}.cells": halves} if halves != cells else {}
     return {}
+
+
+def _fits(deck: Problem, changes: Changes) -> bool:
+    """Whether bonded sheets still have nodes at the same places."""
+    try:
+        deck.with_(changes).sheet()
+    except UmformError:
+        return False
+    return True
 
 
 def _half(count: int) -> int:
@@ -76,26 +98,36 @@ def increments(deck: Problem, problem: Prepared) -> Changes:
 
 def thickness_points(deck: Problem, problem: Prepared) -> Changes:
     """Two points through the thickness less, for a law with a history."""
-    body, given = problem.model.bodies.only, deck.contents.element.of_spec()["thickness_order"]
-    fewer, least = body.thickness_points - _FEWER, max(2, 0 if given is None else given + 1)
-    if deck.before is not None or deck.start is not None or not len(body.material.law().initial()) or fewer < least:
+    bodies = [body for body in problem.model.bodies if len(body.material.law().initial())]
+    if deck.before is not None or deck.start is not None or not bodies:
         return {}
-    return {"element.thickness_points": fewer, "element.thickness_rule": body.thickness_rule}
+    given = deck.contents.element.of_spec()["thickness_order"]
+    most = max(bodies, key=lambda body: body.thickness_points)
+    fewer, least = most.thickness_points - _FEWER, max(2, 0 if given is None else given + 1)
+    return {"element.thickness_points": fewer, "element.thickness_rule": most.thickness_rule} if fewer >= least else {}
 
 
 def contact_points(deck: Problem, problem: Prepared) -> Changes:
-    """One contact point, or cell, per direction and facet less; one more where there are two."""
+    """One contact point, or cell, per direction and facet less; one more where there are two.
+
+    Contacts that keep the friction of the operation before keep their points.
+    """
     found: Changes = {}
-    for name, contact in problem.contacts.items():
-        kind = "points" if contact.cells is None else "cells"
-        count = getattr(contact, kind)
-        if not isinstance(count, str):
-            found[f"contacts.{name}.{kind}"] = count - 1 if count > _FEW_CONTACTS else count + 1
+    before = deck.contents.before
+    for group, contacts in _contacts(problem).items():
+        for name, contact in contacts.items():
+            kind = "points" if contact.cells is None else "cells"
+            count = getattr(contact, kind)
+            if not isinstance(count, str) and (before is None or name not in before.keep):
+                found[f"{group}.{name}.{kind}"] = count - 1 if count > _FEW_CONTACTS else count + 1
     return found
 
 
 def penalty(deck: Problem, problem: Prepared) -> Changes:
-    """Half of each penalty, or twice the allowed penetration from which it follows."""
+    """Half of each penalty, or twice the allowed penetration from which it follows; of sheets that with which they end.
+
+    Multipliers follow the allowed penetration, too.
+    """
     found: Changes = {}
     for name, part in deck.contents.contacts.items():
         given = part.of_spec()
@@ -106,10 +138,17 @@ def penalty(deck: Problem, problem: Prepared) -> Changes:
             depth = problem.contacts[name].allowed
         if depth is not None and (given["penalty"] is None or given["penetration"] is not None):
             found[f"contacts.{name}.penetration"] = TIMES * depth
-    for name, sheets in deck.contents.sheet_contacts.items():
-        given = sheets.of_spec()
-        found |= {f"sheet_contacts.{name}.penalty": given["penalty"] / TIMES} if given["penalty"] is not None else {}
+    for contact in problem.model.system.sheet_contacts:
+        path = f"sheet_contacts.{contact.name}"
+        found[f"{path}.penalty"] = contact.penalty / TIMES
+        found |= {f"{path}.penetration": TIMES * contact.allowed} if contact.augmented else {}
     return found
+
+
+def _contacts(problem: Prepared) -> dict[str, Mapping[str, Contact | SheetContact]]:
+    """Contacts by their names, and by the names of their tables."""
+    sheets = {contact.name: contact for contact in problem.model.system.sheet_contacts}
+    return {"contacts": problem.contacts, "sheet_contacts": sheets}
 
 
 def tolerance(deck: Problem, problem: Prepared) -> Changes:

@@ -19,7 +19,10 @@ from umform.results.quantity import Quantity, values
 #: Factor on the changes by coarser variants, with which nine of ten finer answers lie in their bands (docs/bands.md).
 SAFETY = 1.5
 #: What is missing without a coarser mesh.
-_NO_MESH = "; the mesh has no coarser one (it is from a file or of the operation before) and is not in it"
+_NO_MESH = (
+    "; the mesh has no coarser one (it is from a file, of the operation before, or of bonded sheets whose nodes would "
+    "not meet) and is not in it"
+)
 #: Behind the name of a control: its force.
 _FORCE = "_force"
 #: Significant digits of a column, and the part of its largest value that is round-off.

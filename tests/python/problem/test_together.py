@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 
 from umform.problem import Problem
+from umform.problem.coarser import MESH, coarser
+from umform.problem.error_budget import error_budget
 from umform.problem.errors import DeckError
+from umform.problem.measured import Taken
 
 DECK = """
 title = "Two strips"
@@ -106,6 +109,36 @@ def test_numbers_of_the_sheets_have_paths():
     assert {"mesh.sheets.cover.mesh.thickness", "mesh.sheets.cover.shift.2"} <= paths
     thicker = problem.with_({"mesh.sheets.cover.mesh.thickness": 0.6, "mesh.sheets.cover.shift.2": 0.8})
     assert np.ptp(thicker.build().model.mesh.nodes("cover")) > 0
+
+
+def test_coarser_variants_are_those_of_all_sheets_and_of_their_contact():
+    deck = Problem.read(DECK)
+    built = deck.build()
+    result = built.solve(progress=False)
+    (pair,) = built.model.system.sheet_contacts
+    found = coarser(deck, built)
+    coarse = {"mesh.sheets.base.mesh.cells": [3, 1], "mesh.sheets.cover.mesh.cells": [3, 1]}
+    assert found.pop(MESH) == coarse
+    assert {name: {key: one for key, one in change.items() if key not in coarse} for name, change in found.items()} == {
+        "step*2": {"steps.0.increments": 1},
+        "t-pts-2": {"element.thickness_points": 10, "element.thickness_rule": "staggered"},
+        "c-pts-1": {"sheet_contacts.stack.points": 3},
+        "depth*2": {"sheet_contacts.stack.penalty": 0.5 * pair.penalty},
+    }
+    taken = Taken.of(deck, built, result, complete=True)
+    (force,) = error_budget(deck, built, result, taken, processes=1, progress=False).quantities
+    assert force.name == "end_force.step 1" and all(force.band.parts.values()) and not force.of_mesh
+
+
+def test_bonded_sheets_have_a_coarser_mesh_if_their_nodes_still_meet():
+    bonded = DECK.replace("[mesh]\n", '[mesh]\nbonds = [["upper of base", "lower of cover"]]\n')
+    contact = '[sheet_contacts.stack]\nfaces = "upper of base"\nothers = "lower of cover"\n'
+    bonded = bonded.replace(contact, "")
+    own = "length = 10.0, width = 2.0, thickness = 0.5, cells = [6, 1]"
+    for length, cells, there in ((10.0, 5, True), (6.0, 3, False)):
+        text = bonded.replace(own, f"length = {length}, width = 2.0, thickness = 0.5, cells = [{cells}, 1]")
+        deck = Problem.read(text)
+        assert (MESH in coarser(deck, deck.build())) is there
 
 
 @pytest.mark.parametrize(

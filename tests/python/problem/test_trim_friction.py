@@ -10,6 +10,7 @@ from umform.problem import load
 from umform.problem.before import write_state
 from umform.problem.check import before_run
 from umform.problem.findings import Level
+from umform.problem.coarser import coarser
 
 #: Tool and contact of both operations.
 TOOL = """
@@ -122,6 +123,15 @@ def test_a_tool_that_stays_keeps_its_friction(pressed, edge, same):
     assert before.slip[:points].min() > 0.02
     result = problem.solve(progress=False)
     assert result["cut"][-1] == 0.0
+
+
+def test_coarser_variants_of_an_error_budget_keep_the_points_that_have_friction(pressed):
+    folder, _ = pressed
+    (folder / "budget.toml").write_text(SECOND.replace("EDGE", "elements"))
+    deck = load(folder / "budget.toml")
+    (changed,) = coarser(deck, deck.build()).values()
+    assert changed == {"contacts.die.penalty": 5e3}
+    assert deck.with_(changed).build().solve(progress=False)["cut"][-1] == 0.0
 
 
 def test_a_tool_that_stays_keeps_the_penalty_that_has_grown(tmp_path):
