@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import importlib
+import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import is_dataclass
 from pathlib import Path
 from typing import Any
 
 from umform.errors import InvalidValue
+
+_OWN = re.compile(r"[\w.]+:\w+")
 
 
 def own_class(key: str, word: str, context: Mapping[str, Any]) -> type:
@@ -58,3 +61,19 @@ def own_class(key: str, word: str, context: Mapping[str, Any]) -> type:
             remedy="@dataclass(frozen=True); its fields are the keys of the table",
         )
     return found
+
+
+def texts(data: Any) -> Iterator[str]:
+    """All texts of parsed data."""
+    if isinstance(data, str):
+        yield data
+    elif isinstance(data, Mapping | list | tuple):
+        for entry in data.values() if isinstance(data, Mapping) else data:
+            yield from texts(entry)
+
+
+def modules_of(data: Any) -> dict[str, bytes]:
+    """Contents of the modules whose classes parsed data name, by their names; of those that are loaded from a file."""
+    names = sorted({text.partition(":")[0] for text in texts(data) if _OWN.fullmatch(text)})
+    files = {name: getattr(sys.modules.get(name), "__file__", None) for name in names}
+    return {name: Path(file).read_bytes() for name, file in files.items() if file and Path(file).is_file()}

@@ -1,7 +1,8 @@
 """Fingerprints: texts that identify the input of a run.
 
 A text has names and numbers to the last digit, and digests of arrays and functions. A function is identified by its
-code, defaults and closure, not by its module, because an imported script has another name.
+code, defaults and closure, not by its module, because an imported script has another name; a class of the user by the
+code of its methods, one of umform by its name, since two runs share the version.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 import dataclasses
 import enum
 import hashlib
+import sys
 from collections.abc import Sequence
 from functools import partial
 from types import CodeType
@@ -89,9 +91,11 @@ def text(value: object, depth: int = 0) -> str:
     if isinstance(value, Term):
         return value.key
     name = type(value).__qualname__
-    if dataclasses.is_dataclass(value):
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
         entries = [(field.name, getattr(value, field.name)) for field in dataclasses.fields(value) if field.compare]
-        return f"{name}({', '.join(f'{key}={inner(item)}' for key, item in entries)})"
+        own = _is_of(type(value), umform.__name__)
+        code = "" if own else f" {_digest(_methods(type(value), depth))}"
+        return f"{name}{code}({', '.join(f'{key}={inner(item)}' for key, item in entries)})"
     if isinstance(value, type) or getattr(value, "__code__", None) or getattr(value, "__func__", None):
         return _function(value, depth)
     if isinstance(value, partial):
@@ -103,11 +107,26 @@ def _object(value: object, depth: int = 0) -> str:
     """Class of an object with the code of its methods, and its attributes: two objects of one class may differ."""
     kind = type(value)
     held = dict(sorted(getattr(value, "__dict__", {}).items()))
-    methods = [_function(part, depth) for key, part in sorted(vars(kind).items()) if hasattr(part, "__code__")]
+    methods = _methods(kind, depth)
     if not held and not methods:
         return getattr(value, "__qualname__", kind.__qualname__)  # of a library, in C for instance
-    check = hashlib.sha256(text([held, methods], depth + 1).encode()).hexdigest()[:32]
-    return f"{kind.__qualname__} {check}"
+    return f"{kind.__qualname__} {_digest([held, methods], depth + 1)}"
+
+
+def _methods(kind: type, depth: int) -> list[str]:
+    """Names and digests of the methods of a class and of its bases but those of Python, properties among them."""
+    bases = (base for base in kind.__mro__ if not _is_of(base, *sys.stdlib_module_names))
+    parts = [part for base in bases for _, part in sorted(vars(base).items())]
+    written = [getattr(part, name, None) for part in parts for name in ("__func__", "fget", "func")]
+    return [_function(one, depth) for one in [*parts, *written] if hasattr(one, "__code__")]
+
+
+def _is_of(kind: type, *packages: str) -> bool:
+    return kind.__module__.partition(".")[0] in packages
+
+
+def _digest(value: object, depth: int = 0) -> str:
+    return hashlib.sha256(text(value, depth).encode()).hexdigest()[:32]
 
 
 def _control(control: Control) -> str:
@@ -141,8 +160,7 @@ def _tool(tool: Tool) -> str:
 def _term(term: Term) -> str:
     """All constant attributes of a term, and the code of its class."""
     entries = {name: value for name, value in vars(term).items() if name not in term.memory}
-    methods = [_function(part, 0) for _, part in sorted(vars(type(term)).items()) if hasattr(part, "__code__")]
-    return f"{type(term).__qualname__} {text([entries, methods])}"
+    return f"{type(term).__qualname__} {text([entries, _methods(type(term), 0)])}"
 
 
 def _function(function: Any, depth: int) -> str:
@@ -154,8 +172,7 @@ def _function(function: Any, depth: int) -> str:
         return getattr(function, "__qualname__", type(function).__qualname__)
     enclosed = [_content(cell) for cell in function.__closure__ or ()]
     parts = [_code(code), function.__defaults__, function.__kwdefaults__, enclosed, owner]
-    check = hashlib.sha256(text(parts, depth + 1).encode()).hexdigest()[:32]
-    return f"{function.__name__} {check}"
+    return f"{function.__name__} {_digest(parts, depth + 1)}"
 
 
 def _code(code: CodeType) -> list[object]:

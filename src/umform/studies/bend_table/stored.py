@@ -11,6 +11,7 @@ from umform.analysis.run.fingerprint import text
 from umform.errors import InvalidValue, SolveError, UmformError
 from umform.io.store import Entry, Store, key_of
 from umform.problem.keys import law_keys
+from umform.problem.own_classes import modules_of
 from umform.processes.air_bending.branches import Brake
 from umform.processes.air_bending.goal import Goal, check_angle
 from umform.processes.air_bending.measures import Measures
@@ -245,7 +246,9 @@ def bend_key(case: AirBending, angle: float, tolerance: float = TOLERANCE, solve
     """Name of a bend in the store: digest of its problem and of the search."""
     check_arguments(bend_key, case=case, angle=angle, tolerance=tolerance, solver=solver)
     problem = problem_of(replace(case, stroke=None), case.largest_stroke)
-    return key_of(KIND, RESULTS, text([_floats(problem.source.data), float(angle), float(tolerance), solver]))
+    data = problem.source.data
+    own = [text(case.sheets)] if modules_of(data) else []  # a class of the user, whose name says nothing of its code
+    return key_of(KIND, RESULTS, text([_floats(data), float(angle), float(tolerance), solver, *own]))
 
 
 def _floats(data: Any) -> Any:

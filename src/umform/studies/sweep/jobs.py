@@ -6,7 +6,7 @@ import hashlib
 import json
 import re
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -17,6 +17,7 @@ from umform.errors import FileProblem, UmformError
 from umform.io.tables import write_json
 from umform.problem import Problem, running
 from umform.problem.kept import Kept
+from umform.problem.own_classes import modules_of, texts
 from umform.problem.results import CHECKPOINT
 from umform.problem.unloading import UNLOADING
 from umform.studies.sweep.measures import Function, Record, number_of, springback, stats
@@ -182,11 +183,13 @@ def _fingerprint(deck: Problem) -> str:
     """Digest of everything that affects the numbers of a deck: its values, the files that it reads, the version."""
     data = _without_whole_numbers({key: value for key, value in deck.source.data.items() if key != "title"})
     check = hashlib.sha256(json.dumps([umform.__version__, data], sort_keys=True, default=str).encode())
-    for text in sorted(set(_texts(data))):
+    for text in sorted(set(texts(data))):
         try:
             check.update((deck.source.folder / text).read_bytes())
         except (OSError, ValueError):  # no file
             continue
+    for module in modules_of(data).values():
+        check.update(module)
     return check.hexdigest()[:8]
 
 
@@ -197,11 +200,3 @@ def _without_whole_numbers(data: Any) -> Any:
     if isinstance(data, list | tuple):
         return [_without_whole_numbers(entry) for entry in data]
     return float(data) if isinstance(data, int) and not isinstance(data, bool) else data
-
-
-def _texts(data: Any) -> Iterator[str]:
-    if isinstance(data, str):
-        yield data
-    elif isinstance(data, Mapping | list):
-        for entry in data.values() if isinstance(data, Mapping) else data:
-            yield from _texts(entry)

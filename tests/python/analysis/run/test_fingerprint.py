@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -29,6 +30,30 @@ def scaled(factor, time):
     return factor * time
 
 
+def curve_of(slope, base=object):
+    """A curve of the user, whose class has the same name whatever it computes."""
+
+    @dataclass(frozen=True)
+    class Curve(base):
+        first: float = 1.0
+
+        @property
+        def stress(self):
+            return self.first + slope
+
+    return Curve()
+
+
+class Doubled:
+    def curve(self):
+        return 2.0
+
+
+class Trebled:
+    def curve(self):
+        return 3.0
+
+
 @pytest.mark.parametrize(
     ("one", "other"),
     [
@@ -40,6 +65,8 @@ def scaled(factor, time):
         (lambda x: x + 1, lambda x: x + 2),
         (Ramp, Steps),
         ([Ramp(1.0), 2], [Ramp(1.5), 2]),
+        (curve_of(1.0), curve_of(2.0)),
+        (curve_of(1.0, Doubled), curve_of(1.0, Trebled)),
     ],
 )
 def test_what_differs_has_another_text(one, other):
@@ -49,3 +76,4 @@ def test_what_differs_has_another_text(one, other):
 def test_what_is_equal_has_the_same_text():
     assert text(Ramp(1.0)) == text(Ramp(1.0))
     assert text(np.sin) == text(np.sin)
+    assert text(curve_of(1.0, Doubled)) == text(curve_of(1.0, Doubled))

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import importlib
 import math
+import sys
 from dataclasses import replace
 
 import pytest
@@ -75,6 +77,21 @@ def test_the_key_is_of_all_that_determines_the_bend(case):
     keys = [bend_key(one, 120.0) for one in (case, *changed)] + [bend_key(case, 121.0), bend_key(case, 120.0, 0.01)]
     assert len(set(keys)) == len(keys)
     assert bend_key(replace(case, thickness=1, stroke=2.0), 120) == keys[0]
+
+
+def test_the_key_is_of_the_code_of_a_class_of_the_user(case, tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(tmp_path)
+    text = (
+        "from dataclasses import dataclass\nfrom umform.materials import Perfect\n\n@dataclass(frozen=True)\n"
+        "class Flat:\n    at: float\n\n    def curve(self):\n        return Perfect(self.at{}).curve()\n"
+    )
+    keys = []
+    for more in ("", "", " + 100.0"):
+        (tmp_path / "curves_of_a_table.py").write_text(text.format(more))
+        sys.modules.pop("curves_of_a_table", None)
+        metal = J2(206e3, 0.3, hardening=importlib.import_module("curves_of_a_table").Flat(200.0))
+        keys.append(bend_key(replace(case, material=metal), 120.0))
+    assert keys[0] == keys[1] != keys[2]
 
 
 def test_definitions_agree(table):

@@ -160,6 +160,24 @@ def test_files_that_the_deck_reads_are_part_of_what_was_run_and_its_title_is_non
     assert place() != before
 
 
+def test_classes_of_the_user_are_part_of_what_was_run(deck, tmp_path):
+    module = tmp_path / "curves_of_a_sweep.py"
+    module.write_text(
+        "from dataclasses import dataclass\nimport umform as uf\n\n@dataclass(frozen=True)\nclass Flat:\n"
+        "    at: float\n\n    def curve(self):\n        return uf.Perfect(self.at).curve()\n"
+    )
+    curve = 'law = "J2"\nhardening = { curve = "curves_of_a_sweep:Flat", at = 200.0 }'
+    deck.write_text(deck.read_text().replace('law = "SVK"', curve))
+
+    def place():
+        return jobs_module.job(load(deck, trust=True), {}, {}, tmp_path, files=False).folder
+
+    before = place()
+    assert place() == before
+    module.write_text(module.read_text().replace("self.at", "2.0 * self.at"))
+    assert place() != before
+
+
 def test_a_job_that_comes_twice_runs_once(deck, ran):
     found = sweep(deck, {"E": [1e5, 2e5, 1e5]}, measures=["pull_force:max"])
     assert [row["E"] for row in ran] == [1e5, 2e5]
