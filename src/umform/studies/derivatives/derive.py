@@ -12,6 +12,7 @@ from typing import Any
 from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.run import Result
 from umform.analysis.shadows import Shadowed, resume_with_shadows, solve_stages_with_shadows, solve_with_shadows
+from umform.analysis.shadows.structure import relative_motion
 from umform.errors import InvalidPath, InvalidValue, UmformError
 from umform.problem.errors import slip
 from umform.problem.problem import Problem
@@ -33,8 +34,9 @@ from umform.studies.derivatives.subjects import (
     refuse_same_model,
 )
 
-#: Change of a parameter relative to its value.
-STEP = 3e-5
+#: Change of a parameter relative to its value; in thicknesses the farthest that tools and sheet may be off by it, such
+#: as by a coordinate far from the origin; and the least part of the change then.
+STEP, _FARTHEST, _LEAST = 3e-5, 1e-4, 1e-3
 #: Numbers of a thing of which a message lists all; more are those of a problem, which `umform paths` lists.
 _FEW = 40
 #: Tables of a problem whose numbers are no parameters of the part: their effect is an error of the solution.
@@ -304,13 +306,15 @@ def _shadow(thing: Subject, one: Scalar, lead: Built) -> tuple[tuple[Subject, Bu
     refusal: UmformError | None = None
     for change in (size, -size):
         try:
-            other = thing.with_({one.path: one.value + change})
-            built = other.build()
-            refuse_other_structure(one.path, lead, built)
+            made = _varied(thing, one, change, lead)
+            off = relative_motion(lead.model, made[1].model)
+            if off > _FARTHEST:
+                change *= max(_FARTHEST / off, _LEAST)
+                made = _varied(thing, one, change, lead)
         except UmformError as error:
             refusal = refusal or error
         else:
-            return (other, built), change
+            return made, change
     raise InvalidValue(
         "this number cannot be varied",
         where=one.path,
@@ -318,3 +322,11 @@ def _shadow(thing: Subject, one: Scalar, lead: Built) -> tuple[tuple[Subject, Bu
         cause=str(refusal).splitlines()[0] if refusal else "",
         remedy=getattr(refusal, "remedy", "") or "another parameter",
     )
+
+
+def _varied(thing: Subject, one: Scalar, change: float, lead: Built) -> tuple[Subject, Built]:
+    """The thing with another value, and its model, which has the structure of the first one."""
+    other = thing.with_({one.path: one.value + change})
+    built = other.build()
+    refuse_other_structure(one.path, lead, built)
+    return other, built

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import subprocess
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -48,6 +49,26 @@ def test_a_beam(beam):
     shape = beam.displacement("E")
     assert shape.shape == (36, 3)
     assert np.abs(shape).max() < 1e-12  # the deflection is given
+
+
+def test_far_from_the_origin_a_place_has_the_derivative_of_here():
+    """A part of a coordinate is no small change there: the sheet would lie in the tool."""
+
+    def pressed(z, away):
+        strip = uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)).transformed(lambda X: X + (0.0, 0.0, away))
+        model = uf.Model(strip, material=uf.SVK(E=210e3, nu=0.3))
+        model.fix("x0")
+        roll = uf.Cylinder((8.0, 0.0, z), "y", 2.0)
+        stroke = model.drive(model.contact("upper", roll, penalty=1e3).tool, "z", name="stroke")
+        return model, uf.Move(stroke, to=-0.5, steps=5)
+
+    slopes = []
+    for away in (0.0, 1000.0):
+        build = partial(pressed, away=away)
+        found = uf.derivatives(build, {"z": away + 2.1}, ["stroke_force:last"], progress=False)
+        assert not found.warnings
+        slopes.append(found["stroke_force:last", "z"].value)
+    assert slopes[1] == pytest.approx(slopes[0], rel=1e-3)
 
 
 def test_a_held_response(beam):
