@@ -51,3 +51,13 @@ class Derivative:
         if self.value is None or not self.response.value or not self.parameter.value:
             return None
         return self.value * self.parameter.value / self.response.value
+
+    @property
+    def size(self) -> float:
+        """Change of the parameter for tables and pictures: 1 % of it, or 1 of a parameter that is zero."""
+        return 0.01 * self.parameter.value or 1.0
+
+    @property
+    def change(self) -> float | None:
+        """Change of the response by that of the parameter; None if it is unknown."""
+        return None if self.value is None else self.value * self.size

@@ -12,7 +12,7 @@ from umform.studies.derivatives.derivative import Derivative
 
 
 def tornado(derivatives: Sequence[Derivative], path: str | Path | None = None) -> Figure:
-    """Bars of the changes of one response for 1 % of each parameter.
+    """Bars of the changes of one response for 1 % of each parameter, or for 1 of one that is zero.
 
     Parameters
     ----------
@@ -22,15 +22,16 @@ def tornado(derivatives: Sequence[Derivative], path: str | Path | None = None) -
         Picture to write.
     """
     known = [one for one in derivatives if one.value is not None]
-    known.sort(key=lambda one: abs((one.value or 0.0) * one.parameter.value))
+    known.sort(key=lambda one: abs(one.change or 0.0))
     response = derivatives[0].response
-    changes = [0.01 * (one.value or 0.0) * one.parameter.value for one in known]
+    changes = [one.change or 0.0 for one in known]
+    labels = [one.parameter.path if one.parameter.value else f"{one.parameter.path}, 1 more" for one in known]
     with house_style():
         figure = Plot(figsize=(6.5, 0.9 + 0.32 * max(1, len(known))), layout="constrained")
         axes = figure.add_subplot()
         colours = ["tab:red" if change < 0.0 else "tab:blue" for change in changes]
-        bands = [abs(0.01 * (one.band or 0.0) * one.parameter.value) for one in known]
-        axes.barh([one.parameter.path for one in known], changes, color=colours, xerr=bands if any(bands) else None)
+        bands = [abs(one.size) * (one.band or 0.0) for one in known]
+        axes.barh(labels, changes, color=colours, xerr=bands if any(bands) else None)
         axes.axvline(0.0, color="black", linewidth=0.8)
         axes.locator_params(axis="x", nbins=6)
         unit = f", {response.unit}" if response.unit else ""

@@ -86,21 +86,23 @@ class Rates(Study):
         }
 
     def _changes(self, response: str) -> bool:
-        """Whether a response depends on the parameters, by more than 1e-6 of its value."""
-        found = [self[response, one.path].relative or 0.0 for one in self.parameters]
-        return max(map(abs, found), default=0.0) > 1e-6
+        """Whether a response depends on the parameters: 1 % of one changes it by more than 1e-8 of its value."""
+        ones = [self[response, one.path] for one in self.parameters]
+        return any(abs(one.change or 0.0) > 1e-8 * abs(one.response.value or 0.0) for one in ones)
 
     @property
     def annex(self) -> Annex:
         """Table and picture for the outcome of a process."""
         title = "Changes for 1 % more of"
+        zeros = ", ".join(one.path for one in self.parameters if not one.value)
+        own = [f"changes for 1 more in place of 1 % where the value is zero: {zeros}"] if zeros else []
+        notes = [*self.notes, *own]
         if not self.responses:
-            return Annex(title, self.table, self.notes, self.warnings)
+            return Annex(title, self.table, notes, self.warnings)
         main = self._main
         label = next(one.label for one in self.responses if one.name == main)
         caption = f"Change of the {label} for 1 % more of each parameter."
-        table, notes, warnings = self.table, self.notes, self.warnings
-        return Annex(title, table, notes, warnings, lambda: self.plot(main), caption)
+        return Annex(title, self.table, notes, self.warnings, lambda: self.plot(main), caption)
 
     @property
     def _main(self) -> str:
@@ -119,8 +121,7 @@ class Rates(Study):
 
 def _for_one_percent(one: Derivative) -> str:
     """Change of the response for 1 % more of the parameter; for 1 of a parameter that is zero."""
-    if one.value is None:
+    if one.change is None:
         return UNKNOWN
-    size = 0.01 * one.parameter.value or 1.0
-    band = "" if one.band is None else f" ± {one.band * abs(size):.2g}"
-    return f"{one.value * size:+.3g}{band}"
+    band = "" if one.band is None else f" ± {one.band * abs(one.size):.2g}"
+    return f"{one.change:+.3g}{band}"

@@ -55,7 +55,7 @@ def test_far_from_the_origin_a_place_has_the_derivative_of_here():
     """A part of a coordinate is no small change there: the sheet would lie in the tool."""
 
     def pressed(z, away):
-        strip = uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)).transformed(lambda X: X + (0.0, 0.0, away))
+        strip = uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)).transformed(lambda X: X + np.array([0.0, 0.0, away]))
         model = uf.Model(strip, material=uf.SVK(E=210e3, nu=0.3))
         model.fix("x0")
         roll = uf.Cylinder((8.0, 0.0, z), "y", 2.0)
@@ -308,6 +308,22 @@ def test_table_files_and_picture(beam, tmp_path):
         beam["tip_force", "E"]
     with pytest.raises(InvalidValue, match="no such parameter"):
         beam.column("tip_force", "nu")
+
+
+def test_a_parameter_that_is_zero_has_its_change_for_1_more(tmp_path):
+    """One per cent of nothing would be none; the column says which of both it is."""
+
+    def pulled(E, start):
+        return cantilever(E, 0.2 * (1.0 + start))
+
+    found = uf.derivatives(pulled, {"E": 210e3, "start": 0.0}, ["tip_force:last"], progress=False)
+    one = found["tip_force:last", "start"]
+    assert one.relative is None and one.change == one.value
+    assert found.table[1][3] == f"{one.value:+.3g}"
+    assert found.annex.notes == ["changes for 1 more in place of 1 % where the value is zero: start"]
+    (axes,) = found.plot("tip_force:last").axes
+    assert [label.get_text() for label in axes.get_yticklabels()] == ["E", "start, 1 more"]
+    assert axes.patches[1].get_width() == one.value
 
 
 def test_shadows_of_a_bend_are_near_at_once_and_in_balance():
