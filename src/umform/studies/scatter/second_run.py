@@ -9,6 +9,7 @@ import numpy as np
 
 from umform.analysis.run import Result
 from umform.errors import UmformError
+from umform.model import Model
 from umform.progress import Show
 from umform.results.quantity import Quantity
 from umform.studies.derivatives import Derivatives
@@ -116,7 +117,7 @@ def second_run(
         found = _corrected(free, held.held, found, follow)
     names = [one.name for one in held.responses]
     predicted = {name: _times(held[name, path].value, step) for name in names}
-    elements = len(free.run.model.mesh.connectivity), len(built.model.mesh.connectivity)
+    elements = _elements(free.run.model), _elements(results[-1].model)
     return SecondRun(path, step, predicted, {name: found.get(name) for name in names}, elements)
 
 
@@ -131,7 +132,7 @@ def _varied(
         Both are refused.
     """
     values = {one.path: float(one.value) for one in free.parameters}
-    elements = len(free.run.model.mesh.connectivity)
+    elements = _elements(next(iter(free.stages.values())).run.model)  # of the first operation, which is built here
     found: list[tuple[Subject, Built, float]] = []
     refusal: UmformError | None = None
     for step in (size, -size):
@@ -142,11 +143,15 @@ def _varied(
         except UmformError as error:
             refusal = refusal or error
         else:
-            if len(found[-1][1].model.mesh.connectivity) == elements:
+            if _elements(found[-1][1].model) == elements:
                 return found[-1]
     if not found and refusal is not None:
         raise refusal
     return found[0]
+
+
+def _elements(model: Model) -> int:
+    return len(model.mesh.connectivity)
 
 
 def _followers(held: Derivatives, path: str, step: float) -> dict[str, float]:

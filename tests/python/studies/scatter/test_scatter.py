@@ -2,21 +2,24 @@
 
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import umform as uf
+from umform.analysis.run.stages import Stage
 from umform.errors import InvalidValue
 from umform.processes.air_bending import AirBending
 from umform.results.quantity import Quantity
+from umform.studies.derivatives.subjects import OfFunction
 from umform.studies.scatter import Limits
 
 VALUES = {"E": 210e3, "deflection": 0.1}
 
 
-def build(E, deflection, length=10.0):
-    model = uf.Model(uf.mesh.strip(length, 1.0, 0.2, (8, 1)), material=uf.SVK(E=E, nu=0.3))
+def build(E, deflection, length=10.0, cells=8):
+    model = uf.Model(uf.mesh.strip(length, 1.0, 0.2, (cells, 1)), material=uf.SVK(E=E, nu=0.3))
     model.fix("x0")
     return model, uf.Move(model.prescribe("x1_lower", "z", name="tip"), to=-deflection, steps=4)
 
@@ -144,6 +147,22 @@ def test_a_second_run_goes_down_where_a_larger_value_is_refused_or_changes_the_m
         (second,) = scatter({"E": "3%"}, function=function).second_runs
         assert second.step == pytest.approx(-12600.0)
         assert second.title == "a second run at E - 2 sigma"
+
+
+class Two(OfFunction):
+    """Two operations: the second one has another mesh, as a sheet that is laid beside the first."""
+
+    def build(self):
+        model, move = build(**self.values, cells=6)
+        return replace(super().build(), after=[Stage("next", lambda before: (model, [move]))])
+
+    def with_(self, changes):
+        return Two(self.function, {**self.values, **changes})
+
+
+def test_a_second_run_of_several_operations_has_the_elements_of_the_first():
+    (second,) = uf.scatter(Two(build, VALUES), {"E": "3%"}, [steep], progress=False).second_runs
+    assert second.elements == (6, 6) and not second.note
 
 
 def test_a_second_run_that_fails_is_a_warning():
