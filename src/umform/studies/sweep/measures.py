@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -81,6 +81,26 @@ class Measure:
                 remedy=f"write COLUMN or COLUMN:{', COLUMN:'.join(_STATS)}; peak is that of the largest magnitude",
             )
         return cls(column if stat == "last" else wanted, column, stat or "last")
+
+    def beside(self, names: Collection[str]) -> Measure:
+        """The measure with its statistic in its name, if that without it is one of other columns of the table.
+
+        Raises
+        ------
+        InvalidValue
+            It is no column of the history.
+        """
+        if self.name not in names:
+            return self
+        if not self.column:
+            raise InvalidValue(
+                "a measure has the name of another column of the table",
+                where="measures",
+                value=self.name,
+                cause="a key that is varied, or a remark on the job",
+                remedy="another name for the function, or the whole path of the key",
+            )
+        return replace(self, name=f"{self.column}:{self.stat}")
 
     def quantity(self, record: Record) -> Quantity:
         """The number of a finished job.

@@ -18,6 +18,9 @@ from umform.studies.sweep.keys import change, find_key, is_text
 from umform.studies.sweep.measures import Measure, Record, usual
 from umform.studies.sweep.values import MOST_VALUES, Written, read_values
 
+#: Remarks on a job in its row.
+_ABOUT = ("outcome", "warnings", "seconds", "reason")
+
 
 @dataclass(frozen=True)
 class Plan:
@@ -91,14 +94,24 @@ class Plan:
         measured = {measure.name: measure.quantity(record) if done else None for measure in measures}
         found = {name: None if one is None else one.value for name, one in measured.items()}
         folder = self.jobs[number].folder.name if number in self.jobs else ""
-        about = {name: record[name] for name in ("outcome", "warnings", "seconds", "reason")}
+        about = {name: record[name] for name in _ABOUT}
         varied = {name: _cell(self.values[number].get(name)) for name in self.varied}
         return {**found, **about, "folder": folder, "quantities": measured, **varied}
+
+    def beside(self, measures: Iterable[Measure]) -> list[Measure]:
+        """Measures with names that no other column of the table has.
+
+        Raises
+        ------
+        InvalidValue
+            A function has the name of a varied key.
+        """
+        return [measure.beside([*self.varied, *_ABOUT, "folder"]) for measure in measures]
 
     def table(self, records: Mapping[int, Record], wanted: Sequence[Measure]) -> tuple[list[dict[str, Any]], list[str]]:
         """Rows of all jobs, and the names of the measures."""
         done = [record for record in records.values() if record["outcome"] == "done"]
-        measures = list(wanted) or usual(done)
+        measures = list(wanted) or self.beside(usual(done))
         open_ = record_of("open", "")
         rows = [self.row(number, records.get(number, open_), measures) for number in range(len(self))]
         return rows, [measure.name for measure in measures]

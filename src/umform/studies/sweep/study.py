@@ -194,6 +194,7 @@ def sweep(
     options = {"files": files, "functions": functions, "force": force}
     listed = read_jobs(jobs) if isinstance(jobs, str | PathLike) else jobs
     plan = make_plan(base, vary or {}, listed, changes or {}, Path(), **options)
+    wanted = plan.beside(wanted)
     default = Path("results") / f"{Path(base.source.name).stem}-sweep"
     folder = folder_of(out, default, plan.folders, overwrite=overwrite)
     if out is None and folder != default:

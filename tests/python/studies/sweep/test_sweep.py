@@ -85,6 +85,18 @@ def test_without_measures_there_are_peaks_springback_and_last_values(deck):
     assert found["pull_force:peak"][1] == pytest.approx(3 * found["pull_force:peak"][0])
 
 
+def pull(result):
+    return float(result["pull"][-1])
+
+
+def test_a_column_of_the_history_with_the_name_of_a_key_has_its_statistic_behind_it(deck):
+    for measures in ([], ["pull", "pull_force:peak"]):
+        found = sweep(deck, {"pull": [0.1, 0.2]}, measures=measures)
+        assert found["pull"] == [0.1, 0.2] and found["pull:last"] == pytest.approx([0.0, 0.0], abs=1e-9)
+    with pytest.raises(InvalidValue, match="name of another column"):
+        sweep(deck, {"pull": [0.1, 0.2]}, measures=[pull])
+
+
 def test_failures_are_rows_with_their_reason_and_the_others_go_on(deck):
     found = sweep(deck, {"thickness": [-1.0, 1.0], "max_iterations": [1, 25]}, changes={"steps.0.cuts": 0})
     assert found["outcome"] == ["refused", "refused", "stopped", "done"]
