@@ -4,35 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import partial
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
-from umform.cli.compensate import By, Want, compensated
-from umform.cli.derive import Derive, check_derived, derived
+from umform.cli.folders import out_option, results_folder, say_written
 from umform.cli.given import Given, given_by
-from umform.cli.metal import law_of
+from umform.cli.metal import SheetMetal, with_metal
 from umform.cli.options import (
     SOLUTION,
     All,
-    Curve,
-    FlowCurve,
-    Material,
-    Modulus,
-    Poisson,
     PrintDeck,
-    Yield,
-    Young,
     option,
     print_deck,
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.plausible import refuse_implausible
-from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, console, printing
-from umform.cli.scattering import ScatterOptions, scattering
-from umform.cli.several_meshes import extrapolates
+from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, printing
+from umform.cli.studies import Studies, with_studies
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
 from umform.errors import UmformError
@@ -41,25 +29,13 @@ from umform.processes.draw_bead.spec import DrawBead
 
 @app.command()
 @given_by(DrawBead, omit=("material", "newton", "pace"))
-@scattering
+@with_metal
+@with_studies()
 def bead(
     given: Given,
-    out: Annotated[
-        str | None,
-        typer.Option(
-            "--out",
-            "-o",
-            metavar="FOLDER",
-            help="Folder for tables, pictures, fields and report; default: results/bead.",
-        ),
-    ] = None,
-    material: Material = None,
-    young: Young = None,
-    poisson: Poisson = None,
-    yield_stress: Yield = None,
-    hardening_modulus: Modulus = None,
-    curve: Curve = None,
-    flow_curve: FlowCurve = None,
+    *,
+    out: Annotated[str | None, out_option("tables, pictures, fields and report", "results/bead")] = None,
+    metal: SheetMetal,
     extrapolate: Annotated[
         bool | None,
         option(
@@ -69,9 +45,7 @@ def bead(
             "--extrapolate/--no-extrapolate",
         ),
     ] = None,
-    want: Want = None,
-    by: By = None,
-    derive: Derive = None,
+    studies: Studies,
     deck: PrintDeck = False,
     everything: All = False,
     csv: Csv = "plain",
@@ -79,52 +53,44 @@ def bead(
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
-    *,
-    scatter_options: ScatterOptions,
 ) -> None:
     """Draw a sheet through a draw bead: restraining force, uplift, thinning, and the equivalent bead.
 
     Each number is defined in docs/draw-beads.md.
     """
-    from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.processes.draw_bead.case import drawn_through, extrapolated
     from umform.processes.draw_bead.equivalent import in_python
     from umform.processes.draw_bead.files import FILES, RESULTS, write_files
 
     print_warnings_once()
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
+    law, note = metal.law(given["thickness"])
     case = DrawBead(**given, material=law)
     if deck:
-        print_deck(compensated(case, want, by).case)
+        print_deck(studies.compensated(case))
         return
-    several = extrapolates(extrapolate, want, derive, scatter_options)
-    check_derived(case, derive)
-    scatter_options.check(case)
+    several = studies.extrapolates(extrapolate)
+    studies.check(case)
     refuse_implausible(case)
-    say = partial(typer.echo, err=True)
-    place = folder_for(out, Path("results/bead"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
-    goals = compensated(case, want, by)
-    case = goals.case
+    place = results_folder(out, "bead", RESULTS, overwrite=overwrite)
+    case = studies.compensated(case)
     with staging(place, FILES):
         with _what_was_reached(place):
             drawn = extrapolated(case) if several else drawn_through(case)
         more: list[Path] = []
-        scatter: list[Path] = []
-        wanted: list[Path] = []
         try:
-            drawn, more = derived(drawn, case, derive, place)
-            drawn, scatter = scatter_options.added_to(drawn, case, place)
-            drawn, wanted = goals.added_to(drawn, place)
+            for one, written in studies.added_to(drawn, case, place):
+                drawn = one
+                more += written
             with printing(f"the files of the bead are in {place}"):
                 show_outcome(drawn, f"equivalent: {in_python(drawn)}", note=note, everything=everything)
         finally:  # even if the table cannot be printed
             with drawn.result.timing.files:
-                files = [*write_files(place, drawn, note), *more, *scatter, *wanted]
-    console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+                files = [*write_files(place, drawn, note), *more]
+    say_written(place, files)
     if timing:
         show_timing(drawn.result.timing)
-    goals.end()
+    studies.end()
 
 
 @contextmanager

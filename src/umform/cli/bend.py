@@ -13,10 +13,9 @@ import typer
 from umform.cli import bend_correct, bend_table  # noqa: F401  (they add their commands)
 from umform.cli.bends import alone, bends
 from umform.cli.check import Force
-from umform.cli.compensate import By, Want, check_wanted, compensated
 from umform.cli.deflection import deflected, press_brake
-from umform.cli.derive import Derive, check_derived, derived
 from umform.cli.drawn_tools import drawn_tools, named_tools
+from umform.cli.folders import out_option, results_folder, say_written
 from umform.cli.given import Given, given_by
 from umform.cli.goals import (
     check_budgeted,
@@ -29,28 +28,21 @@ from umform.cli.goals import (
     strokes_of,
 )
 from umform.cli.identify import MOST, Find, Quantities, identify_case
-from umform.cli.metal import law_of
+from umform.cli.metal import SheetMetal, with_metal
 from umform.cli.options import (
     SHEET,
     SOLUTION,
     All,
-    Curve,
-    FlowCurve,
-    Material,
-    Modulus,
-    Poisson,
     PrintDeck,
-    Yield,
-    Young,
     option,
     print_deck,
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.plausible import refuse_implausible
-from umform.cli.root import Csv, Debug, Overwrite, Verbose, console, printing
-from umform.cli.scattering import ScatterOptions, scattering
+from umform.cli.root import Csv, Debug, Overwrite, Verbose, printing, say
 from umform.cli.sequence import run_sequence
 from umform.cli.stack import OnTop, stacked
+from umform.cli.studies import Studies, with_studies
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
 from umform.errors import UmformError
@@ -72,19 +64,13 @@ _GOAL, _TOOLS = "What to do", "Tools"
 @bends.callback(invoke_without_command=True)
 @alone
 @given_by(Goal, PressBrake, AirBending, omit=("material", "punch_section", "die_section", "on_top"))
-@scattering
+@with_metal
+@with_studies()
 def bend(
     context: typer.Context,
     given: Given,
-    out: Annotated[
-        str | None,
-        typer.Option(
-            "--out",
-            "-o",
-            metavar="FOLDER",
-            help="Folder for tables, pictures, fields and report; default: results/bend.",
-        ),
-    ] = None,
+    *,
+    out: Annotated[str | None, out_option("tables, pictures, fields and report", "results/bend")] = None,
     table: Annotated[str | None, option("Bending table at strokes first:last:step, such as 4:6:0.5.", _GOAL)] = None,
     angles: Annotated[
         str | None, option("Bending table at angles first:last:step, such as 90:150:15, or 90,120.", _GOAL)
@@ -106,18 +92,10 @@ def bend(
         float | None,
         option("Bend length for the total force in kN and t; the model does not change.", SHEET, "--length", "-l"),
     ] = None,
-    material: Material = None,
-    young: Young = None,
-    poisson: Poisson = None,
-    yield_stress: Yield = None,
-    hardening_modulus: Modulus = None,
-    curve: Curve = None,
-    flow_curve: FlowCurve = None,
+    metal: SheetMetal,
     on_top: OnTop = None,
     processes: Annotated[int | None, option("Runs of the budget at a time.", SOLUTION)] = None,
-    want: Want = None,
-    by: By = None,
-    derive: Derive = None,
+    studies: Studies,
     find: Annotated[list[str] | None, Find] = None,
     quantity: Annotated[list[str] | None, Quantities] = None,
     deck: PrintDeck = False,
@@ -128,15 +106,12 @@ def bend(
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
-    *,
-    scatter_options: ScatterOptions,
 ) -> None:
     """Air-bend a sheet in a V-die, and unload it.
 
     Give the stroke, the angle after springback, or a table of strokes or angles. Each number is defined in
     docs/air-bending.md.
     """
-    from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.processes.air_bending.bottoming import with_travel
     from umform.processes.air_bending.branches import FRAMES, Brake
@@ -163,44 +138,38 @@ def bend(
 
         check_processes(processes)
         check_budgeted(processes, budget)
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
+    law, note = metal.law(given["thickness"])
     given = named_tools(context, given, punch, die)
     tools = drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer)
     case = AirBending(**{**given, "stroke": stroke}, **tools, material=law, on_top=tuple(stacked(on_top or ())))
     if sequence is not None:
-        studies = bool(find or quantity)
-        check_no_goal(
-            "--sequence", angle, stroke, table, angles, force_per_metre, travel, bottoming, budget, deck, studies
-        )
+        goals = [angle, stroke, table, angles, force_per_metre, travel, bottoming, budget, deck, bool(find or quantity)]
+        check_no_goal("--sequence", *goals)
         run_sequence(
             sequence,
             case,
             note,
             out,
             length,
-            want,
-            by,
+            studies,
             tolerance=tolerance,
             overwrite=overwrite,
             everything=everything,
             flat_only=flat_only,
-            derive=derive,
-            scatter_options=scatter_options,
             force=force,
             timing=timing,
         )
         return
     check_flat_only(flat_only)
     if find or quantity:
-        others_given = [table, angles, force_per_metre, budget, derive, scatter_options or None, want, by]
+        others_given = [table, angles, force_per_metre, budget, bool(studies.typed), studies.by]
         check_measured(angle, *others_given, deck, everything, timing)
-    check_wanted(want, by, stroke is None and travel is None)
+    studies.check_wanted(searched=stroke is None and travel is None)
     goal = "angle" if angle is not None else "force" if force_per_metre is not None else ""
     held = {goal: "stroke"} if goal else {}
-    if derive or scatter_options:  # refuse what is wrong before the run
+    if studies.typed:  # refuse what is wrong before the run
         some = replace(case, stroke=stroke or 0.5 * case.largest_stroke)
-        check_derived(some, derive, held)
-        scatter_options.check(some)
+        studies.check(some, held)
     if bottoming:
         check_press(angle, table, angles, budget, stroke, force_per_metre, travel)
         case = case if travel is None else with_travel(case, travel)
@@ -210,24 +179,23 @@ def bend(
     for one in [*others, angle]:
         if one is not None:
             check_angle(case, one)
-    if find or quantity or want:
+    if find or quantity or studies.want:
         refuse_implausible(case, force=force)
     if find or quantity:
-        identify_case(case, find or (), None, quantity, out, Path("results/bend-identified"), MOST, overwrite)
+        identify_case(case, find or (), None, quantity, out, "bend-identified", MOST, overwrite)
         return
     said: list[str] = []
-    place = None if deck else folder_for(out, Path("results/bend"), RESULTS, overwrite=overwrite, say=said.append)
-    goals = compensated(case, want, by)
-    case = goals.case
+    place = None if deck else results_folder(out, "bend", RESULTS, overwrite=overwrite, say=said.append)
+    case = studies.compensated(case)
     if place is None:
         _print_deck(case, angle, force_per_metre, tolerance)
         return
     with timings() as spent:
         brake = Brake(case, frames=FRAMES)
-    if not want:
+    if not studies.want:
         refuse_implausible(case, force=force)
     for text in said:  # only of a run that starts
-        typer.echo(f"umform: {text}", err=True)
+        say(text)
     with staging(place, FILES):
         with _what_was_reached(place) as rows:
             rows += bending_table(case, strokes, brake=brake) if strokes else []
@@ -235,18 +203,16 @@ def bend(
             done = _bent(brake, case, angle, force_per_metre, tolerance)
             done = replace(done, table=(*rows, *[done.measures] * last_row), bend_length=length)
         more: list[Path] = []
-        scatter: list[Path] = []
-        wanted: list[Path] = []
-        along: list[Path] = []
         try:
             if budget:
                 from umform.processes.air_bending.budget import error_budget
 
                 done = replace(done, budget=error_budget(done, processes=processes))
-            done, more = derived(done, done.case, derive, place, held)
-            done, scatter = scatter_options.added_to(done, done.case, place, goal)
-            done, wanted = goals.added_to(done, place)
+            for one, written in studies.added_to(done, done.case, place, hold=held, goal=goal):
+                done = one
+                more += written
             done, along = deflected(done, brake_frame, place)
+            more += along
             with printing(f"the files of the bend are in {place}"):
                 show_outcome(done, note=note, everything=everything)
         except KeyboardInterrupt as stop:
@@ -254,11 +220,11 @@ def bend(
             raise
         finally:  # even if the table cannot be printed
             with done.result.timing.files:
-                files = [*write_files(place, done, note), *more, *scatter, *wanted, *along]
-    console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+                files = [*write_files(place, done, note), *more]
+    say_written(place, files)
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
-    goals.end()
+    studies.end()
 
 
 def _print_deck(case: AirBending, angle: float | None, force_per_metre: float | None, tolerance: float) -> None:

@@ -7,8 +7,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
-from umform.cli.bend_table import StoreFolder, check_jobs, checked_formats, files_of, issue, say
+from umform.cli.bend_table import StoreFolder, check_jobs, checked_formats, files_of, issue
 from umform.cli.bends import bends
+from umform.cli.folders import results_folder
 from umform.cli.given import Given, given_by
 from umform.cli.metal import by_name
 from umform.cli.options import SHEET, SOLUTION, option
@@ -53,7 +54,6 @@ def bend_correct(
 
     Writes metal.toml, which `--material` takes in all commands, and on request a bend table with it.
     """
-    from umform.io.folders import folder_for
     from umform.problem.metal_file import metal_of, write_metal
     from umform.studies.bend_table import Setup, correct
     from umform.studies.bend_table.formats.table_json import issued
@@ -87,7 +87,7 @@ def bend_correct(
                 remedy="the metal of the table, or another table",
             )
     files = ["metal.toml", *files_of(wanted, names)]
-    place = folder_for(out, Path("results/bend-corrected"), files, overwrite=overwrite, say=say)
+    place = results_folder(out, "bend-corrected", files, overwrite=overwrite)
     known: dict[str, Any] = {f"{name}_deviation": one[1] for name, one in numbers.items() if one and one[1] is not None}
     known |= {name: one[0] for name, one in numbers.items() if one}
     done = correct(case, **known, name=metal.name)

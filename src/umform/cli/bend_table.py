@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from umform.cli.bends import bends
+from umform.cli.folders import results_folder, say_written
 from umform.cli.given import Given, given_by
 from umform.cli.metal import by_name
 from umform.cli.options import SHEET, SOLUTION, option
 from umform.cli.outcome_screen import print_table
 from umform.cli.plausible import refuse_implausible
-from umform.cli.root import Debug, Overwrite, Verbose, console
+from umform.cli.root import Debug, Overwrite, Verbose, say
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
 from umform.processes.air_bending.spec import AirBending
@@ -60,7 +61,6 @@ def bend_table(
 
     Bends in the store are not computed again: the same command continues a stopped table. See docs/bend-tables.md.
     """
-    from umform.io.folders import folder_for
     from umform.studies.bend_table import setups
 
     print_warnings_once()
@@ -76,7 +76,7 @@ def bend_table(
     with by_name("--material"):
         wanted = setups([name.strip() for name in material.split(",")], case, **lists)
     angles = values_of(angle, "--angle")
-    place = folder_for(out, Path("results/bend-table"), files_of(wanted, names), overwrite=overwrite, say=say)
+    place = results_folder(out, "bend-table", files_of(wanted, names), overwrite=overwrite)
     issue(wanted, angles, place, names, tolerance, check, store, jobs)
 
 
@@ -111,11 +111,6 @@ def files_of(wanted: Sequence[Setup], formats: Sequence[str]) -> list[str]:
     return file_names(wanted, formats)
 
 
-def say(text: str) -> None:
-    """Print a remark on standard error."""
-    typer.echo(f"umform: {text}", err=True)
-
-
 def issue(
     wanted: Sequence[Setup],
     angles: Sequence[float],
@@ -145,7 +140,7 @@ def issue(
     typer.echo(f"{bends}, {table.computed} computed now, {count - table.computed} from the store")
     for text in dict.fromkeys(remark for part in table.parts for remark in part.remarks):
         say(f"warning: {text}")
-    console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+    say_written(place, files)
     for which, why in table.failed.items():
         say(f"not computed: {which}: {why}")
     if table.failed:

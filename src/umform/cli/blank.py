@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from umform.cli.metal import law_of
-from umform.cli.options import SHEET, All, Curve, FlowCurve, Material, Modulus, Poisson, Yield, Young, option
+from umform.cli.folders import out_option, results_folder, say_written
+from umform.cli.metal import SheetMetal, with_metal
+from umform.cli.options import SHEET, All, option
 from umform.cli.outcome_screen import show_outcome
-from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.root import Debug, Overwrite, Verbose, app, printing
 from umform.cli.warnings import print_warnings_once
 
 _HELD, _PART = "What holds the sheet", "Part"
@@ -20,18 +20,14 @@ _LUBRICATED = 0.1
 
 
 @app.command()
+@with_metal
 def blank(
     part: Annotated[
         Path, typer.Argument(metavar="PART", help="Mid-surface of the part, drawn along z: STL, STEP, IGES, a mesh.")
     ],
+    *,
     thickness: Annotated[float, option("Thickness of the sheet in mm.", SHEET)] = 1.0,
-    material: Material = None,
-    young: Young = None,
-    poisson: Poisson = None,
-    yield_stress: Yield = None,
-    hardening_modulus: Modulus = None,
-    curve: Curve = None,
-    flow_curve: FlowCurve = None,
+    metal: SheetMetal,
     rolling: Annotated[float, option("Angle of the rolling direction to x in degrees.", SHEET)] = 0.0,
     holder_force: Annotated[float, option("Force of the blank holder in N.", _HELD)] = 0.0,
     friction: Annotated[
@@ -61,10 +57,7 @@ def blank(
     coarse: Annotated[
         bool, typer.Option("--coarse", help="Triangles of CAD files of 1/10 of the part.", rich_help_panel=_PART)
     ] = False,
-    out: Annotated[
-        str | None,
-        typer.Option("--out", "-o", metavar="FOLDER", help="Folder for drawing, tables, page; default: results/blank."),
-    ] = None,
+    out: Annotated[str | None, out_option("drawing, tables, page", "results/blank")] = None,
     everything: All = False,
     overwrite: Overwrite = False,
     verbose: Verbose = 0,
@@ -78,15 +71,13 @@ def blank(
     from umform.flat_pattern.one_step import blank as estimated
     from umform.flat_pattern.one_step.files import FILES, write_files
     from umform.flat_pattern.one_step.reading import coarse_size
-    from umform.io.folders import folder_for
     from umform.io.staging import staging
 
     print_warnings_once()
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, thickness)
+    law, note = metal.law(thickness)
     friction = (0.0 if clamped else _LUBRICATED) if friction is None else friction
     case = Blank(law, thickness, rolling, holder_force, friction, bead, gap, clamped)
-    say = partial(typer.echo, err=True)
-    place = folder_for(out, Path("results/blank"), FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
+    place = results_folder(out, "blank", FILES, overwrite=overwrite)
     if coarse and size is None:
         size = coarse_size(part, scale)
     found = estimated(part, case, scale=scale, weld=weld, size=size, offset=offset)
@@ -94,4 +85,4 @@ def blank(
         with printing(f"the files of the blank are in {place}"):
             show_outcome(found, note=note, everything=everything)
         files = write_files(place, found, note)
-    console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+    say_written(place, files)

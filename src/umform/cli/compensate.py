@@ -1,41 +1,22 @@
-"""``umform compensate``, and ``--want`` of processes: parameters for wanted results."""
+"""``umform compensate``: parameters for wanted results."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read
-from umform.cli.derive import say_written
+from umform.cli.folders import out_option, results_folder, say_written
 from umform.cli.outcome_screen import show_annex
-from umform.cli.root import Debug, Overwrite, Verbose, app
+from umform.cli.root import Debug, Overwrite, Verbose, app, say
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
 
 if TYPE_CHECKING:
-    from umform.results.outcome import Outcome
-    from umform.studies.goals import Compensated, Wanted
-
-_Outcome = TypeVar("_Outcome", bound="Outcome")
-
-Want = Annotated[
-    list[str] | None,
-    typer.Option(
-        metavar="NAME=VALUE+-TOLERANCE",
-        help="A wanted result, such as angle=90+-0.05; parameters --by follow; repeatable, see `umform compensate`.",
-    ),
-]
-By = Annotated[
-    list[str] | None,
-    typer.Option(
-        metavar="PATH",
-        help="A parameter that follows a wanted result, with bounds as `holder_force=2000:8000`; repeatable.",
-    ),
-]
+    from umform.studies.goals import Wanted
 
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _WANT = re.compile(rf"(?P<name>.+)=\s*(?P<value>{_NUMBER})\s*(?:\+-|±)\s*(?P<tolerance>{_NUMBER})\s*")
@@ -76,12 +57,7 @@ def compensate(
     ] = None,
     runs: Annotated[int | None, typer.Option(min=1, help="Largest number of runs; default: 8, for a shape 4.")] = None,
     changes: Changes = None,
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            "--out", "-o", metavar="FOLDER", help="Folder for table and deck; default: results/DECK-compensated."
-        ),
-    ] = None,
+    out: Annotated[str | None, out_option("table and deck", "results/DECK-compensated")] = None,
     trust: Trust = False,
     overwrite: Overwrite = False,
     verbose: Verbose = 0,
@@ -92,7 +68,6 @@ def compensate(
     The first run has derivatives, so that few more are needed. For a shape, offset fields of tools follow the deviation
     of the released part.
     """
-    from umform.io.folders import folder_for
     from umform.studies.goals import compensate as find
     from umform.studies.goals import compensate_shape as find_shape
     from umform.studies.goals.found import TABLE
@@ -101,8 +76,7 @@ def compensate(
     said: list[str] = []
     with deck_errors("by", "want"):
         problem = read(deck, changes or (), trust)
-        default = Path("results") / f"{deck.stem}-compensated"
-        place = folder_for(out, default, (TABLE,), overwrite=overwrite, say=said.append)
+        place = results_folder(out, f"{deck.stem}-compensated", (TABLE,), overwrite=overwrite, say=said.append)
         if bool(want) == bool(shape) or (within is not None and not shape):
             raise InvalidValue(
                 "either results or a shape are wanted",
@@ -117,37 +91,11 @@ def compensate(
             paths, bounds = bounded(by)
             found = find(problem, wanted(want or ()), paths, bounds=bounds, **most)
     for text in said:
-        typer.echo(f"umform: {text}", err=True)
+        say(text)
     show_annex(found.annex)
-    say_written(found.write(place))
+    say_written(place, found.write(place))
     if not found.reached:
         raise typer.Exit(1)
-
-
-class Goals:
-    """Parameters of a process for wanted results, found before its run; or none.
-
-    Attributes
-    ----------
-    case : Spec
-        The case with the parameters.
-    found : Compensated, optional
-        The runs on the way.
-    """
-
-    def __init__(self, case: Any, found: Compensated | None = None) -> None:
-        self.case, self.found = case, found
-
-    def added_to(self, outcome: _Outcome, place: Path) -> tuple[_Outcome, list[Path]]:
-        """The outcome with the runs, and their files; without any, the outcome itself."""
-        if self.found is None:
-            return outcome, []
-        return outcome.with_annex(self.found.annex), self.found.write(place)
-
-    def end(self) -> None:
-        """Exit with code 1 if the wanted results are not reached."""
-        if self.found is not None and not self.found.reached:
-            raise typer.Exit(1)
 
 
 def check_wanted(want: Sequence[str] | None, by: Sequence[str] | None, searched: bool = False) -> None:
@@ -178,18 +126,6 @@ def check_wanted(want: Sequence[str] | None, by: Sequence[str] | None, searched:
         )
     wanted(want)
     bounded(by)
-
-
-def compensated(case: Any, want: Sequence[str] | None, by: Sequence[str] | None) -> Goals:
-    """The case of a process with parameters for wanted results; the case itself without any."""
-    from umform.studies.goals import compensate as find
-
-    check_wanted(want, by)
-    if not want or not by:
-        return Goals(case)
-    paths, bounds = bounded(by)
-    found = find(case, wanted(want), paths, bounds=bounds)
-    return Goals(found.subject, found)
 
 
 def wanted(texts: Sequence[str]) -> dict[str, Wanted]:

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from umform.cli.folders import out_option, results_folder, say_written
 from umform.cli.given import Given, given_by
 from umform.cli.options import SOLUTION, PrintDeck, option, print_deck
 from umform.cli.outcome_screen import print_table
-from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing, say
 from umform.cli.timing import Timed, show_timing
 from umform.cli.typed import as_typed, options_of
 from umform.processes.bending.spec import RECONSTRUCTION, FreeBending
@@ -44,15 +44,7 @@ _THROUGH: dict[str, Any] = dict.fromkeys(("thickness_points", "thickness_rule", 
 def free_bending(
     context: typer.Context,
     given: Given,
-    out: Annotated[
-        str | None,
-        typer.Option(
-            "--out",
-            "-o",
-            metavar="FOLDER",
-            help="Folder for tables, pictures, fields and report; default: results/free-bending.",
-        ),
-    ] = None,
+    out: Annotated[str | None, out_option("tables, pictures, fields and report", "results/free-bending")] = None,
     mesh: Annotated[list[str] | None, option("Elements along and across, such as 24x1; repeatable.", _RUNS)] = None,
     element: Annotated[list[str] | None, option("Element of the catalogue; repeatable.", _RUNS)] = None,
     contact: Annotated[
@@ -73,7 +65,6 @@ def free_bending(
     apply to all runs.
     """
     logging.getLogger("umform").addHandler(logging.NullHandler())  # warnings are printed with the name of their run
-    from umform.io.folders import folder_for
     from umform.processes.bending import showcase
     from umform.processes.bending.options import read_contact, read_mesh
 
@@ -87,10 +78,7 @@ def free_bending(
     if deck:  # that of the first run
         print_deck(runs[0])
         return
-    say = partial(typer.echo, err=True)
-    place = folder_for(
-        out, Path("results/free-bending"), showcase.FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}")
-    )
+    place = results_folder(out, "free-bending", showcase.FILES, overwrite=overwrite)
     outcome = showcase.demo(place, runs, processes=processes)
     with printing(f"the files of the runs are in {place}"):
         _show(outcome, place, options_of(context.command), timing=timing)
@@ -106,17 +94,17 @@ def _show(outcome: Demo, out: Path, options: Mapping[str, str], *, timing: bool)
     for line in legend(outcome.runs):
         screen.print(line)
     screen.print(RECONSTRUCTION)
-    screen.print(f"Written to {out}: {', '.join(file.name for file in outcome.files)}", soft_wrap=True)
+    say_written(out, outcome.files)
     if timing:
         from umform.timing import Timing
 
         show_timing(Timing.sum(run.timing for run in outcome.runs))
     for run in outcome.runs:
         for warning in counted(run.warnings):
-            typer.echo(f"umform: {run.case.name}: {warning}", err=True)
+            say(f"{run.case.name}: {warning}")
     failed = [run for run in outcome.runs if run.failure]
     for run in failed:
-        typer.echo(f"umform: {run.case.name}: {as_typed(run.failure, options)}", err=True)
+        say(f"{run.case.name}: {as_typed(run.failure, options)}")
     if failed:
         typer.echo(f"  earlier results are in {out}", err=True)
         raise typer.Exit(1)

@@ -1,32 +1,21 @@
-"""``umform derive``, and ``--derive`` of processes: derivatives of results with respect to parameters."""
+"""``umform derive``: derivatives of results with respect to parameters."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read
+from umform.cli.folders import out_option, results_folder, say_written
 from umform.cli.outcome_screen import show_annex
-from umform.cli.root import Debug, Overwrite, Verbose, app, console
+from umform.cli.root import Debug, Overwrite, Verbose, app, say
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
 
 if TYPE_CHECKING:
-    from umform.results.outcome import Outcome
     from umform.studies.derivatives.rates import Rates
-
-_Outcome = TypeVar("_Outcome", bound="Outcome")
-
-Derive = Annotated[
-    list[str] | None,
-    typer.Option(
-        metavar="PATH",
-        help="Derivatives of the results by a parameter, such as thickness; repeatable, see `umform derive`.",
-    ),
-]
 
 
 @app.command()
@@ -63,12 +52,7 @@ def derive(
         ),
     ] = None,
     changes: Changes = None,
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            "--out", "-o", metavar="FOLDER", help="Folder for tables and picture; default: results/DECK-derive."
-        ),
-    ] = None,
+    out: Annotated[str | None, out_option("tables and picture", "results/DECK-derive")] = None,
     trust: Trust = False,
     overwrite: Overwrite = False,
     verbose: Verbose = 0,
@@ -78,7 +62,6 @@ def derive(
 
     Each parameter costs some .5 to .6 of a run. A release ends where its force is zero for the changed parameter, too.
     """
-    from umform.io.folders import folder_for
     from umform.studies.derivatives import derivatives
     from umform.studies.derivatives.found import TABLE
     from umform.studies.slopes import slopes
@@ -96,7 +79,7 @@ def derive(
         _refuse_both(held, width)
         held = held or (table.hold if table else {})
         files = (TABLE, SLOPES)
-        place = folder_for(out, Path("results") / f"{deck.stem}-derive", files, overwrite=overwrite, say=said.append)
+        place = results_folder(out, f"{deck.stem}-derive", files, overwrite=overwrite, say=said.append)
         found: Rates
         if width is None:
             found = derivatives(problem, paths, wanted, hold=held)
@@ -109,45 +92,9 @@ def derive(
                 error.where = "--width" if error.where == "width" else error.where
                 raise
     for text in said:  # only of a run that starts
-        typer.echo(f"umform: {text}", err=True)
+        say(text)
     show_annex(found.annex)
-    say_written(found.write(place))
-
-
-def check_derived(case: Any, by: Sequence[str] | None, hold: Mapping[str, str] | None = None) -> None:
-    """Refuse what is no parameter, or follows a result, before the run."""
-    if by:
-        from umform.studies.derivatives.derive import known_parameters
-
-        known_parameters(case, by, "--derive", hold)
-
-
-def derived(
-    outcome: _Outcome, case: Any, by: Sequence[str] | None, place: Path, hold: Mapping[str, str] | None = None
-) -> tuple[_Outcome, list[Path]]:
-    """The outcome of a process with its derivatives, and the files of these; without any, the outcome itself."""
-    from umform.studies.derivatives import derivatives
-
-    if not by:
-        return outcome, []
-    found = derivatives(case, by, hold=hold)
-    return outcome.with_annex(found.annex), found.write(place)
-
-
-def sloped(
-    outcome: _Outcome, process: Callable[[Any], _Outcome], case: Any, by: Sequence[str], place: Path
-) -> tuple[_Outcome, list[Path]]:
-    """The outcome of a process with slopes from whole runs beside it, and the files of these."""
-    from umform.studies.slopes import slopes
-
-    found = slopes(case, by, process=process, base=outcome)
-    return outcome.with_annex(found.annex), found.write(place)
-
-
-def say_written(files: Sequence[Path]) -> None:
-    """Print the names of files in one folder."""
-    names = ", ".join(file.name for file in files)
-    console().print(f"Written to {files[0].parent}: {names}", soft_wrap=True, markup=False)
+    say_written(place, found.write(place))
 
 
 def _refuse_none(paths: Sequence[str]) -> None:

@@ -4,36 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from umform.cli.compensate import By, Want, compensated
-from umform.cli.derive import Derive, check_derived, derived
+from umform.cli.folders import results_folder, say_written
 from umform.cli.given import Given, given_by
-from umform.cli.metal import law_of
+from umform.cli.metal import SheetMetal, with_metal
 from umform.cli.options import (
     SHEET,
     SOLUTION,
     All,
-    Curve,
-    FlowCurve,
-    Material,
-    Modulus,
-    Poisson,
     PrintDeck,
-    Yield,
-    Young,
     option,
     print_deck,
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.plausible import refuse_implausible
-from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, console, printing
-from umform.cli.scattering import ScatterOptions, scattering
-from umform.cli.several_meshes import extrapolates
+from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, printing, say
+from umform.cli.studies import Studies, with_studies
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
@@ -94,9 +84,11 @@ def _halves() -> Iterator[None]:
 @group.command()
 @given_by(Cup, omit=(*_NOT_TYPED, *Cup.diameters), **ESAFORM | _varied(Cup))
 @_halves()
-@scattering
+@with_metal
+@with_studies()
 def cup(
     given: Given,
+    *,
     out: Out = None,
     coarse: Annotated[bool, _mesh(Cup, "coarse", _COARSE)] = False,
     fine: Annotated[bool, _mesh(Cup, "fine", _FINE)] = False,
@@ -106,17 +98,9 @@ def cup(
         option(f"Diameter of the die opening in mm; default: punch + {2.0 * CLEARANCE:g} t.", _TOOLS),
     ] = None,
     blank: Annotated[float, option("Diameter of the blank in mm.", SHEET)] = _DIAMETERS["blank"],
-    material: Material = None,
-    young: Young = None,
-    poisson: Poisson = None,
-    yield_stress: Yield = None,
-    hardening_modulus: Modulus = None,
-    curve: Curve = None,
-    flow_curve: FlowCurve = None,
+    metal: SheetMetal,
     limit_curve: LimitCurve = None,
-    want: Want = None,
-    by: By = None,
-    derive: Derive = None,
+    studies: Studies,
     deck: PrintDeck = False,
     everything: All = False,
     csv: Csv = "plain",
@@ -124,8 +108,6 @@ def cup(
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
-    *,
-    scatter_options: ScatterOptions,
 ) -> None:
     """Draw a round cup from a disc: forces, ears, thickness, strains and limits, springback.
 
@@ -134,23 +116,21 @@ def cup(
     from umform.processes.draw.case import draw
 
     given = _on_mesh(Cup, given, coarse, fine)
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
+    law, note = metal.law(given["thickness"])
     typed: dict[str, Any] = {"punch": punch, "opening": opening, "blank": blank}
     radii = {radius: typed[name] and 0.5 * typed[name] for radius, name in Cup.diameters.items()}
     case = Cup(**given | radii | {"holder_force": given["holder_force"] or None}, material=law)
     if deck:
-        print_deck(compensated(case, want, by).case)
+        print_deck(studies.compensated(case))
         return
     _run(
         case,
-        (want, by),
         draw,
         out,
         "cup",
         note,
         limit_curve,
-        derive,
-        scatter_options,
+        studies,
         overwrite=overwrite,
         timing=timing,
         everything=everything,
@@ -159,19 +139,15 @@ def cup(
 
 @group.command()
 @given_by(UBend, omit=_NOT_TYPED, called={"punch_width": "--punch"}, **NUMISHEET | _varied(UBend))
-@scattering
+@with_metal
+@with_studies()
 def u(
     given: Given,
+    *,
     out: Out = None,
     coarse: Annotated[bool, _mesh(UBend, "coarse", _COARSE)] = False,
     fine: Annotated[bool, _mesh(UBend, "fine", _FINE)] = False,
-    material: Material = None,
-    young: Young = None,
-    poisson: Poisson = None,
-    yield_stress: Yield = None,
-    hardening_modulus: Modulus = None,
-    curve: Curve = None,
-    flow_curve: FlowCurve = None,
+    metal: SheetMetal,
     limit_curve: LimitCurve = None,
     extrapolate: Annotated[
         bool | None,
@@ -182,9 +158,7 @@ def u(
             "--extrapolate/--no-extrapolate",
         ),
     ] = None,
-    want: Want = None,
-    by: By = None,
-    derive: Derive = None,
+    studies: Studies,
     deck: PrintDeck = False,
     everything: All = False,
     csv: Csv = "plain",
@@ -192,8 +166,6 @@ def u(
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
-    *,
-    scatter_options: ScatterOptions,
 ) -> None:
     """Draw a U-bend from a strip in plane strain: forces, springback angles, strains and limits.
 
@@ -203,23 +175,21 @@ def u(
     from umform.processes.draw.two_meshes import extrapolated
 
     given = _on_mesh(UBend, given, coarse, fine)
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, curve, flow_curve, given["thickness"])
+    law, note = metal.law(given["thickness"])
     case = UBend(**given, material=law)
     if deck:
-        print_deck(compensated(case, want, by).case)
+        print_deck(studies.compensated(case))
         return
-    several = extrapolates(extrapolate, want, derive, scatter_options, usual=not coarse)
+    several = studies.extrapolates(extrapolate, usual=not coarse)
     how = extrapolated if several else draw
     _run(
         case,
-        (want, by),
         how,
         out,
         "u-bend",
         note,
         limit_curve,
-        derive,
-        scatter_options,
+        studies,
         overwrite=overwrite,
         timing=timing,
         everything=everything,
@@ -270,55 +240,46 @@ def _why(error: Exception) -> str:
 
 def _run(
     case: Cup | UBend,
-    wanted_by: tuple[list[str] | None, list[str] | None],
     how: Callable[..., Drawn],
     out: str | None,
     name: str,
     note: str,
     limit: Path | None,
-    derive: list[str] | None,
-    scatter_options: ScatterOptions,
+    studies: Studies,
     *,
     overwrite: bool,
     timing: bool,
     everything: bool,
 ) -> None:
     """Draw, print, write."""
-    from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.processes.draw.files import FILES, draw_blank, write_files
     from umform.processes.draw.words import before_the_run
 
     print_warnings_once()
-    check_derived(case, derive)
-    scatter_options.check(case)
+    studies.check(case)
     refuse_implausible(case)
     curve = _limit(limit)
-    say = partial(typer.echo, err=True)
-    place = folder_for(out, Path("results") / name, FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
-    goals = compensated(case, *wanted_by)
-    case = goals.case
-    say(f"umform: {before_the_run(case)}")
+    place = results_folder(out, name, FILES, overwrite=overwrite)
+    case = studies.compensated(case)
+    say(before_the_run(case))
     with staging(place, FILES):
         picture, blank = draw_blank(place, case)
-        say(f"umform: the mesh of the blank is drawn in {picture}")
+        say(f"the mesh of the blank is drawn in {picture}")
         drawn = how(case, limit=curve)
         more: list[Path] = []
-        scatter: list[Path] = []
-        wanted: list[Path] = []
         try:
-            drawn, more = derived(drawn, case, derive if drawn.released else None, place)
-            if drawn.released:
-                drawn, scatter = scatter_options.added_to(drawn, case, place)
-            drawn, wanted = goals.added_to(drawn, place)
+            for one, written in studies.added_to(drawn, case, place, finished=bool(drawn.released)):
+                drawn = one
+                more += written
             with printing(f"the files of the part are in {place}"):
                 show_outcome(drawn, note=note, everything=everything)
         finally:  # even if the table cannot be printed
             with drawn.result.timing.files:
-                files = [*write_files(place, drawn, note, blank), *more, *scatter, *wanted]
-    console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+                files = [*write_files(place, drawn, note, blank), *more]
+    say_written(place, files)
     if timing:
         show_timing(drawn.result.timing)
     if drawn.released is None:
         raise typer.Exit(1)
-    goals.end()
+    studies.end()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import typer
+from umform.cli.root import say
 
 
 def file_of_fields(path: Path) -> Path:
@@ -48,5 +48,5 @@ def _last_in(path: Path) -> Path:
     *others, last = files
     if others:
         names = ", ".join(file.name for file in others)
-        typer.echo(f"umform: {last.name}, the last one in {path}; it also has {names}", err=True)
+        say(f"{last.name}, the last one in {path}; it also has {names}")
     return last

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from umform.cli.folders import out_option, results_folder, say_written
 from umform.cli.given import Given, given_by
 from umform.cli.metal import by_name
 from umform.cli.options import SHEET, SOLUTION, is_typed, option
-from umform.cli.root import Debug, Overwrite, Verbose, app, console
+from umform.cli.root import Debug, Overwrite, Verbose, app, console, say
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
 from umform.processes.air_bending.spec import AirBending
@@ -63,12 +63,7 @@ def flat(
     bend: Annotated[
         bool, typer.Option("--bend", help="Bend the whole part by simulation: strokes, angles, forces, flanges.")
     ] = False,
-    out: Annotated[
-        str | None,
-        typer.Option(
-            "--out", "-o", metavar="FOLDER", help="Folder for drawing, numbers, sheet; default: results/flat."
-        ),
-    ] = None,
+    out: Annotated[str | None, out_option("drawing, numbers, sheet", "results/flat")] = None,
     overwrite: Overwrite = False,
     verbose: Verbose = 0,
     debug: Debug = False,
@@ -80,7 +75,6 @@ def flat(
     from umform.flat_pattern import Orders, Tooling, bend_part
     from umform.flat_pattern import flat as flattened
     from umform.flat_pattern.files import RESULTS, write_files
-    from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.io.store import Store
     from umform.problem.metal_file import metal_of
@@ -94,12 +88,11 @@ def flat(
     tooling, bodies = Tooling(AirBending(**given), metal, opening), Bodies()
     if bend and metal is None:
         raise InvalidValue("a part is bent of a metal", where="--bend", remedy="--metal DC04")
-    say = partial(typer.echo, err=True)
-    place = folder_for(out, Path("results/flat"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
+    place = results_folder(out, "flat", RESULTS, overwrite=overwrite)
     with by_name("--metal"):
         pattern = flattened(part, allowance=allowance, tooling=tooling, bodies=bodies, store=Store(store))
     for warning in pattern.warnings:
-        say(f"umform: warning: {warning}")
+        say(f"warning: {warning}")
     orders = Orders(pattern, tooling, bodies)
     with staging(place, RESULTS):
         bent = bend_part(orders) if bend else None
@@ -113,8 +106,7 @@ def flat(
     if bent is not None:
         errors = ", ".join(f"{round(error, 3) + 0.0:+.3f}" for error in bent.errors)
         console().print(f"Flanges of the simulation less those of the drawing: {errors} mm", soft_wrap=True)
-    names = dict.fromkeys(file.name if file.parent.name != "sequence" else "sequence/" for file in files)
-    console().print(f"Written to {place}: {', '.join(names)}", soft_wrap=True)
+    say_written(place, dict.fromkeys(file.name if file.parent.name != "sequence" else "sequence/" for file in files))
     if bent is not None and bent.part.collisions:
         typer.secho("umform: " + "; ".join(bent.part.collisions), fg=typer.colors.RED, err=True)
         raise typer.Exit(1)

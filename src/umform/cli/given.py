@@ -51,6 +51,7 @@ def in_place_of(
     def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
         own = inspect.signature(command)
         names = [one.name for one in options]
+        kind = own.parameters[name].kind
 
         def run(**values: Any) -> Any:
             return command(**{name: made_of({one: values.pop(one) for one in names})}, **values)
@@ -59,7 +60,7 @@ def in_place_of(
         before = [one.replace(annotation=hints[one.name]) for one in own.parameters.values() if one.name != name]
         at = list(own.parameters).index(name)
         run.__name__, run.__doc__, run.__module__ = command.__name__, command.__doc__, command.__module__
-        shown = [*before[:at], *options, *before[at:]]
+        shown = [*before[:at], *(one.replace(kind=kind) for one in options), *before[at:]]
         run.__signature__ = inspect.Signature(shown, return_annotation=None)  # type: ignore[attr-defined]
         run.__annotations__ = {one.name: one.annotation for one in shown}
         return run

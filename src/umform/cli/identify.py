@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read
+from umform.cli.folders import out_option, results_folder, say_written
 from umform.cli.outcome_screen import print_table
-from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing, say
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
 
@@ -59,10 +58,7 @@ def identify(
     quantity: Annotated[list[str] | None, Quantities] = None,
     changes: Changes = None,
     most: Annotated[int, typer.Option(min=1, help="Largest number of trials.")] = MOST,
-    out: Annotated[
-        str | None,
-        typer.Option("--out", "-o", metavar="FOLDER", help="Folder for the files; default: results/DECK-identified."),
-    ] = None,
+    out: Annotated[str | None, out_option("the files", "results/DECK-identified")] = None,
     overwrite: Overwrite = False,
     trust: Trust = False,
     verbose: Verbose = 0,
@@ -76,7 +72,7 @@ def identify(
     print_warnings_once()
     with deck_errors():
         problem = read(deck, changes or (), trust)
-    identify_case(problem, find, curve, quantity, out, Path("results") / f"{deck.stem}-identified", most, overwrite)
+    identify_case(problem, find, curve, quantity, out, f"{deck.stem}-identified", most, overwrite)
 
 
 def identify_case(
@@ -85,23 +81,21 @@ def identify_case(
     curve: Sequence[str] | None,
     quantity: Sequence[str] | None,
     out: str | None,
-    default: Path,
+    name: str,
     most: int,
     overwrite: bool,
 ) -> None:
     """Print and write what is found of a problem, or of a case of a process."""
-    from umform.io.folders import folder_for
     from umform.studies.identification import identify as search
     from umform.studies.identification.found import FILES
 
-    say = partial(typer.echo, err=True)
     sought = dict(_sought(text) for text in find)
     if len(sought) < len(find):
         raise InvalidValue("a number is looked for twice", where="--find", value=", ".join(find), remedy="once")
     data: list[Measured] = [*(_curve(text) for text in curve or []), *(_quantity(text) for text in quantity or [])]
-    place = folder_for(out, default, FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
+    place = results_folder(out, name, FILES, overwrite=overwrite)
     found = search(
-        subject, sought, data, most=most, on_run=lambda count, misfit: say(f"umform: run {count}: misfit {misfit:.3g}")
+        subject, sought, data, most=most, on_run=lambda count, misfit: say(f"run {count}: misfit {misfit:.3g}")
     )
     try:
         with printing(f"the files are in {place}"):
@@ -110,7 +104,7 @@ def identify_case(
                 console().print(remark, soft_wrap=True, markup=False)
     finally:  # even if the table cannot be printed
         files = found.write(place)
-    console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True, markup=False)
+    say_written(place, files)
 
 
 def _sought(text: str) -> tuple[str, Sought]:

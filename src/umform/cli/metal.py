@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import inspect
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
-import typer
-
+from umform.cli.given import in_place_of
+from umform.cli.options import SHEET, option
+from umform.cli.root import say
 from umform.errors import InvalidValue
 
 if TYPE_CHECKING:
@@ -31,71 +34,98 @@ def by_name(where: str, otherwise: str = "") -> Iterator[None]:
         raise
 
 
-@by_name("--material", ", or --yield-stress, --curve or --flow-curve of a certificate in its place")
-def law_of(
-    name: str | None,
-    young: float | None,
-    poisson: float | None,
-    yield_stress: float | None,
-    modulus: float | None,
-    curve: str | None,
-    flow_curve: Path | None,
-    thickness: float,
-) -> tuple[J2 | Metal, str]:
-    """Law of the sheet of a thickness in mm, and a remark on it; a warning if no material is given."""
-    from umform.processes.air_bending.spec import dc04_like
+@dataclass(frozen=True)
+class SheetMetal:
+    """The metal of a sheet as it is typed: a name, or the constants of a law."""
 
-    own = [value for value in (young, poisson, yield_stress, modulus, curve, flow_curve) if value is not None]
-    if name is not None:
-        if own:
+    material: Annotated[
+        str | None,
+        option(
+            "Name in the library of sheet metals (`umform metal list`), or a file such as fit/metal.toml.",
+            SHEET,
+            "--material",
+            "-m",
+        ),
+    ]
+    young: Annotated[float | None, option("Young's modulus in MPa.", SHEET)]
+    poisson: Annotated[float | None, option("Poisson's ratio.", SHEET)]
+    yield_stress: Annotated[float | None, option("Yield stress in MPa, for linear hardening.", SHEET)]
+    hardening_modulus: Annotated[float | None, option("Hardening modulus in MPa; default 0.", SHEET)]
+    curve: Annotated[
+        str | None,
+        option(
+            "Hardening curve, such as Swift,520,0.004,0.22 or Voce,180,330,14, in MPa; numbers alone are those of "
+            "Swift.",
+            SHEET,
+            "--curve",
+            "--swift",
+        ),
+    ]
+    flow_curve: Annotated[
+        Path | None, option("Measured hardening: a CSV file of plastic strain and true stress.", SHEET)
+    ]
+
+    @by_name("--material", ", or --yield-stress, --curve or --flow-curve of a certificate in its place")
+    def law(self, thickness: float) -> tuple[J2 | Metal, str]:
+        """Law of a sheet of a thickness in mm, and a remark on it; a warning if no material is given."""
+        from umform.processes.air_bending.spec import dc04_like
+
+        own = any(getattr(self, one.name) is not None for one in fields(self) if one.name != "material")
+        if self.material is not None:
+            if own:
+                raise InvalidValue(
+                    "give a material by name or by numbers",
+                    where="--material",
+                    value=self.material,
+                    cause="an option of a law of your own, such as --yield-stress or --curve, beside the name",
+                    remedy="leave one of them out; `umform metal show NAME` lists the numbers of a name",
+                )
+            from umform.problem.metal_file import metal_of
+
+            metal = metal_of(self.material, thickness)
+            return metal.law, metal.note
+        if not own:
+            say(f"warning: no --material: {_NO_MATERIAL}")
+            return dc04_like(), f"material: {_NO_MATERIAL}"
+        return self._own_law(), ""
+
+    def _own_law(self) -> J2:
+        from umform.materials import J2, Linear, Perfect
+        from umform.sheet_metals import read_flow_curve
+
+        linear = self.yield_stress is not None or self.hardening_modulus is not None
+        ways = [linear, self.curve is not None, self.flow_curve is not None]
+        if ways.count(True) != 1 or (linear and self.yield_stress is None):
             raise InvalidValue(
-                "give a material by name or by numbers",
-                where="--material",
-                value=name,
-                cause="an option of a law of your own, such as --yield-stress or --curve, beside the name",
-                remedy="leave one of them out; `umform metal show NAME` lists the numbers of a name",
+                "a hardening curve is given by --yield-stress with --hardening-modulus, by --curve, or by --flow-curve",
+                where="--yield-stress",
+                cause="two of them are given, or none beside --young, --poisson or --hardening-modulus",
+                remedy="--yield-stress 160 --hardening-modulus 500, --curve Swift,520,0.004,0.22, "
+                "or --flow-curve coil.csv",
             )
-        from umform.problem.metal_file import metal_of
+        hardening: Hardening
+        if self.curve is not None:
+            hardening = _curve(self.curve)
+        elif self.flow_curve is not None:
+            hardening = read_flow_curve(self.flow_curve)
+        else:
+            assert self.yield_stress is not None
+            with _asked_by("--yield-stress, --hardening-modulus"):
+                modulus = self.hardening_modulus
+                hardening = Linear(self.yield_stress, modulus) if modulus else Perfect(self.yield_stress)
+        with _asked_by("--young, --poisson"):
+            young, poisson = 210e3 if self.young is None else self.young, 0.3 if self.poisson is None else self.poisson
+            return J2(E=young, nu=poisson, hardening=hardening)
 
-        metal = metal_of(name, thickness)
-        return metal.law, metal.note
-    if not own:
-        typer.echo(f"umform: warning: no --material: {_NO_MATERIAL}", err=True)
-        return dc04_like(), f"material: {_NO_MATERIAL}"
-    return _own_law(young, poisson, yield_stress, modulus, curve, flow_curve), ""
 
-
-def _own_law(
-    young: float | None,
-    poisson: float | None,
-    yield_stress: float | None,
-    modulus: float | None,
-    curve: str | None,
-    flow_curve: Path | None,
-) -> J2:
-    from umform.materials import J2, Linear, Perfect
-    from umform.sheet_metals import read_flow_curve
-
-    E, nu = 210e3 if young is None else young, 0.3 if poisson is None else poisson
-    linear = yield_stress is not None or modulus is not None
-    if [linear, curve is not None, flow_curve is not None].count(True) != 1 or (linear and yield_stress is None):
-        raise InvalidValue(
-            "a hardening curve is given by --yield-stress with --hardening-modulus, by --curve, or by --flow-curve",
-            where="--yield-stress",
-            cause="two of them are given, or none beside --young, --poisson or --hardening-modulus",
-            remedy="--yield-stress 160 --hardening-modulus 500, --curve Swift,520,0.004,0.22, or --flow-curve coil.csv",
-        )
-    hardening: Hardening
-    if curve is not None:
-        hardening = _curve(curve)
-    elif flow_curve is not None:
-        hardening = read_flow_curve(flow_curve)
-    else:
-        assert yield_stress is not None
-        with _asked_by("--yield-stress, --hardening-modulus"):
-            hardening = Linear(yield_stress, modulus) if modulus else Perfect(yield_stress)
-    with _asked_by("--young, --poisson"):
-        return J2(E=E, nu=nu, hardening=hardening)
+def with_metal(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command the options of the metal; its parameter ``metal`` gets them."""
+    options = [
+        inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=hint)
+        for name, hint in get_type_hints(SheetMetal, include_extras=True).items()
+    ]
+    made: Callable[..., Any] = in_place_of("metal", options, lambda values: SheetMetal(**values))(command)
+    return made
 
 
 def _curve(text: str) -> Hardening:

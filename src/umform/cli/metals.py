@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from umform.cli.folders import results_folder, say_written
 from umform.cli.metal import by_name
 from umform.cli.options import is_typed
 from umform.cli.root import Debug, Overwrite, app, console, printing
@@ -189,7 +189,6 @@ def fit(
 
     The files and the law are described in docs/materials.md.
     """
-    from umform.io.folders import folder_for
     from umform.studies.calibration import (
         Measurements,
         calibrate,
@@ -222,14 +221,13 @@ def fit(
         back_stress=back_stress,
         largest_step=largest_step,
     )
-    say = partial(typer.echo, err=True)
-    place = folder_for(out, Path("results/metal"), FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
+    place = results_folder(out, "metal", FILES, overwrite=overwrite)
     try:
         with printing(f"the files of the fit are in {place}"):
             _show(found)
     finally:  # even if the table cannot be printed
         files = write_files(place, found)
-    console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+    say_written(place, files)
 
 
 def _refuse_idle(context: typer.Context, given: Sequence[str]) -> None:

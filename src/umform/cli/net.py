@@ -6,9 +6,10 @@ from pathlib import Path
 from typing import Annotated
 
 from umform.cli.check import Changes, DeckFile, Force, Trust, deck_errors, read
+from umform.cli.folders import say_written
 from umform.cli.options import option
 from umform.cli.outcome_screen import print_table
-from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.root import Debug, Overwrite, Verbose, app, printing
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
 
@@ -73,4 +74,4 @@ def net(
     files = write_files(place, stem, found)
     with printing(f"the files of the blank are in {place}"):
         print_table(found.table)
-    console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+    say_written(place, files)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-import typer
+from umform.cli.root import say
 
 
 def refuse_implausible(*cases: Any, force: bool | None = None) -> None:
@@ -25,4 +25,4 @@ def refuse_implausible(*cases: Any, force: bool | None = None) -> None:
     from umform.processes.plausible import accepted
 
     for warning in dict.fromkeys(text for case in cases for text in accepted(case, force=force)):
-        typer.echo(f"umform: {warning}", err=True)
+        say(warning)

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from umform.cli.check import Trust, deck_errors
+from umform.cli.folders import out_option
 from umform.cli.ranks import WithPetscOptions, let_the_first_end_all, let_the_first_talk, on_all_ranks, petsc_options
 from umform.cli.root import Debug, Overwrite, Verbose, app
 from umform.cli.run import Every, finish
@@ -21,10 +22,7 @@ def resume(
     checkpoint: Annotated[
         Path, typer.Argument(metavar="CHECKPOINT", help="Checkpoint of `umform run`, or the folder of the run.")
     ],
-    out: Annotated[
-        str | None,
-        typer.Option("--out", "-o", metavar="FOLDER", help="Folder for the results; default: that of the run."),
-    ] = None,
+    out: Annotated[str | None, out_option("the results", "that of the run")] = None,
     every: Every = 60.0,
     overwrite: Overwrite = False,
     trust: Trust = False,

@@ -97,6 +97,11 @@ class Commands(TyperGroup):
             raise typer.Exit(1) from error
 
 
+def say(text: object) -> None:
+    """Print a remark on standard error."""
+    typer.echo(f"umform: {text}", err=True)
+
+
 def say_of(error: BaseException, text: str = "") -> None:
     """Print an error on standard error, with its notes: available results, and how to continue."""
     typer.echo("\n".join([f"umform: {text or error}", *getattr(error, "__notes__", ())]), err=True)

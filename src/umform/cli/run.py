@@ -11,9 +11,10 @@ import typer
 
 from umform.cli import INTERRUPTED
 from umform.cli.check import Changes, DeckFile, Force, Trust, deck_errors, read
+from umform.cli.folders import out_option
 from umform.cli.outcome_screen import print_table
 from umform.cli.ranks import WithPetscOptions, let_the_first_end_all, let_the_first_talk, on_all_ranks, petsc_options
-from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing, say_of
+from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing, say, say_of
 from umform.cli.run_checks import show_checks
 from umform.cli.step_table import step_tables
 from umform.cli.timing import Timed, show_timing
@@ -30,10 +31,7 @@ Every = Annotated[float, typer.Option(metavar="SECONDS", help="Seconds between c
 def run(
     ctx: typer.Context,
     deck: DeckFile,
-    out: Annotated[
-        str | None,
-        typer.Option("--out", "-o", metavar="FOLDER", help="Folder for the results; default: that of the deck."),
-    ] = None,
+    out: Annotated[str | None, out_option("the results", "that of the deck")] = None,
     solver: Annotated[str | None, typer.Option(help="Sparse solver, instead of that in the deck.")] = None,
     changes: Changes = None,
     checkpoint: Annotated[
@@ -143,7 +141,7 @@ def end(outcome: ProblemOutcome) -> None:
         say_of(error, "interrupted; the results so far are written")
         raise typer.Exit(INTERRUPTED)
     if isinstance(error, UmformError):
-        typer.echo(f"umform: {error}", err=True)
+        say(error)
         typer.echo("  the results so far are written", err=True)
         raise typer.Exit(1)
     raise error

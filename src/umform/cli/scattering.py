@@ -159,13 +159,17 @@ def _number(text: str, typed: str) -> float:
         ) from None
 
 
-def scattering(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Give a command the options of scatter; its parameter ``scatter_options`` gets them."""
-    options = [
-        inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=_repeatable(*told))
-        for name, told in _OPTIONS.items()
+def scatter_options() -> list[inspect.Parameter]:
+    """The options of a command."""
+    kind = inspect.Parameter.KEYWORD_ONLY
+    return [
+        inspect.Parameter(name, kind, default=None, annotation=_repeatable(*told)) for name, told in _OPTIONS.items()
     ]
-    made: Callable[..., Any] = in_place_of("scatter_options", options, ScatterOptions)(command)
+
+
+def with_scatter(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command the options of scatter; its parameter ``scatter`` gets them."""
+    made: Callable[..., Any] = in_place_of("scatter", scatter_options(), ScatterOptions)(command)
     return made
 
 

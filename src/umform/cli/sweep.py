@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from umform.cli.check import Changes, DeckFile, Force, Trust, deck_errors, read
+from umform.cli.folders import out_option
 from umform.cli.outcome_screen import print_table
-from umform.cli.root import Debug, Overwrite, Verbose, app, console
+from umform.cli.root import Debug, Overwrite, Verbose, app, console, say
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
 
@@ -40,12 +41,7 @@ def sweep(
         ),
     ] = None,
     changes: Changes = None,
-    out: Annotated[
-        str | None,
-        typer.Option(
-            "--out", "-o", metavar="FOLDER", help="Folder for table, plot and jobs; default: results/DECK-sweep."
-        ),
-    ] = None,
+    out: Annotated[str | None, out_option("table, plot and jobs", "results/DECK-sweep")] = None,
     processes: Annotated[int | None, typer.Option(help="Jobs at a time; default: as many as processors.")] = None,
     files: Annotated[bool, typer.Option("--files", help="Write all files of the deck for each job.")] = False,
     retry: Annotated[bool, typer.Option("--retry", help="Repeat jobs that were refused or did not converge.")] = False,
@@ -105,7 +101,7 @@ def _axes(texts: list[str]) -> dict[str, str]:
 
 def _say(row: dict[str, Any]) -> None:
     """One line for each finished job, if there is no terminal for a progress bar."""
-    typer.echo(f"umform: {row['folder']}: {row['outcome']} {row['reason'][:100]}".rstrip(), err=True)
+    say(f"{row['folder']}: {row['outcome']} {row['reason'][:100]}".rstrip())
 
 
 def _show(found: Sweep) -> None:

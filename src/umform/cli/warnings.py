@@ -5,8 +5,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Iterable
 
-import typer
-
+from umform.cli.root import say
 from umform.report.repeats import counted, without_place
 
 
@@ -22,7 +21,7 @@ class _Warnings(logging.Handler):
         text = without_place(record.getMessage())
         if self.prints and text not in self.known:
             try:
-                typer.echo(f"umform: {record.getMessage()}", err=True)
+                say(record.getMessage())
             except OSError:  # standard error is closed: no reason to end a run
                 self.handleError(record)
         self.known.add(text)
@@ -41,4 +40,4 @@ def echo_warnings(warnings: Iterable[str]) -> None:
     known = {text for handler in logging.getLogger("umform").handlers for text in getattr(handler, "known", ())}
     for warning in counted(warnings):
         if without_place(warning) not in known:
-            typer.echo(f"umform: {warning}", err=True)
+            say(warning)

@@ -4,18 +4,20 @@ import pytest
 from typer.testing import CliRunner
 
 from umform.cli import app
-from umform.cli.several_meshes import extrapolates
+from umform.cli.scattering import ScatterOptions
+from umform.cli.studies import Studies
 from umform.errors import InvalidValue
 
 
 def test_studies_are_those_of_one_mesh():
-    assert extrapolates(None, None, None, ())
-    assert not extrapolates(None, None, None, (), usual=False)
-    assert extrapolates(True, None, None, (), usual=False)
-    assert not extrapolates(None, ["theta1=98+-1"], None, ())
-    assert not extrapolates(False, None, ["thickness"], ())
+    none = ScatterOptions({})
+    assert Studies(None, None, None, none).extrapolates(None)
+    assert not Studies(None, None, None, none).extrapolates(None, usual=False)
+    assert Studies(None, None, None, none).extrapolates(True, usual=False)
+    assert not Studies(["theta1=98+-1"], ["angle"], None, none).extrapolates(None)
+    assert not Studies(None, None, ["thickness"], none).extrapolates(False)
     with pytest.raises(InvalidValue, match="no goals, derivatives or scatter"):
-        extrapolates(True, None, None, ["thickness=1%"])
+        Studies(None, None, None, ScatterOptions({"sources": ["thickness=1%"]})).extrapolates(True)
 
 
 @pytest.mark.parametrize("command", [["bead", "--radius", "4", "--height", "3"], ["draw", "u", "--coarse"]])
