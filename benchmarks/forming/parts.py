@@ -190,7 +190,7 @@ def run_bulge(keys: dict[str, Any]) -> Done:
     high = s * keys["height"] * (0.8 if keys["die"] else 1.0) * R
 
     def reached(now: uf.Model) -> bool:
-        x = now.mesh.points + now.u.reshape(-1, 3)
+        x = now.positions
         return bool(x[:, 2].max() >= high or np.linalg.norm(x[upper] - x[lower], axis=-1).min() < 0.6 * s)
 
     # The pressure of a thin sphere of the radius of the disc, far above what the sheet bears.

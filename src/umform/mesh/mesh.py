@@ -276,6 +276,11 @@ class Mesh:
         centres: Floats = self.points[self.connectivity[:, local]].mean(axis=2)
         return centres
 
+    def displaced(self, u: Floats) -> Floats:
+        """The points (n, 3) after a displacement, three components of each node in one row."""
+        points: Floats = self.points + u.reshape(-1, 3)
+        return points
+
     def transformed(self, function: Callable[[Floats], Floats]) -> Mesh:
         """The same mesh with its points (n, 3) mapped by ``function``."""
         return Mesh(function(self.points), self.cells, self.sets, self.faces)

@@ -229,6 +229,11 @@ class Model(ShownModel):
         self.system.u = value
 
     @property
+    def positions(self) -> Floats:
+        """Positions of the nodes in the converged state, shape (n, 3)."""
+        return self.mesh.displaced(self.u)
+
+    @property
     def state(self) -> State:
         """The present state: unknowns, time and values of the controls."""
         return self.system.state

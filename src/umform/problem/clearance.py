@@ -142,7 +142,7 @@ def _least(pair: Contact, u: Floats, pose: Pose) -> float:
 
 def _region(model: Model, reach: Floats) -> tuple[Floats, Floats]:
     """Corners of the box that the sheet may reach."""
-    x = model.mesh.points + model.u.reshape(-1, 3)
+    x = model.positions
     return x.min(axis=0) - reach, x.max(axis=0) + reach
 
 

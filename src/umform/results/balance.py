@@ -231,7 +231,7 @@ class ExternalWork:
         self.works: list[Floats] = []
         self._before: _State | None = None
         self._largest = 0.0  # sum of the magnitudes of the external forces
-        distances = np.linalg.norm(model.mesh.points + model.u.reshape(-1, 3), axis=1)
+        distances = np.linalg.norm(model.positions, axis=1)
         self._length = model.system.ranks.max(float(distances.max()))
 
     def advance(self, evaluation: Evaluation) -> None:
@@ -322,7 +322,7 @@ class ExternalWork:
     def _imbalance(self, state: _State) -> tuple[float, float]:
         """Resultants in the current configuration, relative to the largest magnitudes so far. eq. (5.34)"""
         ranks, owned = self.model.system.ranks, self.model.system.whole.owned
-        x = (self.model.mesh.points + state.u.reshape(-1, 3))[owned]
+        x = self.model.mesh.displaced(state.u)[owned]
         forces = self.model.system.whole.sum_at_nodes(state.all_forces.reshape(-1, 3))[owned]
         force, moment = ranks.sum(forces.sum(axis=0)), ranks.sum(moment_of(x, forces))
         magnitude = ranks.sum(float(np.sqrt((forces * forces).sum(axis=1)).sum()))

@@ -215,7 +215,7 @@ def thickness(model: Model) -> Floats:
     -------
     ndarray, shape (n,)
     """
-    return _thickness(model, model.mesh.points + model.u.reshape(-1, 3))
+    return _thickness(model, model.positions)
 
 
 def thickness_change(model: Model, before: Floats | None = None) -> Floats:

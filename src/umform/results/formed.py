@@ -88,7 +88,7 @@ def formed_shells(model: Model, points: int, units: str = "", rule: Rule = "gaus
             cause="the upper nodes of some cells are lower nodes of others",
             remedy="write solids instead",
         )
-    x = _positions(model)
+    x = model.positions
     quads = np.array(_QUADS[lower.shape[1]])
     t, w, moments = shell_rule(points, rule)
     corners = FACE_NODES[: lower.shape[1]][quads]
@@ -155,7 +155,7 @@ def formed_solids(model: Model, layers: int, points: Points = 1, units: str = ""
     nodes = model.mesh.connectivity.astype(np.int64)
     half = nodes.shape[1] // 2
     quads = np.array(_QUADS[half])
-    x = _positions(model)
+    x = model.positions
     each = 1 if points == 1 else 2
     own, share = _core.gauss(each)
     edges = np.linspace(-1.0, 1.0, layers + 1)
@@ -216,7 +216,7 @@ def _on_grid(model: Model, grid: _Grid) -> tuple[Floats, Floats, Floats, Floats 
     stress, strain, plastic = np.zeros((*size, 6)), np.zeros((*size, 6)), np.zeros(size)
     history = None
     for body in model.bodies:
-        on = _Interpolated(body, _positions(model), model.u, grid)
+        on = _Interpolated(body, model.positions, model.u, grid)
         stress[body.cells], strain[body.cells], plastic[body.cells] = on.stress(), on.strain(), on.plastic()
         if len(model.bodies) == 1 and any(body.block.history_variables.values()):
             history = on.at(body.block.state)
@@ -356,12 +356,6 @@ def _lagrange(nodes: Floats, at: Floats) -> Floats:
         for i, a in enumerate(nodes)
     ]
     return np.stack(columns, axis=1)
-
-
-def _positions(model: Model) -> Floats:
-    """Present positions of the nodes."""
-    x: Floats = model.mesh.points + model.u.reshape(-1, 3)
-    return x
 
 
 def _parts(model: Model) -> Ids:

@@ -42,7 +42,7 @@ class Bent:
         self.force = 11.0
         load = self.model.force("x1", (0.0, 0.0, -1.0 / nodes), "load")
         self.result = uf.solve(self.model, uf.Move(load, self.force, steps=8), progress=False)
-        self.x = self.model.mesh.points + self.model.u.reshape(-1, 3)
+        self.x = self.model.positions
         self.tip = self.x[self.model.mesh.nodes("x1")].mean(axis=0)
 
 
@@ -329,7 +329,7 @@ def angle(mesh, x):
 def test_calculix_finds_the_same_springback(half, tmp_path):
     model, punch = half
     mesh, state = model.mesh, export_state(model, tmp_path / "part.inp", "calculix")
-    loaded = mesh.points + model.u.reshape(-1, 3)
+    loaded = mesh.displaced(model.u)
     inside = np.flatnonzero(np.abs(state.points[:, 0]) < 1e-9) + 1
     lowest = inside[state.points[inside - 1, 2] < state.points[inside - 1, 2].min() + 1e-6]
     lines = ["*INCLUDE, INPUT=part.inp", "*MATERIAL, NAME=STEEL", "*ELASTIC", "210000., 0.3"]
@@ -344,7 +344,7 @@ def test_calculix_finds_the_same_springback(half, tmp_path):
     released[there[:, 0].astype(int) - 1] += there[:, 1:]
     number = [int(np.argmin(np.linalg.norm(state.points - x, axis=1))) for x in loaded]
     uf.solve(model, uf.Release(punch), progress=False)
-    ours = angle(mesh, mesh.points + model.u.reshape(-1, 3)) - angle(mesh, loaded)
+    ours = angle(mesh, mesh.displaced(model.u)) - angle(mesh, loaded)
     theirs = angle(mesh, released[number]) - angle(mesh, loaded)
     assert ours < -0.5
     assert theirs == pytest.approx(ours, rel=0.01)

@@ -61,7 +61,7 @@ def compare(result: Result, exact: Hanging) -> Found:
     force = at.pressure * at.area
     of_facets = angle.reshape(len(contact.facets), -1).mean(axis=1) < 0.5 * exact.angle
     on_arc = np.repeat(of_facets, len(angle) // len(of_facets))
-    tip = (model.mesh.points + model.u.reshape(-1, 3))[model.mesh.nodes("x1")].mean(axis=0) - [0.0, 0.0, OVERLAP]
+    tip = model.positions[model.mesh.nodes("x1")].mean(axis=0) - [0.0, 0.0, OVERLAP]
     return Found(
         tip=float(np.hypot(tip[0] - exact.tip[0], tip[2] - exact.tip[1])) / LENGTH,
         pressing=float(force.sum()) / exact.pressing,
@@ -146,7 +146,7 @@ def by_force(page: Page) -> None:
         run = hang(page, variant, divisions, points)
         facets = np.unique(run.model.contacts[0].facets)
         pressure, _ = run.model.contacts[0].at_nodes(run.model.u, run.model.mesh)
-        x = (run.model.mesh.points + run.model.u.reshape(-1, 3))[facets]
+        x = run.model.positions[facets]
         angle = np.arctan2(x[:, 0], x[:, 2] + RADIUS + 0.5 * THICKNESS - OVERLAP)
         order = np.argsort(angle)
         order = order[angle[order] < 1.7]

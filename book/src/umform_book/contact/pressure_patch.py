@@ -107,7 +107,7 @@ def pressure_error(contact: Contact) -> float:
 def resultant_error(model: Model, contact: Contact) -> float:
     """Deviation of force and moment of the contact from those of the uniform pressure, over force and force times 1."""
     lower = model.mesh.nodes("lower")
-    x = (model.mesh.points + model.u.reshape(-1, 3))[lower]
+    x = model.positions[lower]
     centre = 0.5 * (x.min(axis=0) + x.max(axis=0))
     force, moment = contact.resultant(about=centre)
     return float(np.hypot(np.linalg.norm(force + np.array([0.0, 0.0, PRESSURE])), np.linalg.norm(moment)) / PRESSURE)

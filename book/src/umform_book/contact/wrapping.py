@@ -79,7 +79,7 @@ def measure(result: Result) -> Found:
     middle = np.repeat(np.abs(angle.reshape(count, -1).mean(axis=1)) < 1.0, len(angle) // count)
     pressure, area = at.pressure[middle] / PRESSURE, at.area[middle]
     mean = float(pressure @ area / area.sum())
-    x = model.mesh.points + model.u.reshape(-1, 3)
+    x = model.positions
     lower = model.mesh.nodes("lower")
     lower = lower[np.abs(np.arctan2(x[lower, 0], x[lower, 2])) < 1.0]
     return Found(

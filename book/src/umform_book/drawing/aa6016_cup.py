@@ -220,7 +220,7 @@ def _short(page: Page) -> None:
     case = esaform(turn=45.0, around=6, stroke=8.0, penalty=3e3, contact_points=2)
     model, press = case.build()
     page.solve("8 mm", model, press.closing)
-    x = model.mesh.points + model.u.reshape(-1, 3)
+    x = model.positions
     rim = x[model.mesh.nodes("rim_lower"), :2]
     radius = EarProfile(np.degrees(np.arctan2(rim[:, 1], rim[:, 0])), np.hypot(*rim.T))
     order = np.argsort(radius.angle)

@@ -129,7 +129,7 @@ def cosine(ears: EarProfile) -> float:
 
 def _wall(mesh: Mesh, u: Floats) -> tuple[float, float]:
     """Mean thickness of the wall: its volume over its area; and that of the upper fifth of it."""
-    x = (mesh.points + u.reshape(-1, 3))[mesh.connectivity]
+    x = mesh.displaced(u)[mesh.connectivity]
     lower, upper = x[:, :4], x[:, 4:8]
     middle = 0.5 * (lower + upper)
     area = 0.5 * np.linalg.norm(np.cross(middle[:, 2] - middle[:, 0], middle[:, 3] - middle[:, 1]), axis=1)

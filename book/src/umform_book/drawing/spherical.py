@@ -136,13 +136,13 @@ def made(page: Page, label: str, setup: Setup, stroke: float = STROKE) -> tuple[
     order = np.argsort(angle)
     rim = np.linalg.norm(outline.before - outline.after, axis=1)[order]
     force = 4e-3 * float(np.abs(result["punch_fz"]).max())
-    change = volume(mesh.points + u.reshape(-1, 3), mesh) / volume(mesh.points, mesh) - 1.0
+    change = volume(mesh.displaced(u), mesh) / volume(mesh.points, mesh) - 1.0
     return Drawn(*along_x(mesh, u), angle[order], rim, force, change, len(mesh.connectivity)), result
 
 
 def along_x(mesh: Mesh, u: Floats) -> tuple[Floats, Floats]:
     """Radius before and logarithmic thickness strain of the fibres along x: distance of the skins along the normal."""
-    now = mesh.points + u.reshape(-1, 3)
+    now = mesh.displaced(u)
     lower, upper = (mesh.nodes(f"y0_{skin}") for skin in ("lower", "upper"))
     lower, upper = (ids[np.argsort(mesh.points[ids, 0])] for ids in (lower, upper))
     middle, across = 0.5 * (now[lower] + now[upper])[:, [0, 2]], (now[upper] - now[lower])[:, [0, 2]]

@@ -72,11 +72,11 @@ def carried(page: Page, kind: str, variant: Variant, divisions: int, steps: int)
     spin = model.turn(tool, axis, name="spin")
     label = f"carried by a {kind}, {variant.label}, {divisions} intervals, {90.0 / steps:g} degrees"
     page.solve(f"{label}: pressed", model, Move(press, PRESSURE, steps=2))
-    start = model.mesh.points + model.u.reshape(-1, 3)
+    start = model.positions
     off, before, iterations = 0.0, float(model.contacts[0].found.friction_work), []
     for quarter in page.pick((1, 2, 3, 4), (1,)):
         result = page.solve(f"{label}: quarter {quarter}", model, Move(spin, 0.5 * np.pi * quarter, steps=steps))
-        x = model.mesh.points + model.u.reshape(-1, 3)
+        x = model.positions
         iterations += result["iterations"][-steps:].tolist()
         off = max(off, float(np.abs(x - start @ turned(spin.value, axis).T).max()))
     work = (float(result["friction_work"][-1]) - before) / float(result["elastic_energy"][-1])

@@ -73,7 +73,7 @@ def circle(fractions: Floats) -> dict[str, Floats]:
 
 def rotation_of_end(model: Model) -> float:
     """Angle by which the end of the strip has turned, taken to be the one next to a full turn."""
-    x = model.mesh.points + model.u.reshape(-1, 3)
+    x = model.positions
     upper, lower = (x[model.mesh.nodes(f"x1_{side}")].mean(axis=0) for side in ("upper", "lower"))
     director = upper - lower
     off = np.arctan2(-director[0], director[2]) - TURN

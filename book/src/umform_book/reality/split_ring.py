@@ -77,14 +77,14 @@ def split(page: Page, label: str, cup: Model, inner: float, outer: float, bottom
     plane = ring.symmetry("y0", "y")
     ring.fix(middle[:1], "z", here=True)
     relaxed = page.solve(f"{label}: cut", ring, Move(ring.unbalanced("cut"), 0.0, steps=5), frames=1, options=NEWTON)
-    x, volume = _places(ring), _volume(ring)
+    x, volume = ring.positions, _volume(ring)
     forces = relaxed.frames[-1].points["reaction"][end, 1]
     across = x[end, 0] - x[end, 0].mean()
     heights = x[middle, 2]
     ring.fix([middle[heights.argmin()], middle[heights.argmax()]], "y", here=True)
     opened = page.solve(f"{label}: split", ring, Move(ring.remove(plane), 0.0, steps=8), options=NEWTON)
     inside = ring.mesh.points[end, 2] > 0.0
-    before, after = ([y[end][side].mean(axis=0) for side in (inside, ~inside)] for y in (x, _places(ring)))
+    before, after = ([y[end][side].mean(axis=0) for side in (inside, ~inside)] for y in (x, ring.positions))
     turned = after[1] - after[0]
     angle = np.arctan2(turned[1], turned[0])
     radius = float(0.5 * (before[0] + before[1])[0])
@@ -104,14 +104,9 @@ def split(page: Page, label: str, cup: Model, inner: float, outer: float, bottom
 
 def _volume(model: Model) -> float:
     """Volume of cells of eight nodes, by the determinants at their centres."""
-    corners = _places(model)[model.mesh.connectivity]
+    corners = model.positions[model.mesh.connectivity]
     sides = np.array([[-1, 1, 1, -1] * 2, [-1, -1, 1, 1] * 2, [-1] * 4 + [1] * 4]) / 4.0
     return float(np.linalg.det(np.einsum("ka,nai->nki", sides, corners)).sum())
-
-
-def _places(model: Model) -> Floats:
-    places: Floats = model.mesh.points + model.u.reshape(-1, 3)
-    return places
 
 
 def rings(page: Page, label: str, case: Cup) -> list[Ring]:
@@ -121,7 +116,7 @@ def rings(page: Page, label: str, case: Cup) -> list[Ring]:
     page.solve(f"{label}: released", model, press.opening, options=NEWTON)
     lines = case.sizes.ends
     cuts = [float(lines[np.abs(lines - radius).argmin()]) for radius in CUTS]
-    bottom = float(_places(model)[:, 2].min())
+    bottom = float(model.positions[:, 2].min())
     hair = 1e-3
     return [
         split(page, f"{label}, {n + 1}", model, a - hair, b + hair, bottom)

@@ -169,7 +169,7 @@ def _model(strip: Strip, candidate: Candidate, cells: int, across: int, distorti
 
 def least_radius(model: Model) -> float:
     """Least radius over the thickness, from the turn between the directors of neighbouring stations."""
-    X, x = model.mesh.points, model.mesh.points + model.u.reshape(-1, 3)
+    X, x = model.mesh.points, model.positions
     lower, upper = (np.intersect1d(model.mesh.nodes(face), model.mesh.nodes("y0")) for face in ("lower", "upper"))
     lower, upper = (nodes[np.argsort(X[nodes, 0])] for nodes in (lower, upper))
     angles = []

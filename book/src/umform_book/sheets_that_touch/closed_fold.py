@@ -68,7 +68,7 @@ def close(page: Page, elements: int, layers: int, rule: dict[str, int], *, pictu
         page.shape("closed", result, "The closed fold", values="plastic_strain_mean", view=(-90.0, 0.0))
     return Folded(
         float(result["inside_penetration"].max()),
-        float((mesh.points + model.u.reshape(-1, 3))[:, 0].max()),
+        float(mesh.displaced(model.u)[:, 0].max()),
         float(result["plate_fz"][-1]),
         float(result["base_fz"][-1]),
         int(inside.found.active.sum()),

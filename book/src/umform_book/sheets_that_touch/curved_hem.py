@@ -92,7 +92,7 @@ def close(page: Page, edge: str, elements: tuple[int, int], *, picture: bool = F
         page.shape("closed", result, f"The closed hem of a {edge} edge", values="plastic_strain_mean")
     held = model.evaluate(model.u).residual.reshape(-1, 3)[mesh.sets["x0"], 2].sum()
     forces = float(result["plate_fz"][-1]), float(result["base_fz"][-1]), -float(held)
-    x = mesh.points + model.u.reshape(-1, 3)
+    x = mesh.displaced(model.u)
     end = mesh.sets["x1"]
     hoop = [np.hypot(p[end, 0], p[end, 1]).mean() if side else 1.0 for p in (mesh.points, x)]
     return Hem(

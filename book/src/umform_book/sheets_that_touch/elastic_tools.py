@@ -95,7 +95,7 @@ def bend(page: Page, factor: float | None, increments: int) -> Bent:
         move = Move(model.prescribe("lower of punch", "z", "down"), -STROKE, steps=increments)
     label = "rigid tools" if factor is None else f"tools with {factor:g} times the modulus of steel"
     result = page.solve(f"air bend, {label}", model, move)
-    x = (mesh.points + model.u.reshape(-1, 3))[: len(sheet.points)]
+    x = mesh.displaced(model.u)[: len(sheet.points)]
     fibres = x[sheet.points[:, 1] == 0.0].reshape(-1, 3, 3)
     leg = fibres[-1, 1] - fibres[-4, 1]
     ratio = np.linalg.norm(fibres[:, 2] - fibres[:, 0], axis=1).min()
@@ -140,7 +140,7 @@ def iron(page: Page, factor: float | None, increments: int) -> Ironed:
     pull = model.prescribe("x1 of sheet", "z", "pull")
     label = "exact rigid ring" if factor is None else f"ring with {factor:g} times the modulus of steel"
     result = page.solve(f"cup wall, {label}", model, Move(pull, -WAY, steps=increments))
-    x = (mesh.points + model.u.reshape(-1, 3))[: len(sheet.points)]
+    x = mesh.displaced(model.u)[: len(sheet.points)]
     fibres = x[sheet.points[:, 1] == 0.0].reshape(-1, 3, 3)
     there = (fibres[:, 1, 2] < -1.5) & (fibres[:, 1, 2] > -3.0)
     thickness = float((fibres[there, 2, 0] - fibres[there, 0, 0]).mean())

@@ -117,7 +117,7 @@ def leaves_arc(model: Model, goal: State, last: Evaluation, increment: Floats) -
 
 
 def _places(model: Model, last: Evaluation) -> Floats:
-    return np.asarray(model.mesh.points + last.u.reshape(-1, 3))
+    return model.mesh.displaced(last.u)
 
 
 def _bodies(model: Model, x: Floats) -> list[Floats]:

@@ -42,7 +42,7 @@ def rigid_start(model: Model, goal: State) -> Floats | None:
     values = model.controls.values_at(goal)
     for _ in range(_PASSES):
         u = model.u + start[:size]
-        points = model.mesh.points + u.reshape(-1, 3)
+        points = model.mesh.displaced(u)
         centre, extent = middle(model.system, points)
         modes = rigid_body_modes(points, centre, extent)
         free = left_free(model.system, modes)

@@ -103,7 +103,7 @@ def _free(model: Model) -> Floats:
     unknown = [term for term in model.system.others if not isinstance(term, Rest)]
     if unknown or any(isinstance(control, Load | Pressure) for control in model.controls):
         return np.empty((0, 6))
-    points = model.mesh.points + model.u.reshape(-1, 3)
+    points = model.positions
     centre, size = middle(model.system, points)
     rows = [motion_along(x, n, centre, size) for x, n in sprung(model.system)]
     return left_free(model.system, rigid_body_modes(points, centre, size), rows)
@@ -150,7 +150,7 @@ class _Points:
 
     def forces(self, model: Model, free: Floats) -> Floats:
         """Work of forces in the free motions (m, k): normals, or edges of a pyramid around each cone of friction."""
-        centre, size = middle(model.system, model.mesh.points + model.u.reshape(-1, 3))
+        centre, size = middle(model.system, model.positions)
         across = np.cross(self.n, np.eye(3)[np.abs(self.n).argmin(axis=1)])
         across /= np.linalg.norm(across, axis=1, keepdims=True)
         other, known = np.cross(self.n, across), ~np.isnan(self.friction)

@@ -304,7 +304,7 @@ class Contact(PairPoints):
         """The same of any evaluation at ``u``."""
         count, nodes = len(mesh.points), unique(self.facets)
         shares = np.zeros((count, 2))  # gap, and how many know it
-        shares[nodes, 0], shares[nodes, 1] = self.gap((mesh.points + u.reshape(-1, 3))[nodes], self.pose), 1.0
+        shares[nodes, 0], shares[nodes, 1] = self.gap(mesh.displaced(u)[nodes], self.pose), 1.0
         pressure = self._mean_at_nodes(at.pressure[:, None], at.area, count, add)[:, 0]
         gap, known = add(shares).T
         return pressure, np.divide(gap, known, out=np.full(count, np.nan), where=known > 0)

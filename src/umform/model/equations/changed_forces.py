@@ -39,7 +39,7 @@ def changed_residual(
     for part in parts.values():
         change[:dofs] += part
     at = At(evaluation.u, evaluation.time, evaluation.controls)
-    places = model.mesh.points + evaluation.u.reshape(-1, 3)
+    places = model.mesh.displaced(evaluation.u)
     for number, unknown in enumerate(evaluation.border.unknowns):
         for way in (press.way for tool in model.tools for press in tool.presses if press.unknown is unknown):
             share = sum(

@@ -124,7 +124,7 @@ def free_motions(
     dofs : sequence of int
         More degrees of freedom that are held.
     """
-    points = model.mesh.points + model.u.reshape(-1, 3)
+    points = model.mesh.displaced(model.u)
     centre, size = middle(model, points)
     modes = forces.rigid_body_modes(points, centre, size)
     rows = [motion_along(x, n, centre, size) for x, n in touched]
@@ -185,7 +185,7 @@ def _in_touch(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
 
 def sprung(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
     """Positions of the nodes that terms hold at the present state, foundations for instance, and the directions."""
-    x = model.mesh.points + model.u.reshape(-1, 3)
+    x = model.mesh.displaced(model.u)
     at = At(model.u, model.time, {control: control.value for control in model.controls})
     for term in model.others:
         held = term.holds(at)
@@ -212,7 +212,7 @@ def _touching(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
                 cause="the point lies on the axis or the centre of the tool",
                 remedy="move the tool so that it just touches the sheet",
             )
-        gap = contact.gap((mesh.points + model.u.reshape(-1, 3))[contact.nodes])  # the far face has the wrong sign
+        gap = contact.gap(mesh.displaced(model.u)[contact.nodes])  # the far face has the wrong sign
         deepest = int(np.argmin(gap))
         if gap[deepest] < -0.5 * thickness:
             raise ToolSwallowsSheet(

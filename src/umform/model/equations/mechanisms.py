@@ -69,7 +69,7 @@ def _parts(cells: Ids, nodes: int) -> NDArray[np.int32]:
 
 def _motions_of_parts(model: Assembled, part: NDArray[np.int32]) -> tuple[Floats, Floats]:
     """Rigid motions of the parts that joints and supports leave free, (k, n), and the sizes of all, (n,). eq. (5.99)"""
-    cells, now = model.mesh.connectivity, model.mesh.points + model.u.reshape(-1, 3)
+    cells, now = model.mesh.connectivity, model.mesh.displaced(model.u)
     modes = forces.rigid_body_modes(now).reshape(6, -1, 3)
     owner = np.full(len(now), -1)
     moved = np.zeros((part.max() + 1, 6, *now.shape))

@@ -209,7 +209,7 @@ class Drawn(Outcome):
         """The same with another displacement of the nodes; lower nodes have the value of the upper ones."""
         model = self.result.model
         punch = next(tool for tool in model.tools if tool.name == "punch")
-        distance = distance_from(punch, model.mesh.points + u.reshape(-1, 3))
+        distance = distance_from(punch, model.mesh.displaced(u))
         cells = model.mesh.connectivity
         half = cells.shape[1] // 2
         distance[cells[:, :half]] = distance[cells[:, half:]]

@@ -192,7 +192,7 @@ def ear_profile(mesh: Mesh, u: Floats, rim: Selector = "rim", *, bottom: Selecto
     -------
     EarProfile
     """
-    x = mesh.points + u.reshape(-1, 3)
+    x = mesh.displaced(u)
     ids = mesh.nodes(rim)
     if not len(ids):
         raise InvalidValue("the rim of a cup has no nodes", where="ear_profile", value=rim, remedy="the node set rim")

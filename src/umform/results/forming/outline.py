@@ -84,7 +84,7 @@ def draw_in(mesh: Mesh, u: Floats, edge: Selector = "rim") -> Outline:
     levels = np.bincount(fibre)
     before, after = (
         np.stack([np.bincount(fibre, y[:, k]) / levels for k in (0, 1)], axis=1)
-        for y in (mesh.points, mesh.points + u.reshape(-1, 3))
+        for y in (mesh.points, mesh.displaced(u))
     )
     chosen = np.zeros(len(levels), dtype=bool)
     chosen[fibre[mesh.nodes(edge)]] = True

@@ -105,7 +105,7 @@ def section(mesh: Mesh, u: Floats, point: ArrayLike = (0.0, 0.0, 0.0), normal: A
     n = np.asarray(normal, dtype=float)
     n = n / np.abs(n).max()  # the squares of large numbers overflow
     n = n / np.linalg.norm(n)
-    X, x = mesh.points, mesh.points + u.reshape(-1, 3)
+    X, x = mesh.points, mesh.displaced(u)
     cells = mesh.connectivity
     half = cells.shape[1] // 2
     ends = _edges(cells[:, :half]), _edges(cells[:, half:])

@@ -52,7 +52,7 @@ def sheet_strains(mesh: Mesh, u: Floats) -> SheetStrains:
     """
     cells = mesh.connectivity
     logs = np.log(_principal_stretches(*_tangents(mesh, u, [[0.0, 0.0, t] for t in SURFACES.values()])))
-    thickness = np.log(_heights(cells, mesh.points + u.reshape(-1, 3)) / _heights(cells, mesh.points))
+    thickness = np.log(_heights(cells, mesh.displaced(u)) / _heights(cells, mesh.points))
     major, minor = ({name: logs[:, k, side] for k, name in enumerate(SURFACES)} for side in (1, 0))
     return SheetStrains(major, minor, thickness)
 
@@ -75,9 +75,7 @@ def _tangents(mesh: Mesh, u: Floats, places: list[list[float]]) -> tuple[Floats,
     """Tangents of the sheet at places of each cell before and after, shape (cells, places, 2, 3)."""
     cells = mesh.connectivity
     _, dN = _core.shell_functions(cells.shape[1], np.array(places))
-    before, now = (
-        np.einsum("qia,eak->eqik", dN[:, :2], x[cells]) for x in (mesh.points, mesh.points + u.reshape(-1, 3))
-    )
+    before, now = (np.einsum("qia,eak->eqik", dN[:, :2], x[cells]) for x in (mesh.points, mesh.displaced(u)))
     return before, now
 
 

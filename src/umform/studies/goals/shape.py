@@ -295,7 +295,7 @@ class _Run:
     @property
     def released(self) -> Floats:
         """Places of the nodes at the end."""
-        return self.result.model.mesh.points + self.result.model.u.reshape(-1, 3)
+        return self.result.model.positions
 
 
 @dataclass(frozen=True)

@@ -84,7 +84,7 @@ class Tools:
     def of(cls, result: Result) -> Self:
         """Those of a model after its run."""
         model = result.model
-        points = np.concatenate([model.mesh.points, model.mesh.points + model.u.reshape(-1, 3)])
+        points = np.concatenate([model.mesh.points, model.positions])
         low, high = points.min(axis=0), points.max(axis=0)
         low, high = (ends + sign * _MARGIN * float((high - low).max()) for ends, sign in ((low, -1.0), (high, 1.0)))
         found = {tool.name: tool.surface for tool in model.tools if isinstance(tool.surface, Tool)}

@@ -153,7 +153,7 @@ def test_the_next_tools_form_the_part_on(bent):
     rest = model.hold_rigid(name="rest")
     clamp = model.fix("x0", here=True)
     cut = model.unbalanced("cut")
-    place = model.mesh.points + model.u.reshape(-1, 3)
+    place = model.positions
     tip = place[model.mesh.nodes("cut")]
     x, z = float(tip[:, 0].mean()), float(tip[:, 2].min())
     bar = model.contact("lower", uf.Cylinder(centre=(x - 1.5, 0, z - 3.0), axis="y", radius=2.0), name="bar")

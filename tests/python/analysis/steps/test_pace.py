@@ -92,7 +92,7 @@ def test_turning_and_straining_are_measured():
     result = uf.solve(model, uf.Move(end, to=2.5, steps=1), frames=0, progress=False)
     assert len(result) == 2
     tips = model.mesh.nodes("x1_lower"), model.mesh.nodes("x1_upper")
-    fibres = [(model.mesh.points + u.reshape(-1, 3))[tips[1][0]] - (model.mesh.points + u.reshape(-1, 3))[tips[0][0]]
+    fibres = [model.mesh.displaced(u)[tips[1][0]] - model.mesh.displaced(u)[tips[0][0]]
               for u in (before, model.u)]  # fmt: skip
     unit = [d / np.linalg.norm(d) for d in fibres]
     tip = np.degrees(np.arccos(unit[0] @ unit[1]))
