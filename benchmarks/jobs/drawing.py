@@ -43,7 +43,3 @@ class Drawing:
     def whole(self, low: int, high: int) -> int:
         """A whole number from one to another."""
         return low + int(self._random() * (high + 1 - low))
-
-    def or_none(self, value: T, probability: float) -> T | None:
-        """A value with a probability, else None: the default."""
-        return value if self.chance(probability) else None

@@ -1,8 +1,9 @@
-"""Digests of arrays, for fingerprints of runs and for ranks that must have built the same model."""
+"""Digests: of runs, of entries of the store, and of models that all ranks must have built alike."""
 
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -15,3 +16,12 @@ def digest(*arrays: Any) -> str:
         check.update(str(array.dtype).encode())
         check.update(np.ascontiguousarray(array).tobytes())
     return check.hexdigest()[:32]
+
+
+def floats(data: Any) -> Any:
+    """Data with integers as floats, for a digest: 1 and 1.0 are the same value."""
+    if isinstance(data, Mapping):
+        return {key: floats(entry) for key, entry in data.items()}
+    if isinstance(data, list | tuple):
+        return [floats(entry) for entry in data]
+    return float(data) if isinstance(data, int) and not isinstance(data, bool) else data

@@ -54,8 +54,6 @@ MATERIALS = {
     "j2": mt.J2(kappa=175e3, mu=80.77e3, hardening=mt.LinearVoce(160.0, 500.0, 260.0, 20.0)),
 }
 
-CELL_NODES = {"hex8": 8, "hex18": 18}
-
 
 class PackageCopy:
     """A copy of the package, which tests extend as docs/where-does-it-go.md says; processes of their own import it."""

@@ -23,7 +23,7 @@ from umform.bench.limits import Disk
 from umform.bench.shelf import Shelf
 from umform.bench.spare_process import SpareProcess
 from umform.errors import InvalidValue, UmformError
-from umform.io.atomic import PendingFile
+from umform.io.atomic import write_text
 
 log = logging.getLogger("umform.bench")
 
@@ -159,8 +159,7 @@ class Queue:
             for place, path in (files or {}).items():
                 shutil.copyfile(path, folder / place)
             order = {"kind": kind, "title": title, "series": series, "parameters": dict(parameters), **(more or {})}
-            with PendingFile(folder / ORDER) as waiting:
-                waiting.write_text(json.dumps(order | {"created": time.time()}), encoding="utf-8")
+            write_text(folder / ORDER, json.dumps(order | {"created": time.time()}))
             self.index.add(name, kind, title, series, parameters)
         self._wake.set()
         return name

@@ -13,7 +13,7 @@ from typing import Any
 from umform.bench.shelf import file_of
 from umform.bench.subprocess_json import json_of_module
 from umform.errors import InvalidValue, UmformError
-from umform.io.atomic import PendingFile
+from umform.io.atomic import write_text
 
 #: Bytes of a part, parts that are kept, and seconds that the reading of one may take.
 LONGEST_PART, MOST_PARTS, _LONGEST_READING = 20_000_000, 200, 60.0
@@ -116,8 +116,7 @@ class Parts:
                 return found
             shutil.move(view, self.view_of(name))
             shutil.move(path, place)
-        with PendingFile(_record_of(place)) as waiting:
-            waiting.write_text(json.dumps(found), encoding="utf-8")
+        write_text(_record_of(place), json.dumps(found))
         return self.row(name)
 
     def remove(self, name: str) -> None:

@@ -16,7 +16,7 @@ from typing import Any
 
 from umform.bench.subprocess_json import json_of_module
 from umform.errors import InvalidValue, UmformError
-from umform.io.atomic import PendingFile
+from umform.io.atomic import write_text
 from umform.processes.air_bending.drawn_tools import DrawnDie, DrawnPunch
 from umform.surfaces import Profile
 from umform.surfaces.segments import Arc, Line, Segment
@@ -107,8 +107,7 @@ class Shelf:
             if "problem" in found:
                 return found
             shutil.move(path, place.with_suffix(".dxf"))
-        with PendingFile(place) as waiting:
-            waiting.write_text(json.dumps(found | {"layer": layer}), encoding="utf-8")
+        write_text(place, json.dumps(found | {"layer": layer}))
         return _row(kind, place)
 
     def rows(self) -> list[dict[str, Any]]:

@@ -25,7 +25,7 @@ from umform.bench.shelf import Shelf
 from umform.bench.strips import run_strip
 from umform.bench.wanted import Wanted
 from umform.errors import UmformError
-from umform.io.atomic import PendingFile
+from umform.io.atomic import write_text
 from umform.io.staging import staging
 from umform.io.tables import write_csv
 from umform.processes.air_bending.bottoming import press_to_force
@@ -66,8 +66,7 @@ def main(arguments: list[str]) -> int:
             return 0
         limit_memory()
         outcome = _outcome(folder)
-        with PendingFile(folder / OUTCOME) as waiting:
-            waiting.write_text(json.dumps(outcome, allow_nan=False), encoding="utf-8")
+        write_text(folder / OUTCOME, json.dumps(outcome, allow_nan=False))
     return 0
 
 

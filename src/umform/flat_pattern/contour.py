@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from umform.errors import DrawingError
 from umform.flat_pattern.unfold import BendMap, PlaneMap, Unfolded
 from umform.surfaces.cad.solid import SolidEdge
+from umform.surfaces.directions import pair
 from umform.surfaces.segments import Arc, Line, Segment
 
 Floats = NDArray[np.float64]
@@ -82,12 +83,12 @@ def _flat_edge(edge: SolidEdge, lay: PlaneMap | BendMap) -> tuple[list[Segment],
         left = arms[0, 0] * arms[1, 1] - arms[0, 1] * arms[1, 0] > 0.0
         whole = np.linalg.norm(x[0] - x[-1]) < _JOINT
         end = x[0] if whole else x[-1]
-        return [Arc(_pair(x[0]), _pair(end), _pair(centre), clockwise=not left)], 0.0
+        return [Arc(pair(x[0]), pair(end), pair(centre), clockwise=not left)], 0.0
     turns = [_beside(a, b, c) for a, b, c in zip(x[:-2], x[1:-1], x[2:], strict=True)]
     if not turns or max(turns) < 1e-6:
-        return [Line(_pair(x[0]), _pair(x[-1]))], 0.0
+        return [Line(pair(x[0]), pair(x[-1]))], 0.0
     # Two chords are about four times as far from the curve as one.
-    return [Line(_pair(a), _pair(b)) for a, b in pairwise(x)], 0.25 * max(turns)
+    return [Line(pair(a), pair(b)) for a, b in pairwise(x)], 0.25 * max(turns)
 
 
 def _beside(a: Floats, b: Floats, c: Floats) -> float:
@@ -95,10 +96,6 @@ def _beside(a: Floats, b: Floats, c: Floats) -> float:
     way = c - a
     length = float(np.hypot(*way))
     return abs(float(way[0] * (b - a)[1] - way[1] * (b - a)[0])) / length if length > 0.0 else 0.0
-
-
-def _pair(x: Floats) -> tuple[float, float]:
-    return (float(x[0]), float(x[1]))
 
 
 def _joined(pieces: list[list[Segment]], where: str) -> Iterable[list[Segment]]:

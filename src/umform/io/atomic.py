@@ -92,6 +92,13 @@ class PendingFile:
         self.temporary.unlink(missing_ok=True)
 
 
+def write_text(path: str | os.PathLike[str], text: str) -> Path:
+    r"""Write a text file, complete or not at all; its lines end with \n on all systems."""
+    with PendingFile(path) as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")
+    return Path(path)
+
+
 def remove_left_behind(path: str | os.PathLike[str]) -> None:
     """Remove the temporary files of a target that killed processes of this machine have left.
 

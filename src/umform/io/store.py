@@ -17,7 +17,7 @@ from typing import Any
 
 import umform
 from umform.errors import FileProblem
-from umform.io.atomic import PendingFile, write_problem
+from umform.io.atomic import write_problem, write_text
 
 log = logging.getLogger("umform")
 #: Environment variable with the folder of the store.
@@ -154,9 +154,7 @@ class Store:
             path.parent.mkdir(exist_ok=True)
         except OSError as error:
             raise self._unwritable(error) from error
-        with PendingFile(path) as temporary:
-            temporary.write_text(text + "\n", encoding="utf-8")
-        return path
+        return write_text(path, text + "\n")
 
     def prepare(self) -> None:
         """Make the folder.

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from umform.errors import InvalidValue, NotFinite
-from umform.io.atomic import PendingFile
+from umform.io.atomic import PendingFile, write_text
 
 Scalar = bool | int | float | str | None
 
@@ -121,8 +121,7 @@ def write_json(path: str | os.PathLike[str], record: Any) -> None:
         The file cannot be written.
     """
     text = json.dumps(_plain(record, "$"), indent=2, sort_keys=True, allow_nan=False, ensure_ascii=False)
-    with PendingFile(path) as temporary:
-        temporary.write_text(text + "\n", encoding="utf-8", newline="\n")
+    write_text(path, text + "\n")
 
 
 def _plain(value: Any, where: str) -> Any:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from umform.errors import FileProblem
-from umform.io.atomic import PendingFile
+from umform.io.atomic import write_text
 from umform.materials import J2, Metal
 from umform.materials.laws import Law
 from umform.problem.errors import DeckError
@@ -111,5 +111,4 @@ def write_metal(path: Path, law: J2 | Metal, remarks: Iterable[str]) -> None:
     FileProblem
         The file cannot be written.
     """
-    with PendingFile(path) as temporary:
-        temporary.write_text(deck_text({"material": law_keys(law, "x")}, remarks), encoding="utf-8")
+    write_text(path, deck_text({"material": law_keys(law, "x")}, remarks))

@@ -17,6 +17,7 @@ from umform.problem.findings import Finding, Level, error, ok, warning
 from umform.problem.r_values import r_values
 from umform.problem.sizes import sheet_length
 from umform.problem.units import units
+from umform.surfaces.directions import coordinates
 
 #: (name of a contact, shift of its tool) -> the key that does it.
 Placing = Callable[[str, NDArray[np.float64]], str]
@@ -101,15 +102,11 @@ def tips(model: Model, steps: Sequence[Step]) -> Iterator[Finding]:
         return
     if found is None:
         return
-    carriers = " and ".join(f"{name} at {_at(x)}" for name, x in found.carriers.items()) or "no tool"
+    carriers = " and ".join(f"{name} at {coordinates(x)}" for name, x in found.carriers.items()) or "no tool"
     text = (
-        f"in step {found.step} it pushes the sheet at {_at(found.place)}; apart from supports only {carriers} carries "
-        "it: nothing balances the push, and the sheet tips over"
+        f"in step {found.step} it pushes the sheet at {coordinates(found.place)}; apart from supports only {carriers} "
+        "carries it: nothing balances the push, and the sheet tips over"
     )
     remedy = "lay the sheet where tools balance the push, tilted for instance; or a pad, a holder or a support"
     cause = "the sheet lies loosely on one side of the tool"
     yield Finding(Level.ERROR, f"tool {found.tool}", text, remedy, cause)
-
-
-def _at(x: NDArray[np.float64]) -> str:
-    return f"({', '.join(f'{value:.4g}' for value in x + 0.0)})"

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 import umform
 from umform.errors import InvalidValue
-from umform.io.atomic import PendingFile
+from umform.io.atomic import write_text
 from umform.plotting import inline_svg
 from umform.report.words import text_of
 from umform.results.quantity import OF_MESH, Bad, Quantity
@@ -171,6 +171,4 @@ def write_html(
         version=escape(umform.__version__),
         date=f"{datetime.now():%Y-%m-%d}",
     )
-    with PendingFile(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
-    return Path(path)
+    return write_text(path, text)

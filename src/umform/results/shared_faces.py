@@ -12,6 +12,7 @@ from umform.mesh import Ids
 from umform.model import Model
 from umform.model.contact.sheets import SheetContact
 from umform.results.history import History
+from umform.surfaces.directions import coordinates
 
 #: Number that makes a cell and a face of it one key.
 _FACES = 8
@@ -32,7 +33,7 @@ def warn_of_shared_faces(model: Model, result: History, found: Mapping[Any, Any]
                 x = side.x.reshape(len(faces), -1, 3)[shared[0]].mean(axis=0) + 0.0
                 text = (
                     f"contact {pair.name} and contact {sheets.name} press {len(shared)} faces at once, one near "
-                    f"({', '.join(f'{value:.4g}' for value in x)}): the tool lies inside of the other sheet; give the "
+                    f"{coordinates(x)}: the tool lies inside of the other sheet; give the "
                     "tool a contact with the outer face of that sheet"
                 )
                 if text not in result.warnings:

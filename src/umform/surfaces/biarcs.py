@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from umform.surfaces.directions import Point2
+from umform.surfaces.directions import pair
 from umform.surfaces.segments import Arc, Floats, Line, Segment
 
 #: Parameter -> point and tangent, both of shape (2,).
@@ -37,11 +37,11 @@ def as_arcs(curve: Curve, parameters: list[float], tolerance: float) -> list[Seg
 
 
 def _fitted(curve: Curve, a: float, b: float, tolerance: float, depth: int) -> list[Segment]:
-    pair = _biarc(*curve(a), *curve(b))
+    arcs = _biarc(*curve(a), *curve(b))
     inner = [curve(a + (b - a) * k / 8.0)[0] for k in range(1, 8)]
-    fits = bool(pair) and max(min(_distance(segment, x) for segment in pair) for x in inner) <= tolerance
+    fits = bool(arcs) and max(min(_distance(segment, x) for segment in arcs) for x in inner) <= tolerance
     if (fits and depth > 0) or depth == _DEEPEST:
-        return pair or [Line(_pair(curve(a)[0]), _pair(curve(b)[0]))]
+        return arcs or [Line(pair(curve(a)[0]), pair(curve(b)[0]))]
     m = 0.5 * (a + b)
     return _fitted(curve, a, m, tolerance, depth + 1) + _fitted(curve, m, b, tolerance, depth + 1)
 
@@ -68,9 +68,9 @@ def _arc(p: Floats, q: Floats, t: Floats) -> Segment:
     d, left = q - p, np.array([-t[1], t[0]])
     across = float(d @ left)
     if abs(across) <= _STRAIGHT * float(np.hypot(*d)):
-        return Line(_pair(p), _pair(q))
+        return Line(pair(p), pair(q))
     centre = p + float(d @ d) / (2.0 * across) * left
-    return Arc(_pair(p), _pair(q), _pair(centre), clockwise=across < 0.0)
+    return Arc(pair(p), pair(q), pair(centre), clockwise=across < 0.0)
 
 
 def _distance(segment: Segment, x: Floats) -> float:
@@ -85,7 +85,3 @@ def _distance(segment: Segment, x: Floats) -> float:
     rho = float(np.hypot(*p))
     inside = float(p @ segment.middle) >= rho * math.cos(0.5 * segment.angle)
     return abs(rho - segment.radius) if inside else ends
-
-
-def _pair(x: Floats) -> Point2:
-    return float(x[0]), float(x[1])

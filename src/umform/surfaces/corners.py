@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from umform.errors import InvalidValue
-from umform.surfaces.directions import Point2, not_negative, point
+from umform.surfaces.directions import Point2, not_negative, pair, point
 from umform.surfaces.segments import Arc, Floats, Line, Segment
 
 
@@ -61,9 +61,9 @@ def rounded(corners: Sequence[Point2], radii: float | Sequence[float], closed: b
             )
     wanted = _radii(radii, count, closed)
     roundings = [
-        _round(at[i - 1], at[i], at[(i + 1) % count], wanted[i], f"corner {i} at {_pair(at[i])}")
+        _round(at[i - 1], at[i], at[(i + 1) % count], wanted[i], f"corner {i} at {pair(at[i])}")
         if closed or 0 < i < count - 1
-        else _Rounding(_pair(at[i]), _pair(at[i]), None, False, 0.0)
+        else _Rounding(pair(at[i]), pair(at[i]), None, False, 0.0)
         for i in range(count)
     ]
     return _joined(at, roundings, closed)
@@ -93,10 +93,6 @@ def _radii(radii: float | Sequence[float], count: int, closed: bool) -> list[flo
     return values
 
 
-def _pair(values: Floats) -> Point2:
-    return float(values[0]), float(values[1])
-
-
 def _round(before: Floats, at: Floats, after: Floats, radius: float, where: str) -> _Rounding:
     """Setback r tan(phi / 2) for a turn by phi, and the centre a radius beside the first tangent point. eq. (4.24)"""
     first, second = (at - before) / np.hypot(*(at - before)), (after - at) / np.hypot(*(after - at))
@@ -109,11 +105,11 @@ def _round(before: Floats, at: Floats, after: Floats, radius: float, where: str)
             remedy="take out the corner, or move it aside",
         )
     if radius == 0.0 or abs(sine) < 1e-9:
-        return _Rounding(_pair(at), _pair(at), None, False, 0.0)
+        return _Rounding(pair(at), pair(at), None, False, 0.0)
     setback = radius * abs(sine) / (1.0 + cosine)
     start, end = at - setback * first, at + setback * second
     left = math.copysign(1.0, sine) * np.array([-first[1], first[0]])
-    return _Rounding(_pair(start), _pair(end), _pair(start + radius * left), sine < 0.0, float(setback))
+    return _Rounding(pair(start), pair(end), pair(start + radius * left), sine < 0.0, float(setback))
 
 
 def _joined(at: list[Floats], roundings: list[_Rounding], closed: bool) -> list[Segment]:
@@ -132,7 +128,7 @@ def _joined(at: list[Floats], roundings: list[_Rounding], closed: bool) -> list[
         if left < -1e-12 * length:
             raise InvalidValue(
                 "a fillet does not fit",
-                where=f"edge from corner {i} at {_pair(at[i])} to corner {k} at {_pair(at[k])}",
+                where=f"edge from corner {i} at {pair(at[i])} to corner {k} at {pair(at[k])}",
                 value=f"the edge is {length:.6g} long, the fillets take {rounding.setback:.6g} and "
                 f"{following.setback:.6g} of it",
                 cause="the radii are too large for the length of the edge",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,7 +27,7 @@ def unit_vector(direction: Direction, where: str = "direction") -> tuple[float, 
                 remedy="a word such as -z, or three numbers",
             )
         direction = (sign * _AXES[name][0], sign * _AXES[name][1], sign * _AXES[name][2])
-    vector = _numbers(direction)
+    vector = as_numbers(direction)
     if vector.shape != (3,) or not np.isfinite(vector).all():
         raise NotFinite(
             "a direction needs three finite numbers",
@@ -81,7 +81,7 @@ def rotation_matrix(vector: ArrayLike) -> NDArray[np.float64]:
 
 def point(values: ArrayLike, where: str = "point", size: int = 3) -> list[float]:
     """Coordinates of a point as a list of finite numbers."""
-    vector = _numbers(values)
+    vector = as_numbers(values)
     if vector.shape != (size,) or not np.isfinite(vector).all():
         raise NotFinite(
             f"a point needs {'two' if size == 2 else 'three'} finite numbers",
@@ -91,6 +91,16 @@ def point(values: ArrayLike, where: str = "point", size: int = 3) -> list[float]
             remedy="give its coordinates as finite numbers",
         )
     return [float(c) for c in vector]
+
+
+def pair(values: Any) -> tuple[float, float]:
+    """Two coordinates as floats."""
+    return float(values[0]), float(values[1])
+
+
+def coordinates(x: NDArray[np.float64]) -> str:
+    """A place as text, with four digits."""
+    return f"({', '.join(f'{value:.4g}' for value in x + 0.0)})"
 
 
 def lengths(values: ArrayLike, where: str = "size", size: int = 3) -> list[float]:
@@ -124,7 +134,7 @@ def not_negative(value: float, where: str, what: str = "radius") -> float:
     return float(value)
 
 
-def _numbers(values: ArrayLike) -> NDArray[np.float64]:
+def as_numbers(values: ArrayLike) -> NDArray[np.float64]:
     """An array; empty if the values are not numbers."""
     try:
         return np.asarray(values, dtype=float)

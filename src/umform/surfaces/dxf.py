@@ -14,7 +14,7 @@ import numpy as np
 from umform.errors import FileProblem, InvalidValue, OpenSection
 from umform.io.atomic import PendingFile
 from umform.surfaces.biarcs import Curve, as_arcs
-from umform.surfaces.directions import Point2
+from umform.surfaces.directions import Point2, pair
 from umform.surfaces.segments import Arc, Floats, Line, Segment
 
 #: Entities that may accompany the section and are ignored.
@@ -198,18 +198,18 @@ def _segments(entity: Any, curve_error: float, where: str) -> list[Segment]:
     if kind in _IGNORED:
         return []
     if kind == "LINE":
-        start, end = _pair(entity.dxf.start), _pair(entity.dxf.end)
+        start, end = pair(entity.dxf.start), pair(entity.dxf.end)
         _check_level([entity.dxf.start, entity.dxf.end], curve_error, kind, where)
         return [Line(start, end)] if start != end else []
     if kind in ("ARC", "CIRCLE", "ELLIPSE") and abs(abs(entity.dxf.extrusion[2]) - 1.0) > _UPRIGHT:
         _refuse_space(kind, f"its normal is {tuple(entity.dxf.extrusion)}", where)
     if kind == "CIRCLE" or (kind == "ARC" and (entity.dxf.end_angle - entity.dxf.start_angle) % 360.0 == 0.0):
-        centre = _pair(entity.ocs().to_wcs(entity.dxf.center))
+        centre = pair(entity.ocs().to_wcs(entity.dxf.center))
         start = (centre[0] + entity.dxf.radius, centre[1])
         return [Arc(start, start, centre)]
     if kind == "ARC":
-        centre = _pair(entity.ocs().to_wcs(entity.dxf.center))
-        return [_arc(_pair(entity.start_point), _pair(entity.end_point), centre, entity.dxf.extrusion[2] < 0.0)]
+        centre = pair(entity.ocs().to_wcs(entity.dxf.center))
+        return [_arc(pair(entity.start_point), pair(entity.end_point), centre, entity.dxf.extrusion[2] < 0.0)]
     if kind == "SPLINE":
         spline = entity.construction_tool()
         _check_level(spline.control_points, curve_error, kind, where)
@@ -247,7 +247,7 @@ def _arc(start: Point2, end: Point2, centre: Point2, clockwise: bool) -> Arc:
     p, q, c = np.array(start), np.array(end), np.array(centre)
     d = q - p
     c = c - ((c - 0.5 * (p + q)) @ d) / (d @ d) * d if d.any() else c
-    return Arc(start, end, _pair(c), clockwise)
+    return Arc(start, end, pair(c), clockwise)
 
 
 def _of_spline(spline: Any, curve_error: float) -> list[Segment]:
@@ -262,13 +262,13 @@ def _span(spline: Any, a: float, b: float) -> Curve:
     """A spline between two knots, where it is smooth; its derivatives at them are those inside."""
 
     def place(t: float) -> Floats:
-        return np.array(_pair(spline.point(t)))
+        return np.array(pair(spline.point(t)))
 
     size = math.dist(place(a), place(b)) or math.dist(place(a), place(0.5 * (a + b)))
 
     def at(t: float) -> tuple[Floats, Floats]:
         inside = min(max(t, a + _INSIDE * (b - a)), b - _INSIDE * (b - a))
-        d = np.array(_pair(spline.derivative(inside, 1)[1]))
+        d = np.array(pair(spline.derivative(inside, 1)[1]))
         if float(np.hypot(*d)) * (b - a) < 1e-6 * size:  # control points that coincide
             h = _STEP * (b - a)
             d = place(min(t + h, b)) - place(max(t - h, a))
@@ -278,7 +278,7 @@ def _span(spline: Any, a: float, b: float) -> Curve:
 
 
 def _of_ellipse(entity: Any, curve_error: float) -> list[Segment]:
-    centre, major, minor = (np.array(_pair(v)) for v in (entity.dxf.center, entity.dxf.major_axis, entity.minor_axis))
+    centre, major, minor = (np.array(pair(v)) for v in (entity.dxf.center, entity.dxf.major_axis, entity.minor_axis))
     first, last = float(entity.dxf.start_param), float(entity.dxf.end_param)
     last += 2.0 * math.pi if last <= first else 0.0
 
@@ -296,7 +296,3 @@ def _scaled(segment: Segment, factor: float) -> Segment:
     if isinstance(segment, Line):
         return Line(scaled(segment.start), scaled(segment.end))
     return Arc(scaled(segment.start), scaled(segment.end), scaled(segment.centre), segment.clockwise)
-
-
-def _pair(v: Any) -> Point2:
-    return float(v[0]), float(v[1])

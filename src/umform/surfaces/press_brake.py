@@ -15,7 +15,6 @@ from umform.surfaces.directions import Direction, Point, Point2
 from umform.surfaces.profile import Profile
 from umform.surfaces.swept import Extruded
 from umform.surfaces.tool import ToolSpec
-from umform.surfaces.triangles import Floats, Triangles
 
 
 @dataclass(frozen=True)
@@ -41,10 +40,6 @@ class Section(ToolSpec):
     def kernel(self) -> _core.Surface:
         """The surface as the kernels take it."""
         return self.section().kernel()
-
-    def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
-        """Strips along the tool."""
-        return self.section().facets(centre, reach, chord)
 
     def along(self) -> Point:
         """Direction in which it extends."""

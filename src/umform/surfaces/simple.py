@@ -72,10 +72,6 @@ class Cylinder(ToolSpec):
         """The surface as the kernels take it."""
         return _core.cylinder(point(self.centre), unit_vector(self.axis), self.radius, self.inside)
 
-    def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
-        """Strips along the axis."""
-        return self.section().facets(centre, reach, chord)
-
     def section(self) -> Extruded:
         """A circle."""
         x, y = across(unit_vector(self.axis))
@@ -113,10 +109,6 @@ class Sphere(ToolSpec):
     def kernel(self) -> _core.Surface:
         """The surface as the kernels take it."""
         return _core.sphere(point(self.centre), self.radius, self.inside)
-
-    def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
-        """Belts about the z direction."""
-        return self.section().facets(centre, reach, chord)
 
     def section(self) -> Revolved:
         """Half of a circle."""

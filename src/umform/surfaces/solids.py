@@ -58,10 +58,6 @@ class Torus(ToolSpec):
         """The surface as the kernels take it."""
         return self.section().kernel()
 
-    def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
-        """Belts around the axis."""
-        return self.section().facets(centre, reach, chord)
-
     def convex_radii(self) -> Iterator[float]:
         """Radius of the section."""
         yield self.minor

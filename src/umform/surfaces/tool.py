@@ -167,13 +167,16 @@ class Tool(ABC):
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Triangles of the surface that cover at least the ball about ``centre`` with the radius ``reach``.
 
-        Tools of known shape have their own method; for any other the distance is sampled.
+        Those of the section; without one, the distance is sampled. Other shapes have their own method.
 
         Raises
         ------
         InvalidValue
             If the distance cannot be sampled.
         """
+        section = self.section()
+        if section is not None:
+            return section.facets(centre, reach, chord)
         from umform.surfaces.sampled import sampled  # imported late: few tools need it
 
         return sampled(self.kernel().gap, centre, reach, chord)

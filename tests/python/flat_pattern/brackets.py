@@ -195,13 +195,6 @@ def window_in_bend():
     return cut(section([40, 30], [90], 50.0), block((12, -8, -10), (20, 16, 24)))
 
 
-def tray():
-    """A base with two flanges that are square to each other, one up and one down."""
-    one = section([60, 25], [90], 40.0)
-    two = placed(section([40, 25], [-90], 52.0), (0, 0, 0), 90.0)
-    return fused(one, two)
-
-
 def tube():
     """A square tube."""
     legs, turns = [20, 40, 40, 40, 20], [90, 90, 90, 90]

@@ -10,7 +10,6 @@ from umform.problem.errors import DeckError
 from umform.problem.templates import template
 
 HEAD = 'law = "Metal"\nE = 210e3\nnu = 0.3\nhardening = { curve = "Perfect", yield_stress = 160.0 }\n'
-HILL_FROM_STRESSES = mt.Hill48.from_stresses(1.0, 1.04, 0.97, 1.1)
 FUNCTIONS = {
     'function = "Mises"': mt.Mises(),
     'function = "Hill48", r0 = 1.8, r45 = 1.5, r90 = 2.2': mt.Hill48(1.8, 1.5, 2.2),

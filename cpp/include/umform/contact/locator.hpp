@@ -88,20 +88,8 @@ class Locator {
         return z;
     }
 
-    /// Where a node of a facet is, and how far one is from their mean at most.
+    /// Where a node of a facet is.
     const Vec3& node(int e, int a) const { return y_[local_[e][a]]; }
-    double extent(int e) const {
-        Vec3 mean{};
-        for (int a = 0; a < Nodes; ++a)
-            for (int k = 0; k < 3; ++k) mean[k] += node(e, a)[k] / Nodes;
-        double largest = 0.0;
-        for (int a = 0; a < Nodes; ++a) {
-            const Vec3& y = node(e, a);
-            const Vec3 d{y[0] - mean[0], y[1] - mean[1], y[2] - mean[2]};
-            largest = std::max(largest, dot(d, d));
-        }
-        return std::sqrt(largest);
-    }
 
     /// The places of a facet, for a law.
     Places places(int e) const {

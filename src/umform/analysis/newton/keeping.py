@@ -52,7 +52,7 @@ def within_allowed(
     Failed
         If a pass does not converge, and the increment may not exceed the allowed penetration.
     """
-    penalties = {contact: contact.penalty for contact in model.system.penalised}
+    penalties = model.system.penalties
     for growth in _GROWTHS:
         if not model.system.too_deep(converged.evaluation):
             break
@@ -60,8 +60,7 @@ def within_allowed(
             with newton.timing.attempts.trying("stiffer penalties"):
                 return _grown(model, newton, converged, growth, mode)
         except Failed:
-            for contact, penalty in penalties.items():
-                contact.use_penalty(penalty)
+            model.system.use_penalties(penalties)
             if not yields:  # a smaller increment is nearer to its pressures
                 raise
             model.system.prepare(converged.goal)

@@ -97,9 +97,8 @@ def _stiffened(
 @contextmanager
 def _own_penalties(model: Model) -> Iterator[dict[Contact | SheetContact, float]]:
     """The penalties of the contacts, restored at the end in any case."""
-    penalties = {contact: contact.penalty for contact in model.system.penalised}
+    penalties = model.system.penalties
     try:
         yield penalties
     finally:
-        for contact, penalty in penalties.items():
-            contact.use_penalty(penalty)
+        model.system.use_penalties(penalties)

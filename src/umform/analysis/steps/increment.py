@@ -51,7 +51,7 @@ def take_increment(
     start = model.state
     targets = {control.name: float(value) for control, value in zip(controls, values, strict=True)}
     goal, x_before = start.toward(targets, time), start.x.copy()
-    penalties = {contact: contact.penalty for contact in model.system.penalised}
+    penalties = model.system.penalties
     try:
         guess = None if extrapolation is None or run.trail is None else run.trail.guess(extrapolation)
         increment = Increment(model, newton, run.statistics, goal, tuple(controls), guess, run.evaluation, keep)
@@ -67,8 +67,7 @@ def take_increment(
     except BaseException as error:  # no convergence, Ctrl-C, an error of a user's function: restore the previous state
         if isinstance(error, Failed):
             run.statistics.count_penetration(kept=False)
-        for contact, penalty in penalties.items():
-            contact.use_penalty(penalty)
+        model.system.use_penalties(penalties)
         model.system.revert()
         raise
     if not model.system.too_deep(converged.evaluation):

@@ -24,6 +24,7 @@ from umform.model.tools.tool import Tool
 from umform.ranks import Ranks
 from umform.spec import About, check_fields
 from umform.spec.types import ContactPoints, NotNegative, Positive
+from umform.surfaces.directions import coordinates
 
 log = logging.getLogger("umform.contact")
 
@@ -240,7 +241,7 @@ def _refuse_beside(line: BeadLine, tool: Tool, where: str) -> None:
     if not gap[farthest] <= 0.5 * line.width:
         raise InvalidBead(
             "a bead lies beside its tool",
-            where=f"{where}, ({', '.join(f'{x:.4g}' for x in places[farthest])})",
+            where=f"{where}, {coordinates(places[farthest])}",
             value=f"gap {gap[farthest]:.4g}, half the width {0.5 * line.width:.4g}",
             cause="points of another tool, other units, or long straight lines on a round tool",
             remedy="points on the surface of the tool, close enough to each other",

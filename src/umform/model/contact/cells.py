@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from umform.errors import InvalidValue
 from umform.model.contact.encounter import Encounter
 
 #: Default of the allowed ripple of the force.
@@ -32,3 +33,15 @@ def cells_for(met: Encounter, ripple: float, touching: float, allowed: float) ->
     by_ripple = math.sqrt(ripple_of(met, 1, allowed) / ripple)
     by_length = met.length / touching if touching > 0.0 else MOST
     return min(max(math.ceil(by_ripple), math.ceil(by_length), FEWEST), MOST)
+
+
+def refuse_points_and_cells(points: object, cells: object) -> None:
+    """Refuse both numbers of a contact."""
+    if points is not None and cells is not None:
+        raise InvalidValue(
+            "give points or cells, and not both",
+            where="cells",
+            value=f"points {points}, cells {cells}",
+            cause="cells take the place of points",
+            remedy="leave one of them away",
+        )

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from umform import _core
 from umform.errors import InvalidFriction, NotFinite
 from umform.spec import About, Checked, check_fields, check_value
+from umform.surfaces.directions import as_numbers
 
 #: (pressure, distance slid, position in the frame of the tool) -> largest tangential traction.
 FrictionFunction = Callable[[float, float, NDArray[np.float64]], float]
@@ -23,7 +24,7 @@ _SIGNATURE = "friction(pressure, slip, place) -> largest tangential traction; pl
 
 def check_table(value: Any, where: str) -> None:
     """Reject a table of friction whose pressures do not ascend, or without valid coefficients."""
-    table = _numbers(value)
+    table = as_numbers(value)
     if table.ndim != 2 or table.shape[1:] != (2,) or not len(table):
         raise InvalidFriction(
             "friction is a coefficient or pairs (pressure, coefficient)",
@@ -47,7 +48,7 @@ def check_table(value: Any, where: str) -> None:
 
 def check_corner(value: Any, where: str) -> None:
     """Reject a corner of a box that is not three numbers; infinite ones are."""
-    corner = _numbers(value)
+    corner = as_numbers(value)
     if corner.shape != (3,) or np.isnan(corner).any():
         raise InvalidFriction(
             "a region of friction is a box with a lower and an upper corner",
@@ -56,14 +57,6 @@ def check_corner(value: Any, where: str) -> None:
             cause="not three numbers",
             remedy="Region((-10, -inf, -inf), (10, inf, inf), 0.05)",
         )
-
-
-def _numbers(values: Any) -> NDArray[np.float64]:
-    """An array; empty if the values are not numbers."""
-    try:
-        return np.asarray(values, dtype=float)
-    except (TypeError, ValueError):
-        return np.empty(0)
 
 
 #: A larger coefficient is more often a mistake of units or sign than a rough tool.

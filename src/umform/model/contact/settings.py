@@ -14,7 +14,7 @@ from annotated_types import Ge, Gt, Le, Lt
 from umform import _core
 from umform.errors import InvalidPenalty, InvalidValue
 from umform.mesh import Mesh, Selector
-from umform.model.contact.cells import MOST, RIPPLE, cells_for, ripple_of
+from umform.model.contact.cells import MOST, RIPPLE, cells_for, refuse_points_and_cells, ripple_of
 from umform.model.contact.encounter import Encounter, Layer, sheet_thickness
 from umform.model.contact.friction import AnyFriction, friction_kernel
 from umform.model.contact.own_law import AnyContactLaw
@@ -94,14 +94,7 @@ class ContactOptions:
                 cause="the penalty follows from the penetration",
                 remedy="leave one of them away; with augmented=True both may be given",
             )
-        if self.points is not None and self.cells is not None:
-            raise InvalidValue(
-                "give points or cells, and not both",
-                where="cells",
-                value=f"points {self.points}, cells {self.cells}",
-                cause="cells take the place of points",
-                remedy="leave one of them away",
-            )
+        refuse_points_and_cells(self.points, self.cells)
         if self.ripple is not None and self.cells != "auto":
             raise InvalidValue(
                 "a ripple can be wanted only of cells whose number follows from it",

@@ -173,6 +173,17 @@ class Assembled:
         return [*self.contacts, *self.sheet_contacts]
 
     @property
+    def penalties(self) -> dict[Contact | SheetContact, float]:
+        """The present penalties of these contacts."""
+        return {contact: contact.penalty for contact in self.penalised}
+
+    @staticmethod
+    def use_penalties(penalties: Mapping[Contact | SheetContact, float]) -> None:
+        """Use other penalties."""
+        for contact, penalty in penalties.items():
+            contact.use_penalty(penalty)
+
+    @property
     def multiplied(self) -> list[Contact | SheetContact]:
         """Those of them with multipliers."""
         return [contact for contact in self.penalised if contact.augmented]

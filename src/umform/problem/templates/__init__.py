@@ -65,7 +65,7 @@ def write_template(name: str, path: str | Path) -> list[Path]:
     FileProblem
         If a file cannot be written.
     """
-    from umform.io.atomic import PendingFile
+    from umform.io.atomic import write_text
 
     path = Path(path)
     texts = {path: template(name)}
@@ -81,6 +81,5 @@ def write_template(name: str, path: str | Path) -> list[Path]:
                 remedy="choose another name, or move the file away",
             )
     for target, text in texts.items():
-        with PendingFile(target) as temporary:
-            temporary.write_text(text, encoding="utf-8")
+        write_text(target, text)
     return list(texts)

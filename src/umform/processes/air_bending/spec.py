@@ -17,7 +17,6 @@ from umform.spec import About, check_fields, listed, names_its_words, note_of, p
 from umform.spec.types import ContactPoints, Degrees, Friction, Length, Positive, Rolling
 
 if TYPE_CHECKING:
-    from umform.elements.rolling import Vector
     from umform.elements.technology import Element
     from umform.materials import J2, Metal
     from umform.processes.air_bending.drawn_tools import DrawnDie, DrawnPunch
@@ -214,13 +213,6 @@ class AirBending:
         if self.punch_section is not None:
             return Extruded(self.punch_section.profile, origin=(0.0, 0.0, self.height))
         return Punch(self.punch_radius, self.punch_angle, self.punch_width, origin=(0.0, 0.0, self.height))
-
-    @property
-    def rolling_direction(self) -> Vector | None:
-        """Unit vector of the rolling direction; the bend line is y."""
-        from umform.elements.rolling import rolling_at
-
-        return None if self.rolling is None else rolling_at(self.rolling)
 
     @property
     def plane_strain(self) -> bool | None:

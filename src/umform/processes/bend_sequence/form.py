@@ -6,7 +6,7 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import MISSING
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, create_model
 
@@ -19,27 +19,35 @@ from umform.processes.bend_sequence.spec import TOOLS, Bend, BendSequence, Bodie
 from umform.spec import parameters
 from umform.spec.types import Length
 
+_B = TypeVar("_B", Bend, OutsideBend)
+
 
 class _Form(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
 
-#: Keys of a bend: the fields of `Bend`, but for its tools, whose sizes are keys themselves.
-_KEYS: dict[str, Any] = {
-    name: (one.hint, ... if one.default is MISSING else one.default)
-    for name, one in parameters(Bend).items()
-    if name != "tools"
-} | {name: (parameters(AirBending)[name].hint | None, None) for name in TOOLS}
+def _keys(kind: type) -> dict[str, Any]:
+    """Keys of a bend: its fields, but for the tools, whose sizes are keys themselves."""
+    own = {
+        name: (one.hint, ... if one.default is MISSING else one.default)
+        for name, one in parameters(kind).items()
+        if name != "tools"
+    }
+    return own | {name: (parameters(AirBending)[name].hint | None, None) for name in TOOLS}
 
 
-class BendForm(create_model("_Keys", __base__=_Form, **_KEYS)):  # type: ignore[misc]
+def _made(kind: type[_B], form: BaseModel) -> _B:
+    given: dict[str, Any] = dict(form)
+    tools = {name: given.pop(name) for name in TOOLS}
+    return kind(**given, tools={name: size for name, size in tools.items() if size is not None})
+
+
+class BendForm(create_model("_Keys", __base__=_Form, **_keys(Bend))):  # type: ignore[misc]
     """One bend: `Bend`, with the sizes of its tools as further keys."""
 
     def bend(self) -> Bend:
         """The bend."""
-        given: dict[str, Any] = dict(self)
-        tools = {name: given.pop(name) for name in TOOLS}
-        return Bend(**given, tools={name: size for name, size in tools.items() if size is not None})
+        return _made(Bend, self)
 
 
 class SequenceForm(_Form):
@@ -60,22 +68,12 @@ class SequenceForm(_Form):
         return BendSequence(self.length, tuple(bend.bend() for bend in self.bends), sheet, self.bodies)
 
 
-#: Keys of a bend between flanges: the fields of `OutsideBend`, and the sizes of its tools.
-_OUTSIDE: dict[str, Any] = {
-    name: (one.hint, ... if one.default is MISSING else one.default)
-    for name, one in parameters(OutsideBend).items()
-    if name != "tools"
-} | {name: _KEYS[name] for name in TOOLS}
-
-
-class OutsideBendForm(create_model("_OutsideKeys", __base__=_Form, **_OUTSIDE)):  # type: ignore[misc]
+class OutsideBendForm(create_model("_OutsideKeys", __base__=_Form, **_keys(OutsideBend))):  # type: ignore[misc]
     """One bend between two flanges: `OutsideBend`, with the sizes of its tools as further keys."""
 
     def bend(self) -> OutsideBend:
         """The bend."""
-        given: dict[str, Any] = dict(self)
-        tools = {name: given.pop(name) for name in TOOLS}
-        return OutsideBend(**given, tools={name: size for name, size in tools.items() if size is not None})
+        return _made(OutsideBend, self)
 
 
 class OutsideForm(_Form):

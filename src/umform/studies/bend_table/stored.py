@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from umform.analysis.run.fingerprint import text
+from umform.digest import floats
 from umform.errors import InvalidValue, SolveError, UmformError
 from umform.io.store import Entry, Store, key_of
 from umform.problem.keys import law_keys
@@ -248,16 +249,7 @@ def bend_key(case: AirBending, angle: float, tolerance: float = TOLERANCE, solve
     problem = problem_of(replace(case, stroke=None), case.largest_stroke)
     data = problem.source.data
     own = [text(case.sheets)] if modules_of(data) else []  # a class of the user, whose name says nothing of its code
-    return key_of(KIND, RESULTS, text([_floats(data), float(angle), float(tolerance), solver, *own]))
-
-
-def _floats(data: Any) -> Any:
-    """The same with floats in place of integers: a thickness of 2 and of 2.0 is one."""
-    if isinstance(data, dict):
-        return {name: _floats(value) for name, value in data.items()}
-    if isinstance(data, list | tuple):
-        return [_floats(value) for value in data]
-    return float(data) if isinstance(data, int) and not isinstance(data, bool) else data
+    return key_of(KIND, RESULTS, text([floats(data), float(angle), float(tolerance), solver, *own]))
 
 
 def _run(
@@ -284,15 +276,19 @@ def _of(case: AirBending, angle: float, entry: Entry) -> StoredBend:
     return StoredBend(replace(case, stroke=numbers["stroke"]), angle, Measures(**numbers), notes, entry.key)
 
 
-def _about(case: AirBending, angle: float, tolerance: float) -> dict[str, Any]:
-    """What a bend was computed from, for people."""
-    rolling = None if case.rolling is None else {"angle": float(case.rolling)}
-    told = {
+def plain(case: AirBending) -> dict[str, int | float | str]:
+    """Parameters of a setup that are numbers or words; the stroke is that of a bend."""
+    return {
         name: value
         for name, value in case.record().items()
         if isinstance(value, int | float | str) and name not in ("stroke", "bottoming")
     }
-    return {"angle": angle, "tolerance": tolerance, **told, "material": _words(law_keys(case.material, rolling))}
+
+
+def _about(case: AirBending, angle: float, tolerance: float) -> dict[str, Any]:
+    """What a bend was computed from, for people."""
+    rolling = None if case.rolling is None else {"angle": float(case.rolling)}
+    return {"angle": angle, "tolerance": tolerance, **plain(case), "material": _words(law_keys(case.material, rolling))}
 
 
 def _words(value: Any) -> Any:

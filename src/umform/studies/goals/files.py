@@ -8,7 +8,6 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from umform.errors import InvalidValue
-from umform.io.atomic import PendingFile
 from umform.studies.goals.shapes import Tools
 from umform.surfaces import Box, write_tool
 from umform.surfaces.tool import Placed, Tool
@@ -42,13 +41,6 @@ def write_tools(folder: Path, found: Tools) -> list[Path]:
         if name not in exact:
             files.append(write_tool(tool, folder / f"compensated-{name}.stl", found.box, chord))
     return files
-
-
-def write_text(path: Path, text: str) -> Path:
-    """Write a file, complete or not at all."""
-    with PendingFile(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
-    return path
 
 
 def _is_exact(tool: Tool) -> bool:

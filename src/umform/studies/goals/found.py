@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 
 from umform.errors import InvalidValue
+from umform.io.atomic import write_text
 from umform.io.tables import write_csv
 from umform.processes.rules import number as is_number
 from umform.processes.rules import positive
 from umform.results.outcome import Annex, Study
 from umform.results.quantity import Quantity
-from umform.studies.goals.files import write_text, write_tools
+from umform.studies.goals.files import write_tools
 from umform.studies.goals.shapes import Shapes, Tools, picture
 
 #: What the picture shows.

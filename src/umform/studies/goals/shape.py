@@ -14,6 +14,7 @@ from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.run import Result, solve
 from umform.analysis.steps import Free, Release, Step
 from umform.errors import InvalidValue, SolveError
+from umform.io.atomic import write_text
 from umform.io.tables import write_csv
 from umform.mesh import Selector
 from umform.model import Model, Tool
@@ -27,7 +28,6 @@ from umform.results.outcome import Annex, Study
 from umform.spec import check_value, each
 from umform.spec.types import Count, Positive
 from umform.studies.goals.deviation import SmoothFace, deviations
-from umform.studies.goals.files import write_text
 from umform.studies.goals.found import DECK, TABLE
 from umform.surfaces import OffsetByField, OffsetField, Placed
 from umform.surfaces import Tool as Shape

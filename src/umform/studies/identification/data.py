@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from os import PathLike
 from typing import Any, Protocol
@@ -328,3 +328,9 @@ def _unfit(name: str, value: object) -> InvalidValue:
         cause="an empty cell, a number that is not finite, or one that is zero and has no standard deviation",
         remedy="such as 91.3+-.2; in Python 91.3, 0.2",
     )
+
+
+def numbers_of(data: Iterable[Measured]) -> tuple[Floats, Floats]:
+    """All measured numbers and their standard deviations."""
+    pairs = [one.numbers for one in data]
+    return np.concatenate([one for one, _ in pairs]), np.concatenate([one for _, one in pairs])

@@ -21,7 +21,7 @@ from umform.sheet_metals import Fit
 from umform.studies.calibration.words import vague
 from umform.studies.derivatives import Derivatives
 from umform.studies.derivatives.subjects import OfCase, OfFunction, OfProblem, Subject
-from umform.studies.identification.data import Measured, MeasuredCurve
+from umform.studies.identification.data import Measured, MeasuredCurve, numbers_of
 from umform.studies.identification.sought import Sought
 
 if TYPE_CHECKING:
@@ -167,8 +167,7 @@ class Identified(Study):
 
     @property
     def _measured(self) -> tuple[Floats, Floats]:
-        pairs = [one.numbers for one in self.data]
-        return np.concatenate([one for one, _ in pairs]), np.concatenate([one for _, one in pairs])
+        return numbers_of(self.data)
 
     def __str__(self) -> str:
         widths = [max(len(row[n]) for row in self.table) for n in range(len(self.table[0]))]

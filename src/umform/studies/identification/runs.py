@@ -17,7 +17,7 @@ from umform.spec import Scalar
 from umform.studies.derivatives import Derivatives, derivatives
 from umform.studies.derivatives.derive import paths_of
 from umform.studies.derivatives.subjects import Subject
-from umform.studies.identification.data import Measured
+from umform.studies.identification.data import Measured, numbers_of
 
 Floats = NDArray[np.float64]
 
@@ -92,8 +92,7 @@ class Runs:
     @property
     def numbers(self) -> tuple[Floats, Floats]:
         """All measured numbers and their standard deviations."""
-        pairs = [one.numbers for one in self.data]
-        return np.concatenate([one for one, _ in pairs]), np.concatenate([one for _, one in pairs])
+        return numbers_of(self.data)
 
     def _over(self, found: Floats) -> Floats:
         measured, deviations = self.numbers

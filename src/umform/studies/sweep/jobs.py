@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import umform
+from umform.digest import floats
 from umform.errors import FileProblem, UmformError
 from umform.io.tables import write_json
 from umform.problem import Problem, running
@@ -181,7 +182,7 @@ def _word(value: Any) -> str:
 
 def _fingerprint(deck: Problem) -> str:
     """Digest of everything that affects the numbers of a deck: its values, the files that it reads, the version."""
-    data = _without_whole_numbers({key: value for key, value in deck.source.data.items() if key != "title"})
+    data = floats({key: value for key, value in deck.source.data.items() if key != "title"})
     check = hashlib.sha256(json.dumps([umform.__version__, data], sort_keys=True, default=str).encode())
     for text in sorted(set(texts(data))):
         try:
@@ -191,12 +192,3 @@ def _fingerprint(deck: Problem) -> str:
     for module in modules_of(data).values():
         check.update(module)
     return check.hexdigest()[:8]
-
-
-def _without_whole_numbers(data: Any) -> Any:
-    """Data with integers as floats: 1 and 1.0 are the same value."""
-    if isinstance(data, Mapping):
-        return {key: _without_whole_numbers(entry) for key, entry in data.items()}
-    if isinstance(data, list | tuple):
-        return [_without_whole_numbers(entry) for entry in data]
-    return float(data) if isinstance(data, int) and not isinstance(data, bool) else data

@@ -135,15 +135,14 @@ class Path:
         ``yields``: whether it may exceed the allowed penetration rather than fail.
         """
         model = self.model
-        penalties = {contact: contact.penalty for contact in model.system.penalised}
+        penalties = model.system.penalties
         try:
             with model.system.with_term(self.equation):
                 with self.newton.timing.attempts.trying("arc"):
                     converged, state = self.newton.guarded(lambda: self._correct(length, yields))
                 model.system.commit(converged.evaluation)
         except BaseException:  # no convergence, Ctrl-C, an error of a user's function: restore the last converged state
-            for contact, penalty in penalties.items():
-                contact.use_penalty(penalty)
+            model.system.use_penalties(penalties)
             model.system.revert()
             model.system.prepare()
             raise

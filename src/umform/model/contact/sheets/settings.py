@@ -12,7 +12,7 @@ from annotated_types import Ge, Gt, Le
 
 from umform.errors import InvalidPenalty, InvalidValue
 from umform.mesh import Ids, Mesh
-from umform.model.contact.cells import MOST
+from umform.model.contact.cells import MOST, refuse_points_and_cells
 from umform.model.contact.encounter import Layer, bending_stress
 from umform.model.contact.friction import AnyFriction, friction_kernel
 from umform.model.contact.settings import ALLOWED
@@ -64,14 +64,7 @@ class SheetContactOptions:
 
     def __post_init__(self) -> None:
         check_fields(self)
-        if self.points is not None and self.cells is not None:
-            raise InvalidValue(
-                "give points or cells, and not both",
-                where="cells",
-                value=f"points {self.points}, cells {self.cells}",
-                cause="cells take the place of points",
-                remedy="leave one of them away",
-            )
+        refuse_points_and_cells(self.points, self.cells)
 
 
 @dataclass(frozen=True)

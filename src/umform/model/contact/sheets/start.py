@@ -12,6 +12,7 @@ from umform.mesh import Ids, Mesh
 from umform.mesh.part import sheets_of
 from umform.model.contact.encounter import sheet_thickness
 from umform.model.contact.sheets.pair import SheetContact
+from umform.surfaces.directions import coordinates
 
 Floats = NDArray[np.float64]
 
@@ -38,7 +39,7 @@ def check_overlap(contact: SheetContact, u: Floats) -> None:
         alone = len(contact.sides) == 1
         raise ModelError(
             "a sheet goes through itself at the start" if alone else "a sheet goes through another at the start",
-            where=f"contact {contact.name}, near {_text(crossed[0])}",
+            where=f"contact {contact.name}, near {coordinates(crossed[0])}",
             value=f"a fibre through its thickness ends {crossed[1]:.4g} behind the other face",
             cause="a fold with too small a radius or too long a flank" if alone else "parts laid into each other",
             remedy="open the fold, or shorten the flank" if alone else "move one of them until the faces just touch",
@@ -46,7 +47,7 @@ def check_overlap(contact: SheetContact, u: Floats) -> None:
     if found.depth > _OVERLAP * contact.thickness:
         raise ModelError(
             "two sheets overlap at the start",
-            where=f"contact {contact.name}, near {_text(found.x)}",
+            where=f"contact {contact.name}, near {coordinates(found.x)}",
             value=f"{found.depth:.4g} deep, the thinner sheet is {contact.thickness:.4g} thick",
             cause="a mid-surface in place of a face, another thickness, or a part that was laid in the wrong place",
             remedy=f"{_way_out(contact, u)}, or start with a gap",
@@ -82,15 +83,11 @@ def _way_out(contact: SheetContact, u: Floats) -> str:
     for _ in range(_TRIALS):
         found = _deepest(contact, moved.ravel())
         if found.depth <= _TOUCHING * contact.thickness:
-            return f"move the second sheet by {_text(way)}"
+            return f"move the second sheet by {coordinates(way)}"
         step = found.depth * found.normal * (1.0 if found.side == 1 else -1.0)
         way += step
         moved[nodes] += step
     return apart
-
-
-def _text(x: Floats) -> str:
-    return f"({', '.join(f'{value:.4g}' for value in x + 0.0)})"
 
 
 def check_facing(mesh: Mesh, sides: tuple[Ids, Ids], where: str) -> None:

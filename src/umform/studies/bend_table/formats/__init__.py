@@ -9,7 +9,7 @@ from pathlib import Path
 from umform.errors import InvalidValue
 from umform.spec import check_arguments, each
 from umform.studies.bend_table.formats import creo, freecad, inventor, solidworks, table_csv, table_json
-from umform.studies.bend_table.table import BendTable, Setup
+from umform.studies.bend_table.table import BendTable, Setup, Tabled
 
 
 @dataclass(frozen=True)
@@ -28,14 +28,19 @@ class Format:
     file: Callable[[Setup], str]
 
 
+def _each(write: Callable[[BendTable, Path, Tabled], Path]) -> Callable[[BendTable, Path], list[Path]]:
+    """Write a file for each setup that has bends."""
+    return lambda table, folder: [write(table, folder, part) for part in table.parts if part.bends]
+
+
 #: Formats by name.
 FORMATS = {
     "csv": Format(table_csv.write, lambda setup: "bends.csv"),
     "json": Format(table_json.write, lambda setup: "bends.json"),
-    "freecad": Format(freecad.write, lambda setup: f"{setup.name}.FCStd"),
+    "freecad": Format(_each(freecad.write), lambda setup: f"{setup.name}.FCStd"),
     "inventor": Format(inventor.write, lambda setup: f"{setup.tools}.inventor.txt"),
-    "creo": Format(creo.write, lambda setup: f"{setup.name}.bnd"),
-    "solidworks": Format(solidworks.write, lambda setup: f"{setup.name}.solidworks.txt"),
+    "creo": Format(_each(creo.write), lambda setup: f"{setup.name}.bnd"),
+    "solidworks": Format(_each(solidworks.write), lambda setup: f"{setup.name}.solidworks.txt"),
 }
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from umform.io.atomic import PendingFile
+from umform.io.atomic import write_text
 from umform.studies.bend_table.formats.reading import within
 from umform.studies.bend_table.head import head
 from umform.studies.bend_table.table import BendTable, Tabled
@@ -21,12 +21,8 @@ _NOTES = (
 )
 
 
-def write(table: BendTable, folder: Path) -> list[Path]:
-    """Write a file for each setup."""
-    return [_write(table, folder, part) for part in table.parts if part.bends]
-
-
-def _write(table: BendTable, folder: Path, part: Tabled) -> Path:
+def write(table: BendTable, folder: Path, part: Tabled) -> Path:
+    """Write the file of a setup."""
     ordered = part.by_radius
     y = 0.5 * math.pi * min(ordered, key=lambda one: abs(one.wanted - 90.0)).k_factor
     angles = ", ".join(f"{one.radius:.4f}: {one.wanted:g}" for one in ordered)
@@ -47,9 +43,7 @@ def _write(table: BendTable, folder: Path, part: Tabled) -> Path:
         + "\t".join(f"{one.allowance * 90.0 / (180.0 - one.measures.angle):.9f}" for one in ordered),
     ]
     path = folder / f"{part.setup.name}.bnd"
-    with PendingFile(path) as temporary:
-        temporary.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    return path
+    return write_text(path, "\n".join(lines) + "\n")
 
 
 @dataclass(frozen=True)

@@ -25,12 +25,8 @@ _NOTES = (
 _HEADINGS = ("Radius / Thickness", "K-factor (ANSI)")
 
 
-def write(table: BendTable, folder: Path) -> list[Path]:
-    """Write a document for each setup: a sheet of all angles, and one for each angle."""
-    return [_write(table, folder, part) for part in table.parts if part.bends]
-
-
-def _write(table: BendTable, folder: Path, part: Tabled) -> Path:
+def write(table: BendTable, folder: Path, part: Tabled) -> Path:
+    """Write the document of a setup: a sheet of all angles, and one for each angle."""
     notes = [line.replace("K-factor", "K") for line in (*head(table, part), *_NOTES)]  # the workbench looks for it
     label = f"material_{part.setup.name}"
     sheets = {label: _cells(part.by_radius, notes)}

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from umform.errors import FileProblem
-from umform.io.atomic import PendingFile
+from umform.io.atomic import write_text
 from umform.studies.bend_table.formats.reading import Reading
 from umform.studies.bend_table.head import head
 from umform.studies.bend_table.table import BendTable, Tabled
@@ -39,9 +39,7 @@ def _write(table: BendTable, folder: Path, name: str, parts: list[Tabled]) -> Pa
         for one in reversed(part.bends):
             lines.append(f"/A {one.bend_angle:.6f} " + " ".join([f"{one.deduction:.9f}"] * len(ends)))
     path = folder / f"{name}.inventor.txt"
-    with PendingFile(path) as temporary:
-        temporary.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    return path
+    return write_text(path, "\n".join(lines) + "\n")
 
 
 def read(path: Path) -> dict[float, Reading]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from umform.io.atomic import PendingFile
+from umform.io.atomic import write_text
 from umform.studies.bend_table.formats.reading import Reading
 from umform.studies.bend_table.head import head
 from umform.studies.bend_table.table import BendTable, Tabled
@@ -15,12 +15,8 @@ _NOTES = (
 )
 
 
-def write(table: BendTable, folder: Path) -> list[Path]:
-    """Write a file for each setup: SolidWorks takes one table for each thickness."""
-    return [_write(table, folder, part) for part in table.parts if part.bends]
-
-
-def _write(table: BendTable, folder: Path, part: Tabled) -> Path:
+def write(table: BendTable, folder: Path, part: Tabled) -> Path:
+    """Write the file of a setup: SolidWorks takes one table for each thickness."""
     radii = [one.radius for one in part.bends]
     ends = sorted({min(radii), max(radii)})
     rows = [
@@ -34,9 +30,7 @@ def _write(table: BendTable, folder: Path, part: Tabled) -> Path:
         *([f"{one.bend_angle:g}", *[f"{one.deduction:.9f}"] * len(ends)] for one in reversed(part.bends)),
     ]
     path = folder / f"{part.setup.name}.solidworks.txt"
-    with PendingFile(path) as temporary:
-        temporary.write_text("\n".join("\t".join(row) for row in rows) + "\n", encoding="utf-8")
-    return path
+    return write_text(path, "\n".join("\t".join(row) for row in rows) + "\n")
 
 
 def read(path: Path) -> Reading:

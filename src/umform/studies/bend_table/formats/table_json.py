@@ -9,10 +9,10 @@ from typing import Any
 
 import umform
 from umform.errors import FileProblem
-from umform.io.atomic import PendingFile
+from umform.io.atomic import write_text
 from umform.studies.bend_table.formats.reading import Reading
 from umform.studies.bend_table.head import DEFINITIONS
-from umform.studies.bend_table.stored import StoredBend
+from umform.studies.bend_table.stored import StoredBend, plain
 from umform.studies.bend_table.table import BendTable, Tabled
 
 
@@ -26,9 +26,7 @@ def write(table: BendTable, folder: Path) -> list[Path]:
         "tolerance": table.tolerance,
         "setups": [_setup(part) for part in table.parts],
     }
-    with PendingFile(path) as temporary:
-        temporary.write_text(json.dumps(data, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-    return [path]
+    return [write_text(path, json.dumps(data, indent=1, allow_nan=False) + "\n")]
 
 
 def _setup(part: Tabled) -> dict[str, Any]:
@@ -38,11 +36,7 @@ def _setup(part: Tabled) -> dict[str, Any]:
         "name": part.setup.name,
         "metal": part.setup.metal,
         **{name: getattr(case, name) for name in sizes},
-        "parameters": {
-            name: value
-            for name, value in case.record().items()
-            if isinstance(value, int | float | str) and name not in ("stroke", "bottoming")
-        },
+        "parameters": plain(case),
         "failed": {f"{angle:g}": why for angle, why in part.failed.items()},
         "linear_error": part.linear_error,
         "cubic_error": part.cubic_error,
