@@ -20,6 +20,7 @@ from scipy.spatial.transform import Rotation
 import umform
 from umform import _core, elements
 from umform import materials as mt
+from umform.analysis.run.checkpoint import Checkpoints
 from umform.mesh import FACE_NODES, Mesh, strip
 from umform.model import Model
 from umform.surfaces import Cylinder
@@ -383,6 +384,27 @@ def build():
 def same_state_of_two():
     """Whether two states are the same to the last bit."""
     return same_state
+
+
+@pytest.fixture
+def threads_as_before():
+    """Restore the number of threads after a test."""
+    before = umform.threads()
+    yield
+    umform.set_threads(before)
+
+
+@pytest.fixture
+def copies(monkeypatch, tmp_path):
+    """Paths of copies of all checkpoints that are written."""
+    write, paths = Checkpoints.write, []
+
+    def write_and_copy(self, run):
+        write(self, run)
+        paths.append(shutil.copy(self.path, tmp_path / f"copy{len(paths)}.h5"))
+
+    monkeypatch.setattr(Checkpoints, "write", write_and_copy)
+    return paths
 
 
 @pytest.fixture

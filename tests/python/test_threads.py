@@ -15,12 +15,7 @@ import umform
 from umform.analysis.run import solve
 from umform.analysis.steps import Move
 
-
-@pytest.fixture(autouse=True)
-def threads_as_before():
-    before = umform.threads()
-    yield
-    umform.set_threads(before)
+pytestmark = pytest.mark.usefixtures("threads_as_before")
 
 
 def test_the_number_of_threads_is_what_was_set():

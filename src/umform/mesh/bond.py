@@ -40,7 +40,7 @@ def bond(mesh: Mesh, faces: Selector, others: Selector) -> Mesh:
     --------
     >>> import umform as uf
     >>> strip = uf.mesh.strip(length=10.0, width=1.0, thickness=0.2, cells=(8, 1))
-    >>> stack = uf.mesh.together(a=strip, b=strip.transformed(lambda X: X + [0.0, 0.0, 0.2]))
+    >>> stack = uf.mesh.together(a=strip, b=strip.moved((0.0, 0.0, 0.2)))
     >>> clad = uf.mesh.bond(stack, "upper of a", "lower of b")
     >>> len(clad.points), "upper of a" in clad.faces, "upper of a" in clad.sets
     (54, False, True)

@@ -281,6 +281,10 @@ class Mesh:
         points: Floats = self.points + u.reshape(-1, 3)
         return points
 
+    def moved(self, translation: ArrayLike) -> Mesh:
+        """The same mesh with all points shifted."""
+        return self.transformed(lambda X: X + np.asarray(translation, dtype=float))
+
     def transformed(self, function: Callable[[Floats], Floats]) -> Mesh:
         """The same mesh with its points (n, 3) mapped by ``function``."""
         return Mesh(function(self.points), self.cells, self.sets, self.faces)

@@ -32,7 +32,7 @@ def together(**sheets: Mesh) -> Mesh:
     --------
     >>> import umform as uf
     >>> strip = uf.mesh.strip(length=10.0, width=1.0, thickness=0.2, cells=(8, 1))
-    >>> stack = uf.mesh.together(a=strip, b=strip.transformed(lambda X: X + [0.0, 0.0, 0.2]))
+    >>> stack = uf.mesh.together(a=strip, b=strip.moved((0.0, 0.0, 0.2)))
     >>> len(stack.points), "upper of a" in stack.faces
     (72, True)
     """

@@ -49,7 +49,7 @@ class Strip(Part, of=mesh.strip, leave=("cell",)):
         flat = mesh.strip(cell=cell, **self.of_spec())
         if self.rolled is not None:
             flat = flat.transformed(_roll(self.rolled))
-        return flat.transformed(lambda X: X + np.array(self.shift)) if any(self.shift) else flat
+        return flat.moved(self.shift) if any(self.shift) else flat
 
 
 def _roll(radius: float) -> Any:
@@ -230,7 +230,7 @@ class SheetPart(Part):
 
     def build(self, cell: str, folder: Path) -> Mesh:
         """Its mesh of cells of a type."""
-        return self.mesh.build(cell, folder).transformed(lambda X: X + np.array(self.shift))
+        return self.mesh.build(cell, folder).moved(self.shift)
 
 
 class Together(Part):

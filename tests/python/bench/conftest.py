@@ -11,7 +11,7 @@ pytest.importorskip("httpx2", reason="no httpx2, which Starlette's test client n
 
 import uvicorn
 from starlette.testclient import TestClient
-from visits import BROWSER, SOFTWARE_GL, Visit
+from visits import BROWSER, SOFTWARE_GL, Visit, wait
 
 from umform.bench.jobs import Queue
 from umform.bench.server import application, listening
@@ -40,14 +40,6 @@ class Bench:
     def ended(self, name, seconds=60.0):
         wait(lambda: self.state(name) not in ("waiting", "running"), seconds)
         return self.client.get(f"/api/jobs/{name}").json()
-
-
-def wait(holds, seconds=30.0):
-    """Wait until something holds."""
-    until = time.monotonic() + seconds
-    while not holds():
-        assert time.monotonic() < until, "it has not come to hold"
-        time.sleep(0.02)
 
 
 @pytest.fixture(scope="module")

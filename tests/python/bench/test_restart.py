@@ -13,6 +13,7 @@ import time
 from pathlib import Path
 
 import pytest
+from visits import wait
 
 from umform.bench import jobs
 from umform.bench.index import UNFINISHED
@@ -54,13 +55,6 @@ pictures = false
 vtkhdf = false
 report = false
 """
-
-
-def wait(holds, seconds=60.0):
-    until = time.monotonic() + seconds
-    while not holds():
-        assert time.monotonic() < until, "it has not come to hold"
-        time.sleep(0.02)
 
 
 class Server:

@@ -1,6 +1,7 @@
-"""A visit of the page of the bench in Chromium, for the browser tests."""
+"""A visit of the page of the bench in Chromium, for the browser tests; and waiting."""
 
 import shutil
+import time
 
 import pytest
 
@@ -47,3 +48,11 @@ def quick(page, stroke):
     page.locator("#fields details").last.locator("summary").click()
     page.select_option("#f-mesh", "quick")
     page.fill("#f-stroke", str(stroke))
+
+
+def wait(holds, seconds=60.0):
+    """Wait until something holds."""
+    until = time.monotonic() + seconds
+    while not holds():
+        assert time.monotonic() < until, "it has not come to hold"
+        time.sleep(0.02)

@@ -3,17 +3,12 @@
 import logging
 
 import pytest
-from typer.testing import CliRunner
+from command_line import umform
 
-from umform.cli import app
 from umform.problem.templates import template
 
 SHORT = ["--set", "mesh.cells=[12, 1]", "--set", "steps.0.increments=4", "--set", "steps.0.to.punch=-1.0"]
 IN_PER_CENT = "0,200\n5,300\n20,400\n"
-
-
-def umform(*words):
-    return CliRunner().invoke(app, [str(word) for word in words])
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ import time
 from dataclasses import replace
 
 import pytest
-from typer.testing import CliRunner
+from command_line import umform as umform_cli
 
 import umform
 from umform import cli
@@ -19,10 +19,6 @@ from umform.processors import available
 
 BEND = ["--stroke", "0.4", "--increment", "0.0125", "--element", "BEND8", "--layers", "1"]
 RUN = ["--mesh", "24x1", "--contact", "2", "--steps", "30", "--stroke", "2", "--no-unload"]
-
-
-def umform_cli(*arguments):
-    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
 
 
 #: What takes longer to load than all of `umform --version`.

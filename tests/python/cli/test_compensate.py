@@ -1,16 +1,11 @@
 """`umform compensate`, and `--want` of a bend."""
 
 import pytest
-from typer.testing import CliRunner
+from command_line import umform as run
 
-from umform import cli
 from umform.problem.templates import template_file
 
 COARSE = ["--set", "mesh.cells=[14,1]", "--set", "steps.0.to.stroke=1.0", "--set", "steps.0.increments=10"]
-
-
-def run(*words):
-    return CliRunner().invoke(cli.app, list(map(str, words)))
 
 
 def test_a_deck_is_compensated(tmp_path):

@@ -7,9 +7,8 @@ import shutil
 import h5py
 import pytest
 import pyvista as pv
-from typer.testing import CliRunner
+from command_line import umform
 
-from umform import cli
 from umform.report.state_files import read_state
 
 BEND = """
@@ -69,10 +68,6 @@ state = true
 pictures = false
 report = false
 """
-
-
-def umform(*words):
-    return CliRunner().invoke(cli.app, [str(word) for word in words])
 
 
 @pytest.fixture(scope="module")

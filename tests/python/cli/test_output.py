@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
+from command_line import umform
 
 from umform import cli
 from umform.analysis.run import Result
@@ -20,10 +20,6 @@ from umform.problem.templates import write_template
 SOURCE = Path(cli.__file__).parents[2]
 FAST = ["--set", "steps.0.increments=4", "--set", "output.pictures=false", "--set", "output.report=false"]
 full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
-
-
-def umform(*words):
-    return CliRunner().invoke(cli.app, [str(word) for word in words])
 
 
 def shell(line, folder):

@@ -14,7 +14,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from command_line import umform
 
 from umform import cli
 from umform.analysis.newton.newton import Newton
@@ -28,10 +28,6 @@ SOURCE = Path(cli.__file__).parents[2]
 #: Contact, plasticity and a release, in some seconds.
 SHORT = ["--set", "steps.0.increments=60", "--set", "steps.0.to.punch=-3.0", "--set", "output.report=false"]
 SHORT += ["--set", "output.pictures=false"]
-
-
-def umform(*words):
-    return CliRunner().invoke(cli.app, [str(word) for word in words])
 
 
 def started(*words):

@@ -11,7 +11,7 @@ import time
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
+from command_line import umform
 
 from umform import cli
 from umform.problem.templates import write_template
@@ -20,10 +20,6 @@ from umform.processes.air_bending.branches import Brake
 SOURCE = Path(cli.__file__).parents[2]
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals")
 SHORT = ["--set", "steps.0.increments=300", "--set", "output.report=false", "--set", "output.pictures=false"]
-
-
-def umform(*words):
-    return CliRunner().invoke(cli.app, [str(word) for word in words])
 
 
 def started(*words, code=""):

@@ -5,16 +5,11 @@ from __future__ import annotations
 import importlib.metadata
 
 import pytest
-from typer.testing import CliRunner
+from command_line import umform as umform_cli
 
-from umform import cli
 from umform.cli import plugins
 
 ONE = "linear-hemisphere"
-
-
-def umform_cli(*arguments):
-    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
 
 
 def test_without_a_case_they_are_listed():

@@ -1,4 +1,4 @@
-"""Metals that the tests lead along their paths, and tensors."""
+"""Laws, hardening curves and metals of the tests, and tensors."""
 
 from __future__ import annotations
 
@@ -7,6 +7,20 @@ import numpy as np
 from umform import materials as mt
 from umform.history_variables import named
 
+KAPPA, MU = 175e3, 80.77e3
+ELASTIC = {
+    "svk": mt.SVK(kappa=KAPPA, mu=MU),
+    "neo-hooke": mt.NeoHooke(kappa=KAPPA, mu=MU),
+    "neo-hooke-power": mt.NeoHookePower(kappa=KAPPA, mu=MU),
+}
+HARDENING = {
+    "perfect": mt.Perfect(160.0),
+    "linear": mt.Linear(160.0, 500.0),
+    "voce": mt.Voce(160.0, 320.0, 15.0),
+    "linear-voce": mt.LinearVoce(160.0, 300.0, 250.0, 40.0),
+    "swift": mt.Swift(500.0, 0.004, 0.21),
+    "table": mt.Table((0.0, 0.02, 0.1, 0.5), (160.0, 220.0, 220.0, 400.0)),
+}
 STEEL = {"E": 210e3, "nu": 0.3}
 ALUMINIUM = {"E": 70e3, "nu": 0.33}
 PAIRS = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)]

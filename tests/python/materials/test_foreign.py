@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import importlib.util
 import math
 import re
 import runpy
@@ -11,6 +10,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import cards
 import numpy as np
 import pytest
 
@@ -21,10 +21,6 @@ from umform.history_variables import history_of, named
 from umform.problem import Problem
 from umform.problem.errors import DeckError
 from umform.report.materials import material_text
-
-_SPEC = importlib.util.spec_from_file_location("cards", Path(__file__).with_name("cards.py"))
-cards = importlib.util.module_from_spec(_SPEC)
-_SPEC.loader.exec_module(cards)
 
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "umat"
 STATE = {"back_stress": 6, "eqps": 1}

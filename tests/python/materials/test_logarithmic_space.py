@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-import importlib.util
-from pathlib import Path
-
+import cards
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from umform import materials as mt
 from umform.history_variables import named
-
-_SPEC = importlib.util.spec_from_file_location("cards", Path(__file__).with_name("cards.py"))
-cards = importlib.util.module_from_spec(_SPEC)
-_SPEC.loader.exec_module(cards)
 
 
 @pytest.mark.parametrize("size", [1e-6, 1e-3, 0.02, 0.3])

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from cards import ELASTIC, HARDENING, KAPPA, MU, green_lagrange, tensor
 from scipy.spatial.transform import Rotation
 
 from umform import materials as mt
@@ -14,36 +15,6 @@ from umform.analysis.steps import Move
 from umform.errors import HardeningNotMonotone, InvalidValue, NotFinite
 from umform.history_variables import history_of, named
 from umform.model import Model
-
-KAPPA, MU = 175e3, 80.77e3
-PAIRS = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)]
-SHEAR = np.array([1, 1, 1, 2, 2, 2])
-
-ELASTIC = {
-    "svk": mt.SVK(kappa=KAPPA, mu=MU),
-    "neo-hooke": mt.NeoHooke(kappa=KAPPA, mu=MU),
-    "neo-hooke-power": mt.NeoHookePower(kappa=KAPPA, mu=MU),
-}
-HARDENING = {
-    "perfect": mt.Perfect(160.0),
-    "linear": mt.Linear(160.0, 500.0),
-    "voce": mt.Voce(160.0, 320.0, 15.0),
-    "linear-voce": mt.LinearVoce(160.0, 300.0, 250.0, 40.0),
-    "swift": mt.Swift(500.0, 0.004, 0.21),
-    "table": mt.Table((0.0, 0.02, 0.1, 0.5), (160.0, 220.0, 220.0, 400.0)),
-}
-
-
-def tensor(voigt, shear=1.0):
-    return np.asarray(voigt)[[[0, 3, 5], [3, 1, 4], [5, 4, 2]]] * (np.eye(3) + shear * (1 - np.eye(3)))
-
-
-def voigt_strain(E):
-    return np.array([E[i, j] for i, j in PAIRS]) * SHEAR
-
-
-def green_lagrange(F):
-    return voigt_strain(0.5 * (F.T @ F - np.eye(3)))
 
 
 def respond(law, E, state):
@@ -274,7 +245,7 @@ def test_close_and_equal_roots_lose_no_digits(gap, size, rotation):
 
     def at(gap):
         U = rotation @ np.diag([1 + size, 1 + size * (1 + gap), 1 - 0.4 * size]) @ rotation.T
-        return voigt_strain(0.5 * (U @ U - np.eye(3)))
+        return green_lagrange(U)
 
     for state in (law.initial(), respond(law, 0.6 * at(0.0), law.initial())[2]):
         S, CC, new = respond(law, at(gap), state)
@@ -290,7 +261,7 @@ def test_close_and_equal_roots_lose_no_digits(gap, size, rotation):
 def test_three_equal_roots_and_a_zero_deviator():
     law = mt.J2(kappa=KAPPA, mu=MU, hardening=HARDENING["linear"]).law()
     for stretch in (0.7, 1.0, 1.4):
-        E = voigt_strain(0.5 * (stretch**2 - 1) * np.eye(3))
+        E = green_lagrange(stretch * np.eye(3))
         S, CC, state = respond(law, E, law.initial())
         expected = 3 * KAPPA * math.log(stretch) / stretch**2
         np.testing.assert_allclose(S, [expected] * 3 + [0] * 3, atol=1e-12 * KAPPA)

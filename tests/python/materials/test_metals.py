@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import contextlib
-import importlib.util
 import math
-from pathlib import Path
 
+import cards
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -16,9 +15,6 @@ from umform import materials as mt
 from umform.errors import InvalidValue
 from umform_book.newton_order import measure
 
-_SPEC = importlib.util.spec_from_file_location("cards", Path(__file__).with_name("cards.py"))
-cards = importlib.util.module_from_spec(_SPEC)
-_SPEC.loader.exec_module(cards)
 STEEL, SPCC = cards.STEEL, cards.SPCC
 
 

@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-import importlib.util
 import itertools
 import math
-from pathlib import Path
 
+import cards
 import numpy as np
 import pytest
 
 from umform import materials as mt
 from umform.history_variables import named
-
-_SPEC = importlib.util.spec_from_file_location("cards", Path(__file__).with_name("cards.py"))
-cards = importlib.util.module_from_spec(_SPEC)
-_SPEC.loader.exec_module(cards)
 
 
 @pytest.mark.parametrize("card", cards.CARDS)

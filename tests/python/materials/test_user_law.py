@@ -70,13 +70,6 @@ def watched():
     return function, model, pull
 
 
-@pytest.fixture
-def threads_as_before():
-    before = umform.threads()
-    yield
-    umform.set_threads(before)
-
-
 def raised(error):
     def action(answer):
         raise error

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-import importlib.util
 import itertools
-from pathlib import Path
 
+import cards
 import numpy as np
 import pytest
 
 from umform import materials as mt
-
-_SPEC = importlib.util.spec_from_file_location("cards", Path(__file__).with_name("cards.py"))
-cards = importlib.util.module_from_spec(_SPEC)
-_SPEC.loader.exec_module(cards)
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,7 @@ def strip(cells=(8, 1), thickness=0.2, cell="hex8"):
 
 
 def lifted(mesh, z=0.2, x=0.0):
-    return mesh.transformed(lambda X: X + np.array([x, 0.0, z]))
+    return mesh.moved((x, 0.0, z))
 
 
 @pytest.mark.parametrize("cell", ["hex8", "hex18"])

@@ -20,8 +20,10 @@ from umform.errors import (
     WrongCellType,
     WrongNodeOrder,
 )
+from umform.materials import SVK
 from umform.mesh import FACES, Mesh, graded, grid, plate, quality, strip
 from umform.mesh.quality import jacobians
+from umform.model import Model
 
 CELLS = ("hex8", "hex18")
 
@@ -358,3 +360,13 @@ def test_distorted_but_valid_cells_are_accepted(build, cell):
 def test_all_refusals_of_the_mesh_are_mesh_errors_or_invalid_values():
     for error in (InvertedElement, FoldedElement, WrongNodeOrder, WrongCellType, UnknownSet, EmptySet):
         assert issubclass(error, MeshError)
+
+
+def test_a_mesh_moves_and_follows_a_displacement():
+    mesh = strip(2.0, 1.0, 0.5, (2, 1))
+    assert np.array_equal(mesh.moved((1.0, 0.0, 0.25)).points, mesh.points + np.array([1.0, 0.0, 0.25]))
+    u = np.arange(3.0 * len(mesh.points))
+    assert np.array_equal(mesh.displaced(u), mesh.points + u.reshape(-1, 3))
+    model = Model(mesh, material=SVK(E=1.0, nu=0.0))
+    model.u = u
+    assert np.array_equal(model.positions, mesh.displaced(u))

@@ -46,7 +46,7 @@ def drawn_plate(build, rng, tool, curve, closed, cell="hex8", slip=0.01, way=0.0
     """A plate near a tool that moves and turns, after an increment that has called the bead up in part."""
     mesh = build.jittered(strip(2.0, 1.5, 0.2, (3, 2), cell=cell), 0.1)
     height = 0.13 if isinstance(tool, UserSurface) else 0.17  # where the bead fades, with three times the gap
-    mesh = mesh.transformed(lambda x: x + np.array([0.0, 0.0, height]))
+    mesh = mesh.moved((0.0, 0.0, height))
     model = Model(mesh, {"hex8": "ANS3DEAS", "hex18": "MI9K3DEAS"}[cell], material=ELASTIC)
     die = model.tool("die", tool)
     bead = model.bead("lower", die, curve, closed=closed, restraint=7.0, uplift=3.0, width=1.0, slip=slip, points=6)
@@ -93,7 +93,7 @@ def test_tangent_on_faces_of_nine_nodes(build, rng):
 
 
 def test_a_sheet_and_a_tool_that_move_together_feel_the_same_bead(build, rng):
-    mesh = strip(2.0, 1.5, 0.2, (3, 2)).transformed(lambda x: x + np.array([0.0, 0.0, 0.12]))
+    mesh = strip(2.0, 1.5, 0.2, (3, 2)).moved((0.0, 0.0, 0.12))
     model = Model(mesh, material=ELASTIC)
     die = model.tool("die", TOOLS["bowl"])
     bead = model.bead("lower", die, *CURVES["corner"][:1], restraint=7.0, uplift=3.0, width=1.0, slip=0.1)
@@ -132,7 +132,7 @@ def rigid_way(bead, way):
 def test_the_resultant_is_restraint_times_length(place):
     """Elements as long as half the band are enough, wherever the line lies; 9-node faces too."""
     for cell in ("hex8", "hex18"):
-        mesh = strip(8.0, 6.0, 0.2, (8, 6), cell=cell).transformed(lambda x: x + np.array([0.0, 0.0, 0.1]))
+        mesh = strip(8.0, 6.0, 0.2, (8, 6), cell=cell).moved((0.0, 0.0, 0.1))
         model = Model(mesh, {"hex8": "ANS3DEAS", "hex18": "MI9K3DEAS"}[cell], material=ELASTIC)
         die = model.tool("die", TOOLS["plane"])
         line = [(4 + place, 1.1, 0.0), (4 + place, 4.6, 0.0)]
@@ -143,7 +143,7 @@ def test_the_resultant_is_restraint_times_length(place):
 
 
 def test_the_resultant_of_a_closed_line_is_that_of_its_length():
-    mesh = strip(8.0, 8.0, 0.2, (8, 8)).transformed(lambda x: x + np.array([-4.0, 0.0, 0.1]))
+    mesh = strip(8.0, 8.0, 0.2, (8, 8)).moved((-4.0, 0.0, 0.1))
     y = mesh.points[:, 1].mean()
     model = Model(mesh, material=ELASTIC)
     die = model.tool("die", TOOLS["plane"])
@@ -161,7 +161,7 @@ def test_the_resultant_of_a_closed_line_is_that_of_its_length():
 
 
 def test_a_way_along_the_line_is_free():
-    mesh = strip(8.0, 6.0, 0.2, (8, 6)).transformed(lambda x: x + np.array([0.0, 0.0, 0.1]))
+    mesh = strip(8.0, 6.0, 0.2, (8, 6)).moved((0.0, 0.0, 0.1))
     model = Model(mesh, material=ELASTIC)
     bead = model.bead("lower", model.tool("die", TOOLS["plane"]), [(4, 0, 0), (4, 6, 0)], restraint=7.0, width=2.0)
     found = rigid_way(bead, np.tile([0.0, 0.3, 0.0], (len(mesh.points), 1)))
@@ -189,7 +189,7 @@ def test_a_bead_fades_with_the_gap():
 
 def drawn_strip(uplift=0.0, E=2e5, **settings):
     """A strip on a bed under a lid, with a bead across the bed, pulled at one end."""
-    mesh = strip(40.0, 3.0, 1.0, (20, 1)).transformed(lambda x: x + np.array([0.0, 0.0, 0.5]))
+    mesh = strip(40.0, 3.0, 1.0, (20, 1)).moved((0.0, 0.0, 0.5))
     model = Model(mesh, material=mt.NeoHooke(E=E, nu=0.3))
     model.fix(lambda x, y, z: y > -1, "y")
     pull = model.prescribe("x1", "x", "pull")

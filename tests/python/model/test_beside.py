@@ -24,7 +24,7 @@ def bent():
 
 
 def test_the_part_keeps_its_state_and_the_other_sheet_is_undeformed(bent):
-    model = laid_beside(bent, cover=STRIP.transformed(lambda X: X + np.array([0.0, 0.0, 3.0])))
+    model = laid_beside(bent, cover=STRIP.moved((0.0, 0.0, 3.0)))
     part, cover = model.bodies
     before = bent.bodies[0].state()
     for name, values in part.state().items():

@@ -45,13 +45,9 @@ TOOLS = {
 }
 
 
-def lifted(z):
-    return lambda x: x + np.array([0.0, 0.0, z])
-
-
 def plate(cell, build, amount=0.1):
     """A plate of 2 x 1.5 x 0.2 whose lower face is z = 0, with distorted cells."""
-    return build.jittered(strip(2.0, 1.5, 0.2, (3, 2), cell=cell), amount).transformed(lifted(0.1))
+    return build.jittered(strip(2.0, 1.5, 0.2, (3, 2), cell=cell), amount).moved((0.0, 0.0, 0.1))
 
 
 def contact_of(mesh, tool, points, penalty=50.0, cell="hex8", faces="lower"):
@@ -161,7 +157,7 @@ def test_nodal_rule_has_the_tributary_areas_of_the_shape_functions(cell, parts):
 )  # one point on a 9-node facet would hold its centre only
 def test_under_a_uniform_traction_the_gap_is_pressure_over_penalty_everywhere(cell, points):
     """In equilibrium, not prescribed: a compressed block on a plane between sliding walls."""
-    mesh = strip(2.0, 1.5, 0.5, (3, 2), cell=cell, grading=(1.5, 1.0)).transformed(lifted(0.25))
+    mesh = strip(2.0, 1.5, 0.5, (3, 2), cell=cell, grading=(1.5, 1.0)).moved((0.0, 0.0, 0.25))
     model, contact = contact_of(mesh, Plane((0.0, 0.0, 1e-3)), points, penalty=400.0, cell=cell)
     for face, normal in (("x0", "x"), ("x1", "x"), ("y0", "y"), ("y1", "y")):
         model.symmetry(face, normal=normal)
@@ -181,7 +177,7 @@ def test_under_a_uniform_traction_the_gap_is_pressure_over_penalty_everywhere(ce
 
 def standing(gap, element, points):
     """A block of thickness 0.5 between two planes of symmetry that a tool below it alone holds, a gap apart."""
-    mesh = strip(2.0, 1.5, 0.5, (3, 2), cell="hex18" if "9K" in element else "hex8").transformed(lifted(0.25))
+    mesh = strip(2.0, 1.5, 0.5, (3, 2), cell="hex18" if "9K" in element else "hex8").moved((0.0, 0.0, 0.25))
     model = Model(mesh, element, material=ELASTIC)
     model.symmetry("x0", "x")
     model.symmetry("y0", "y")

@@ -21,14 +21,10 @@ from umform.surfaces import Cylinder, Plane, Sphere
 ELEMENT = {"hex8": "ANS3DEAS", "hex18": "MI9K3DEAS"}
 
 
-def lifted(z):
-    return lambda x: x + np.array([0.0, 0.0, z])
-
-
 @pytest.mark.parametrize("cell", ["hex8", "hex18"])
 @pytest.mark.parametrize("points", [2, 4, "nodes"])
 def test_force_and_tangent_are_derivatives_of_the_potential(build, rng, cell, points):
-    mesh = build.jittered(strip(2.0, 1.5, 0.2, (3, 2), cell=cell), 0.1).transformed(lifted(0.1))
+    mesh = build.jittered(strip(2.0, 1.5, 0.2, (3, 2), cell=cell), 0.1).moved((0.0, 0.0, 0.1))
     model = Model(mesh, ELEMENT[cell], material=mt.NeoHooke(E=1000.0, nu=0.3))
     contact = model.contact("lower", Sphere((1.0, 0.7, -7.97), 8.0), penalty=50.0, points=points, augmented=True)
     full = build.full_tangent(contact.block, len(mesh.points))
@@ -54,7 +50,7 @@ def test_force_and_tangent_are_derivatives_of_the_potential(build, rng, cell, po
 
 @pytest.mark.parametrize(("cell", "points"), [("hex8", 2), ("hex8", "nodes"), ("hex18", 3), ("hex18", "nodes")])
 def test_a_uniform_pressure_is_exact_without_a_penetration(cell, points):
-    mesh = strip(2.0, 1.5, 0.5, (3, 2), cell=cell, grading=(1.5, 1.0)).transformed(lifted(0.25))
+    mesh = strip(2.0, 1.5, 0.5, (3, 2), cell=cell, grading=(1.5, 1.0)).moved((0.0, 0.0, 0.25))
     model = Model(mesh, ELEMENT[cell], material=mt.NeoHooke(E=1000.0, nu=0.3))
     contact = model.contact("lower", Plane(), penalty=400.0, penetration=1e-9, points=points, augmented=True)
     for face, normal in (("x0", "x"), ("x1", "x"), ("y0", "y"), ("y1", "y")):

@@ -27,7 +27,7 @@ ELASTIC = mt.SVK(E=1e5, nu=0.0)
 
 def three_points(penalty, points, *, radius=20.0, length=40.0, thickness=0.5, cells=24, far=(0.0, 0.0, 0.0)):
     """Half of a strip on a support, under a cylinder that just touches its middle; all of it ``far`` away."""
-    sheet = strip(length, 2.0, thickness, (cells, 1), grading=(10.0, 1.0)).transformed(lambda x: x + np.array(far))
+    sheet = strip(length, 2.0, thickness, (cells, 1), grading=(10.0, 1.0)).moved(far)
     model = Model(sheet, material=ELASTIC)
     model.symmetry("x0", "x")
     model.fix(np.arange(len(sheet.points)), "y")
@@ -85,7 +85,7 @@ def test_stiff_runs_converge_at_the_tolerance_of_the_house_and_to_the_force_of_s
 
 def test_the_scale_of_round_off_by_hand():
     """One facet of area 1 that lies flat: |x| at its point, no curvature; each node has a quarter of it."""
-    sheet = strip(1.0, 1.0, 0.5, (1, 1)).transformed(lambda x: x + np.array([3.0, 0.0, 4.25]))
+    sheet = strip(1.0, 1.0, 0.5, (1, 1)).moved((3.0, 0.0, 4.25))
     model = Model(sheet, material=ELASTIC)
     contact = model.contact("lower", Plane((0.0, 0.0, 4.0)), penalty=7.0, points=1)
     at = model.evaluate(model.u).found[contact]

@@ -20,13 +20,9 @@ ELEMENT = {"hex8": "ANS3DEAS", "hex18": "MI9K3DEAS"}
 DC04_LIKE = mt.J2(E=210e3, nu=0.3, hardening=mt.Swift(strength=520.0, offset=0.004, exponent=0.22))
 
 
-def lifted(z):
-    return lambda x: x + np.array([0.0, 0.0, z])
-
-
 def vdie(cells=24, cell="hex8", **contact):
     """Half of a sheet of 2 mm in a die of 16 mm, plane strain; the punch is driven."""
-    mesh = strip(16.0, 1.0, 2.0, (cells, 1), cell=cell).transformed(lifted(1.0))
+    mesh = strip(16.0, 1.0, 2.0, (cells, 1), cell=cell).moved((0.0, 0.0, 1.0))
     model = Model(mesh, ELEMENT[cell], material=DC04_LIKE)
     model.symmetry("x0", "x")
     model.fix(np.arange(len(mesh.points)), "y")

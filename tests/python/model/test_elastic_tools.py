@@ -56,7 +56,7 @@ def test_a_body_of_a_name():
 def test_the_force_of_an_elastic_die_is_that_of_the_punch(rule):
     thickness = 1.0
     block = DIE.elastic_body(((1.5, -2.5), (9, 0)), ((1.5, -10), (9, -10)), size=1.0, layers=5, growth=3, turn=15)
-    half = uf.mesh.strip(9.0, 1.0, thickness, (18, 1)).transformed(lambda X: X + np.array([0, 0, 0.5 * thickness]))
+    half = uf.mesh.strip(9.0, 1.0, thickness, (18, 1)).moved((0, 0, 0.5 * thickness))
     mesh = uf.mesh.together(sheet=half, die=block)
     model = uf.Model(mesh, bodies=[uf.Body(material=STEEL, cells=name, name=name) for name in ("sheet", "die")])
     contact = model.sheet_contact("lower of sheet", "upper of die", name="shoulder", **rule)

@@ -63,13 +63,9 @@ TOOLS = {
 }
 
 
-def lifted(z):
-    return lambda x: x + np.array([0.0, 0.0, z])
-
-
 def rubbing_plate(build, rng, tool, cell="hex8", points=3, friction=0.3, slip=0.01):
     """A plate that touches a tool in part, after an increment in which it touched it in another part."""
-    mesh = build.jittered(strip(2.0, 1.5, 0.2, (3, 2), cell=cell), 0.1).transformed(lifted(0.1))
+    mesh = build.jittered(strip(2.0, 1.5, 0.2, (3, 2), cell=cell), 0.1).moved((0.0, 0.0, 0.1))
     model = Model(mesh, ELEMENT[cell], material=ELASTIC)
     contact = model.contact("lower", tool, penalty=50.0, points=points, friction=friction, slip=slip)
     shift, turn = np.array([0.3, 0.2, 0.0]), np.array([0.1, -0.05, 2.0])
@@ -156,7 +152,7 @@ def test_evaluate_changes_no_history_and_gives_the_same_twice(build, rng):
 @pytest.mark.parametrize("name", ["plane", "cylinder", "sphere", "bowl"])
 def test_a_sheet_and_a_tool_that_move_together_feel_no_friction(build, rng, name):
     """The history lives in the frame of the tool: tractions turn with both."""
-    mesh = strip(2.0, 1.5, 0.2, (3, 2)).transformed(lifted(0.1))
+    mesh = strip(2.0, 1.5, 0.2, (3, 2)).moved((0.0, 0.0, 0.1))
     model = Model(mesh, material=ELASTIC)
     contact = model.contact("lower", TOOLS[name], penalty=50.0, points=3, friction=0.3, slip=0.01)
     shift, turn = np.zeros(3), np.zeros(3)

@@ -6,20 +6,17 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from sheet_forces import check_tangent, forces_of
 
 import umform as uf
 from umform import _core
 from umform.model.contact.sheets.faces import near_in_the_sheet
 
 
-def moved(mesh, *way):
-    return mesh.transformed(lambda X: X + np.array(way))
-
-
 def stack(first=(5, 2), second=(5, 2), cell="hex8"):
     """Two plates on each other."""
     lower = uf.mesh.strip(10.0, 4.0, 1.0, first, cell=cell)
-    upper = moved(uf.mesh.strip(10.0, 4.0, 1.0, second, cell=cell), 0.0, 0.0, 1.0)
+    upper = uf.mesh.strip(10.0, 4.0, 1.0, second, cell=cell).moved((0.0, 0.0, 1.0))
     return uf.mesh.together(a=lower, b=upper)
 
 
@@ -38,14 +35,6 @@ def wavy(mesh, size=0.02):
     return u.ravel()
 
 
-def forces_of(model, contact, u, du=None):
-    """Forces of the contact alone, and K du."""
-    pattern, f, Kdu = model.system._assembly().whole_pattern, np.zeros(u.size), np.zeros(u.size)
-    for one in contact.passes:
-        one.evaluate(u, pattern, f, None, du, None if du is None else Kdu)
-    return f, Kdu
-
-
 @pytest.mark.parametrize("cell", ["hex8", "hex18"])
 @pytest.mark.parametrize("options", [{"points": 3}, {"cells": 3}, {"friction": 0.2}], ids=str)
 def test_the_tangent_is_the_derivative_of_the_forces(cell, options):
@@ -54,12 +43,7 @@ def test_the_tangent_is_the_derivative_of_the_forces(cell, options):
     u = wavy(mesh, 0.02 if cell == "hex8" else 0.005)
     active = model.evaluate(u).found[contact].active
     assert 0.2 < active.mean() < 0.9
-    rng, h = np.random.default_rng(2), 1e-6
-    for _ in range(3):
-        du = rng.standard_normal(u.size)
-        f = [forces_of(model, contact, u + k * h * du)[0] for k in (-2, -1, 1, 2)]
-        difference = (f[0] - 8.0 * f[1] + 8.0 * f[2] - f[3]) / (12.0 * h)
-        assert np.abs(difference - forces_of(model, contact, u, du)[1]).max() < 1e-7 * np.abs(difference).max()
+    check_tangent(model, contact, u, seed=2)
 
 
 @pytest.mark.parametrize("options", [{"points": 3}, {"cells": 3}], ids=str)
@@ -80,7 +64,7 @@ def test_the_forces_have_no_resultant_and_no_moment(options):
 def test_the_forces_far_from_the_origin_are_those_at_it(cell, options):
     """There the coordinates of a foot cannot be found to more digits than those of the nodes have."""
     mesh = stack((5, 2), (7, 3), cell)
-    u, far = wavy(mesh, 0.02 if cell == "hex8" else 0.005), moved(mesh, 3000.0, -2000.0, 1000.0)
+    u, far = wavy(mesh, 0.02 if cell == "hex8" else 0.005), mesh.moved((3000.0, -2000.0, 1000.0))
     (here, one), (there, other) = (model_of(at, **options) for at in (mesh, far))
     here.evaluate(u)
     there.evaluate(u)
@@ -123,7 +107,7 @@ def test_the_sides_may_be_exchanged():
 def rubbed(mu=0.2):
     """A small block that is pressed onto a plate and pushed along it, at a converged state with friction."""
     plate = uf.mesh.strip(10.0, 4.0, 1.0, (6, 2))
-    block = moved(uf.mesh.strip(4.0, 2.0, 1.0, (3, 2)), 2.1, 1.1, 1.02)
+    block = uf.mesh.strip(4.0, 2.0, 1.0, (3, 2)).moved((2.1, 1.1, 1.02))
     mesh = uf.mesh.together(a=plate, b=block)
     model = uf.Model(mesh, "ANS3DEAS", material=uf.SVK(E=210e3, nu=0.3))
     contact = model.sheet_contact("upper of a", "lower of b", name="block", friction=mu, points=2)
@@ -158,15 +142,10 @@ def test_a_sticking_block_keeps_its_traction():
 def test_the_tangent_of_friction_has_its_history():
     model, contact, down, along = rubbed()
     uf.solve(model, [uf.Move(down, -0.022, steps=2), uf.Move(along, 0.0015, steps=2)], progress=False)
-    rng, h = np.random.default_rng(3), 1e-7
-    u = model.u + 5e-4 * rng.standard_normal(model.u.size)
+    u = model.u + 5e-4 * np.random.default_rng(3).standard_normal(model.u.size)
     status = model.evaluate(u).found[contact].status
     assert (status == 1).any() and (status == 2).any()
-    for _ in range(3):
-        du = rng.standard_normal(u.size)
-        f = [forces_of(model, contact, u + k * h * du)[0] for k in (-2, -1, 1, 2)]
-        difference = (f[0] - 8.0 * f[1] + 8.0 * f[2] - f[3]) / (12.0 * h)
-        assert np.abs(difference - forces_of(model, contact, u, du)[1]).max() < 1e-7 * np.abs(difference).max()
+    check_tangent(model, contact, u, seed=3, h=1e-7)
 
 
 def test_a_sliding_point_meets_no_step_of_its_force():
@@ -174,7 +153,7 @@ def test_a_sliding_point_meets_no_step_of_its_force():
     bent = uf.mesh.strip(4.0, 2.0, 0.5, (4, 1)).transformed(
         lambda X: np.column_stack([X[:, 0], X[:, 1], X[:, 2] + 0.15 * np.abs(X[:, 0] - 2.0)])
     )
-    small = moved(uf.mesh.strip(0.2, 0.2, 0.5, (1, 1)), 1.9, 0.9, 0.5)
+    small = uf.mesh.strip(0.2, 0.2, 0.5, (1, 1)).moved((1.9, 0.9, 0.5))
     mesh = uf.mesh.together(a=bent, b=small)
     model = uf.Model(mesh, "ANS3DEAS", material=uf.SVK(E=210e3, nu=0.3))
     contact = model.sheet_contact("upper of a", "lower of b", name="edge", penalty=1e3, points=1)
@@ -229,7 +208,7 @@ def test_a_stored_state_goes_on_to_the_same_bits():
 def test_sheets_that_overlap_at_the_start_are_refused():
     lower = uf.mesh.strip(10.0, 4.0, 1.0, (5, 2))
     for way in (0.7, 0.3):
-        mesh = uf.mesh.together(a=lower, b=moved(lower, 0.0, 0.0, way))
+        mesh = uf.mesh.together(a=lower, b=lower.moved((0.0, 0.0, way)))
         model = uf.Model(mesh, "ANS3DEAS", material=uf.SVK(E=210e3, nu=0.0))
         model.sheet_contact("upper of a", "lower of b", name="stack")
         model.fix("lower of a")
@@ -357,7 +336,7 @@ def test_a_fold_touches_only_where_it_is_sharp():
 def test_friction_a_gap_apart_works_on_a_face_that_turns():
     """A plate is pressed into another one and sheared; the other one turns below the sticking points. eq. (4.314)"""
     lower = uf.mesh.strip(2.0, 2.0, 1.0, (1, 1))
-    upper = uf.mesh.strip(1.0, 1.0, 1.0, (1, 1)).transformed(lambda X: X + np.array([0.5, 0.5, 1.0]))
+    upper = uf.mesh.strip(1.0, 1.0, 1.0, (1, 1)).moved((0.5, 0.5, 1.0))
     mesh = uf.mesh.together(a=lower, b=upper)
     model = uf.Model(mesh, "ANS3DEAS", material=uf.SVK(E=210e3, nu=0.3))
     contact = model.sheet_contact("upper of a", "lower of b", penalty=1e3, points=2, friction=0.5, slip=0.02)

@@ -11,7 +11,7 @@ import umform as uf
 def pressed(way=-0.02, second=(5, 2), augmented=True, **options):
     """Two plates between flat walls, and their contact."""
     lower = uf.mesh.strip(10.0, 4.0, 1.0, (5, 2))
-    upper = uf.mesh.strip(10.0, 4.0, 1.0, second).transformed(lambda X: X + np.array([0.0, 0.0, 1.0]))
+    upper = uf.mesh.strip(10.0, 4.0, 1.0, second).moved((0.0, 0.0, 1.0))
     model = uf.Model(uf.mesh.together(a=lower, b=upper), material=uf.SVK(E=210e3, nu=0.0))
     contact = model.sheet_contact("upper of a", "lower of b", name="stack", augmented=augmented, **options)
     model.fix("lower of a", "z")

@@ -8,10 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from command_line import umform
 
 import umform as uf
-from umform import cli
 from umform.errors import UmformError
 from umform.problem import load
 from umform.problem.check import before_run
@@ -72,10 +71,6 @@ def first(strip):
         assert old in strip
         strip = strip.replace(old, new)
     return strip + OUTPUT
-
-
-def umform(*words):
-    return CliRunner().invoke(cli.app, [str(word) for word in words])
 
 
 @pytest.fixture(scope="module")

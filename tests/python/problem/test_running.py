@@ -4,9 +4,8 @@ from html import escape
 import meshio
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from command_line import umform
 
-from umform import cli
 from umform.analysis.newton.newton import Newton
 from umform.problem import load
 from umform.problem.templates import template_file
@@ -15,10 +14,6 @@ from umform.results.forming import KeelerBrazier
 FILES = {"history.csv", "fields.vtkhdf", "report.html", "curve.png", "shape.png", "as-run.toml"}
 #: n - offset = 0.19 is the uniform strain.
 SWIFT = '{curve="Swift", strength=520.0, offset=0.01, exponent=0.2}'
-
-
-def umform(*words):
-    return CliRunner().invoke(cli.app, [str(word) for word in words])
 
 
 @pytest.fixture

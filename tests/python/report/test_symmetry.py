@@ -11,7 +11,7 @@ from umform.results.shape import Shape
 
 
 def strip(*supports, cell="hex8", origin=(0.0, 0.0, 0.0)):
-    mesh = uf.mesh.strip(8, 4, 0.5, (4, 2), cell=cell).transformed(lambda X: X + np.array(origin))
+    mesh = uf.mesh.strip(8, 4, 0.5, (4, 2), cell=cell).moved(origin)
     model = uf.Model(mesh, "ANS3DEAS" if cell == "hex8" else "MI9K3DEAS", material=uf.SVK(E=1000.0, nu=0.3))
     for kind, nodes, directions in supports:
         getattr(model, kind)(nodes, directions)

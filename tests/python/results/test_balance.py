@@ -95,7 +95,7 @@ def test_tool_that_is_driven():
 @pytest.mark.parametrize("place", [(0.0, 0.0, 0.0), (1000.0, 0.0, -2000.0)])
 def test_a_tool_that_turns_does_the_work_of_its_moment_wherever_the_origin_is(place):
     at = np.array(place)
-    model = Model(strip(10.0, 1.0, 1.0, (10, 1)).transformed(lambda X: X + at), material=STEEL)
+    model = Model(strip(10.0, 1.0, 1.0, (10, 1)).moved(at), material=STEEL)
     model.fix(lambda x, y, z: x - at[0] < 4.5)
     roller = Cylinder(at + np.array([8.0, 0.0, -1.5]), "y", 1.0)
     fold = model.turn(model.contact("lower", roller, name="roller"), "-y", at + np.array([5.0, 0.0, 0.0]), name="fold")

@@ -15,7 +15,7 @@ STEEL = uf.J2(E=206e3, nu=0.3, hardening=uf.Swift(strength=567.0, offset=0.0071,
 def coined(beyond, steps, **options):
     """A strip that is bent into a die and squeezed on its bottom by so much."""
     die = uf.UDie(opening=16.0, depth=4.0, shoulder_radius=2.0, bottom_radius=2.0)
-    sheet = uf.mesh.strip(16.0, 1.0, 1.0, (12, 1)).transformed(lambda x: x + np.array([0.0, 0.0, 0.5]))
+    sheet = uf.mesh.strip(16.0, 1.0, 1.0, (12, 1)).moved((0.0, 0.0, 0.5))
     model = uf.Model(sheet, material=STEEL)
     for side, normal in (("x0", "x"), ("y0", "y"), ("y1", "y")):
         model.symmetry(side, normal)

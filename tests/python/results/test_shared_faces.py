@@ -1,6 +1,5 @@
 """A tool that lies inside of a sheet is named, one on its outer face is not."""
 
-import numpy as np
 import pytest
 
 import umform as uf
@@ -10,7 +9,7 @@ import umform as uf
 def test_a_tool_between_two_sheets_is_named(face, above, named):
     """The cover ends in the middle of an element of the base: faces that it covers in part do not count."""
     base = uf.mesh.strip(8.0, 4.0, 1.0, (4, 2))
-    cover = uf.mesh.strip(5.0, 4.0, 0.8, (4, 3)).transformed(lambda X: X + np.array([0.0, 0.0, 0.9]))
+    cover = uf.mesh.strip(5.0, 4.0, 0.8, (4, 3)).moved((0.0, 0.0, 0.9))
     model = uf.Model(uf.mesh.together(base=base, cover=cover), "ANS3DEAS", material=uf.SVK(E=210e3, nu=0.3))
     model.sheet_contact("upper of base", "lower of cover", name="stack")
     model.contact(face, uf.Plane((0.0, 0.0, 0.5 + above), normal=(0.0, 0.0, -1.0)), name="pad")

@@ -14,7 +14,7 @@ import umform as uf
 def rubbed():
     """A block that is pressed onto a plate and pushed along it until it slips; its run."""
     plate = uf.mesh.strip(10.0, 4.0, 1.0, (6, 2))
-    block = uf.mesh.strip(4.0, 2.0, 1.0, (3, 2)).transformed(lambda X: X + np.array([2.1, 1.1, 1.0]))
+    block = uf.mesh.strip(4.0, 2.0, 1.0, (3, 2)).moved((2.1, 1.1, 1.0))
     model = uf.Model(uf.mesh.together(a=plate, b=block), material=uf.SVK(E=210e3, nu=0.0))
     model.sheet_contact("upper of a", "lower of b", name="block", friction=0.2, cells=3)
     model.fix("lower of a")

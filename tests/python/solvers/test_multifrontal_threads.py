@@ -19,11 +19,7 @@ from umform.solvers.multifrontal import Multifrontal
 SCALED = ["scaled indefinite", "scaled unsymmetric"]
 
 
-@pytest.fixture(autouse=True)
-def threads_as_before():
-    before = umform.threads()
-    yield
-    umform.set_threads(before)
+pytestmark = pytest.mark.usefixtures("threads_as_before")
 
 
 def large(kind):

@@ -19,7 +19,7 @@ STEEL = mt.J2(kappa=175e3, mu=80.77e3, hardening=mt.Linear(160.0, 500.0))
 
 def half_strip(length, cells, thickness=0.8, material=STEEL):
     """Half of a strip whose lower face is z = 0, free to slide along x, held at x = 0 by symmetry."""
-    made = strip(length, 2.0, thickness, cells).transformed(lambda x: x + np.array([0.0, 0.0, thickness / 2]))
+    made = strip(length, 2.0, thickness, cells).moved((0.0, 0.0, thickness / 2))
     model = Model(made, "ANS3DEAS", material=material, thickness_points=5)
     model.symmetry("x0", normal="x")
     model.fix([0], "y")

@@ -103,7 +103,7 @@ def test_friction_and_pressure_do_not_depend_on_the_slope_of_the_field():
     normal = np.array([-slope, 0.0, 1.0]) / np.hypot(1.0, slope)
 
     def slid(tool):
-        sheet = uf.mesh.strip(8.0, 2.0, 1.0, (4, 1)).transformed(lambda x: x + np.array([0, 0, 0.5]))
+        sheet = uf.mesh.strip(8.0, 2.0, 1.0, (4, 1)).moved((0, 0, 0.5))
         turn = np.array([[normal[2], 0, normal[0]], [0, 1, 0], [-normal[0], 0, normal[2]]])
         model = uf.Model(sheet.transformed(lambda x: x @ turn.T), material=uf.SVK(E=210e3, nu=0.3))
         model.contact("lower", tool, penalty=1e4, points=2, friction=0.2, name="tool")

@@ -349,7 +349,7 @@ def test_a_strip_over_a_bar_of_triangles():
     along_y = Triangles(5.0 * made.points[:, [1, 2, 0]] - (0, 0, 5), made.triangles)
     forces = []
     for tool in (bar, Triangulated(along_y, open=True)):
-        made = strip(12.0, 2.0, 0.8, (12, 1)).transformed(lambda x: x + np.array([0.0, 0.0, 0.4]))
+        made = strip(12.0, 2.0, 0.8, (12, 1)).moved((0.0, 0.0, 0.4))
         model = Model(made, "ANS3DEAS", material=mt.NeoHooke(E=5e3, nu=0.3))
         model.symmetry("x0", normal="x")
         model.fix([0], "y")

@@ -42,7 +42,7 @@ COARSE = "faces as long as a quarter of the radius: the mesh itself is 75 % off,
 
 def flat(shape: str) -> Mesh:
     """A flat sheet of 20 x 6 whose faces have a length of about 2.5."""
-    sheet = mesh.strip(20.0, 6.0, 1.0, (8, 3)).transformed(lambda x: x + np.array([0.0, 0.0, 0.5]))
+    sheet = mesh.strip(20.0, 6.0, 1.0, (8, 3)).moved((0.0, 0.0, 0.5))
     x, y = sheet.points[:, 0].copy(), sheet.points[:, 1].copy()
     if shape == "graded":
         sheet.points[:, 0] = 20.0 * (1.25 ** (x / 2.5) - 1.0) / (1.25**8 - 1.0)

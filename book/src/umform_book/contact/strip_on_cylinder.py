@@ -120,7 +120,7 @@ def flat_strip(
     """
     length = ends[1] - ends[0]
     strip = mesh.strip(length, WIDTH, THICKNESS, (variant.cells(divisions), 1), cell=variant.cell)
-    strip = strip.transformed(lambda X: X + np.array([ends[0], 0.0, 0.0]))
+    strip = strip.moved((ends[0], 0.0, 0.0))
     model = Model(strip, variant.element, material=SVK(E=E, nu=0.0))
     model.fix(np.arange(len(strip.points)), "y")
     tool = Cylinder((0.0, 0.0, overlap - radius - 0.5 * THICKNESS), "y", radius)

@@ -22,7 +22,7 @@ def _metal(E: float, Y: float) -> uf.J2:
 def stacked(E: float, Y: float, t: float, stroke: float, mu: float = 0.0, **rule: Any) -> Built:
     """Two strips of other meshes, pressed on each other and clamped at one end, bent together by the other end."""
     lower = uf.mesh.strip(20.0, 2.0, 1.0, (10, 1))
-    upper = uf.mesh.strip(20.0, 2.0, t, (13, 1)).transformed(lambda X: X + np.array([0.0, 0.0, 0.5 + 0.5 * t]))
+    upper = uf.mesh.strip(20.0, 2.0, t, (13, 1)).moved((0.0, 0.0, 0.5 + 0.5 * t))
     model = uf.Model(uf.mesh.together(a=lower, b=upper), material=_metal(E, Y))
     model.sheet_contact("upper of a", "lower of b", name="stack", friction=mu, **rule)
     for sheet in "ab":

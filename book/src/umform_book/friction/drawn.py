@@ -87,7 +87,7 @@ def sliding(weight: float, radius: float, angle: float, mu: float) -> Sliding:
 def draw(page: Page, edge: Edge, variant: Variant, divisions: int, points: int | str, mu: float = MU) -> Result:
     """Apply the weight at one end of the flat strip, then draw the other one away from the edge."""
     strip = mesh.strip(ENDS[1] - ENDS[0], WIDTH, THICKNESS, (variant.cells(divisions), 1), cell=variant.cell)
-    strip = strip.transformed(lambda X: X + np.array([ENDS[0], 0.0, 0.0]))
+    strip = strip.moved((ENDS[0], 0.0, 0.0))
     model = Model(strip, variant.element, material=SVK(E=E, nu=0.0))
     model.fix(np.arange(len(strip.points)), "y")
     tool = Cylinder((0.0, 0.0, OVERLAP - edge.radius - 0.5 * THICKNESS), "y", edge.radius)

@@ -100,7 +100,7 @@ def model_of(setup: Setup) -> tuple[Model, list[Move]]:
     """Half of the blank with its tools, and the steps that close the holder and draw."""
     cell = setup.variant.cell
     body = mesh.strip(LENGTH, 1.0, THICKNESS, (setup.variant.cells(setup.intervals), 1), cell=cell)
-    body = body.transformed(lambda X: X + np.array([0.0, 0.0, 0.5 * THICKNESS]))
+    body = body.moved((0.0, 0.0, 0.5 * THICKNESS))
     model = Model(body, setup.variant.element, material=setup.material)
     model.symmetry("x0", "x")
     model.fix(np.arange(len(body.points)), "y")

@@ -90,7 +90,7 @@ def model_of(setup: Setup) -> tuple[Model, Move]:
     wide = 0.5 * WIDTH if setup.across else 1.0
     cells = (setup.variant.cells(setup.intervals), max(setup.across, 1))
     body = mesh.strip(LENGTH, wide, THICKNESS, cells, cell=setup.variant.cell)
-    body = body.transformed(lambda X: X + np.array([0.0, 0.0, 0.5 * THICKNESS]))
+    body = body.moved((0.0, 0.0, 0.5 * THICKNESS))
     model = Model(body, setup.variant.element, material=METAL)
     model.symmetry("x0", "x")
     if setup.across:

@@ -1,8 +1,8 @@
 """Continuum meshes of the same strips in CalculiX: quadratic elements C3D20R, several layers, plane strain.
 
-Where the environment variable UMFORM_CALCULIX is set and ``ccx`` is found the cases run them anew, which takes
+Where the environment variable UMFORM_CALCULIX is set and ``ccx`` is found the cases run them again, which takes
 minutes; else they take the forces that are stored. ``python -m umform_book.sharp_bends.calculix FOLDER`` makes
-the stored files anew.
+the stored files again.
 """
 
 from __future__ import annotations

@@ -29,11 +29,11 @@ def bend(page: Page, second: int, rule: dict[str, int]) -> float:
     """Force of the punch; one sheet of two layers of elements if there is no second one."""
     lift = np.array([0.0, 0.0, 0.5 * THICKNESS])
     if second == 0:
-        mesh = uf.mesh.strip(LENGTH, WIDTH, 2.0 * THICKNESS, (FIRST, 1), layers=2).transformed(lambda X: X + 2.0 * lift)
+        mesh = uf.mesh.strip(LENGTH, WIDTH, 2.0 * THICKNESS, (FIRST, 1), layers=2).moved(2.0 * lift)
         sheets, below, above = [""], "lower", "x0_upper"
     else:
-        lower = uf.mesh.strip(LENGTH, WIDTH, THICKNESS, (FIRST, 1)).transformed(lambda X: X + lift)
-        upper = uf.mesh.strip(LENGTH, WIDTH, THICKNESS, (second, 1)).transformed(lambda X: X + 3.0 * lift)
+        lower = uf.mesh.strip(LENGTH, WIDTH, THICKNESS, (FIRST, 1)).moved(lift)
+        upper = uf.mesh.strip(LENGTH, WIDTH, THICKNESS, (second, 1)).moved(3.0 * lift)
         mesh = uf.mesh.together(a=lower, b=upper)
         sheets, below, above = [" of a", " of b"], "lower of a", "x0_upper of b"
     model = uf.Model(mesh, EIGHT.element, material=uf.SVK(E=E, nu=0.0))

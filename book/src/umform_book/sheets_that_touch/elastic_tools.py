@@ -69,7 +69,7 @@ def expansion(radial: float) -> float:
 def bend(page: Page, factor: float | None, increments: int) -> Bent:
     """Air bend with die and punch of a factor of the modulus of steel; None: rigid tools."""
     die, punch = uf.VDie(8.0, 88.0, 1.5), uf.Punch(1.0, 80.0).moved((0.0, 0.0, 1.0))
-    sheet = uf.mesh.strip(9.0, 1.0, 1.0, (36, 1), layers=2).transformed(lambda X: X + np.array([0.0, 0.0, 0.5]))
+    sheet = uf.mesh.strip(9.0, 1.0, 1.0, (36, 1), layers=2).moved((0.0, 0.0, 0.5))
     parts = {"sheet": sheet}
     if factor is not None:
         end = ((1.5, -DEPTH), (9.0, -DEPTH))

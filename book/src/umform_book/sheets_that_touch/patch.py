@@ -44,7 +44,7 @@ def plates(
     """Press the plates onto each other by a traction."""
     element, axes = variant.element, rotation()
     lower = uf.mesh.strip(6.0, 3.0, 1.0, FIRST, cell=element.cell)
-    upper = uf.mesh.strip(6.0, 3.0, 1.0, second, cell=element.cell).transformed(lambda X: X + np.array([0.0, 0.0, 1.0]))
+    upper = uf.mesh.strip(6.0, 3.0, 1.0, second, cell=element.cell).moved((0.0, 0.0, 1.0))
     mesh = uf.mesh.together(a=lower, b=upper).transformed(lambda X: X @ axes)
     model = uf.Model(mesh, element, material=uf.SVK(E=E, nu=0.0))
     sides = ("lower of b", "upper of a") if turned else ("upper of a", "lower of b")

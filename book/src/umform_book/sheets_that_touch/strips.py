@@ -43,7 +43,7 @@ def bend(page: Page, second: int, friction: float, **rule: float) -> Bent:
     """Press the strips together, then bend them by the end of the upper one."""
     lower = uf.mesh.strip(LENGTH, WIDTH, THICKNESS, (FIRST, 1))
     upper = uf.mesh.strip(LENGTH, WIDTH, THICKNESS, (second, 1))
-    mesh = uf.mesh.together(a=lower, b=upper.transformed(lambda X: X + np.array([0.0, 0.0, THICKNESS])))
+    mesh = uf.mesh.together(a=lower, b=upper.moved((0.0, 0.0, THICKNESS)))
     model = uf.Model(mesh, EIGHT.element, material=uf.SVK(E=E, nu=0.0))
     options = {"friction": friction, "slip": SLIP} if friction else {}
     model.sheet_contact("upper of a", "lower of b", name="strips", **rule, **options)

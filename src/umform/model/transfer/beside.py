@@ -37,7 +37,7 @@ def laid_beside(part: Model, /, **sheets: Mesh) -> Model:
     >>> from umform.model.transfer.beside import laid_beside
     >>> strip = uf.mesh.strip(10.0, 1.0, 0.2, (8, 1))
     >>> part = uf.Model(strip, material=uf.SVK(E=210e3, nu=0.3))
-    >>> model = laid_beside(part, cover=strip.transformed(lambda X: X + [0.0, 0.0, 0.2]))
+    >>> model = laid_beside(part, cover=strip.moved((0.0, 0.0, 0.2)))
     >>> [body.name for body in model.bodies]
     ['body1', 'cover']
     """

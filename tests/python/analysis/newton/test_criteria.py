@@ -6,54 +6,20 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from one_unknown import Evaluated, OneUnknown
 
 import umform as uf
 from umform.analysis.newton.criteria import Criteria
 from umform.analysis.newton.newton import Newton
 from umform.analysis.newton.options import NewtonOptions
-from umform.ranks import ONE
-from umform.solvers import Pattern
 
 
-class Evaluated(SimpleNamespace):
-    """An evaluation that gives its tangent away."""
-
-    def without_tangent(self):
-        return Evaluated(**vars(self) | {"values": np.empty(0)})
-
-
-class Given:
-    """A system of one unknown with slope 1 whose n-th evaluation has a given residual and active set."""
-
-    effort = extent = 1.0
-    elastic = smooth = False
-    ranks = ONE
+class Given(OneUnknown):
+    """The n-th evaluation has a given residual and active set; the slope is 1."""
 
     def __init__(self, residuals, active):
-        self.x = np.array([1.0])
-        self.pattern = Pattern(1, np.array([0, 1], dtype=np.int32), np.array([0], dtype=np.int32), True)
+        super().__init__(1.0)
         self.residuals, self.active, self.count = residuals, active, 0
-
-    def restrict(self, r):
-        return r
-
-    coefficients = extend = restrict
-
-    def resultants(self, evaluation):
-        return 0.0, 0.0
-
-    def largest_entry(self, values):
-        return float(np.abs(values).max())
-
-    @property
-    def state(self):
-        return SimpleNamespace(x=self.x)
-
-    def state_at(self, x, goal):
-        return x
-
-    def prescribed_displacement(self, goal):
-        return np.zeros(1)
 
     def evaluate(self, u, du=None, *, tangent=True, keep=False):
         self.count += 1

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from one_unknown import Evaluated, OneUnknown
 
 from umform import materials as mt
 from umform.analysis.newton.newton import Newton
@@ -18,9 +19,7 @@ from umform.history_variables import history_of
 from umform.mesh import strip
 from umform.model import Model
 from umform.model.terms.term import Border
-from umform.ranks import ONE
 from umform.results.records import Cause, Failed
-from umform.solvers import Pattern
 
 ELEMENTS = ("DISP3D", "ANS3DEAS", "EAS3DEAS", "MI9K3DEAS")
 
@@ -233,51 +232,13 @@ def test_line_search_of_a_thin_strip_does_not_creep():
     np.testing.assert_allclose(searched, plain, atol=1e-7)
 
 
-class Evaluated(SimpleNamespace):
-    """An evaluation that gives its tangent away."""
-
-    def without_tangent(self):
-        return Evaluated(**vars(self) | {"values": np.empty(0)})
-
-
-class Scalar:
-    """A system of one unknown: residual and slope are functions of x, the active set a function of x."""
-
-    effort = extent = 1.0
-    elastic = smooth = False
+class Scalar(OneUnknown):
+    """Residual and slope are functions of x, the active set a function of x."""
 
     def __init__(self, residual, slope, start=0.0, active=lambda x: [], scale=1.0):
-        self.x = np.array([start])
-        ends = np.array([0, 1], dtype=np.int32), np.array([0], dtype=np.int32)
-        self.pattern = Pattern(1, *ends, True)
+        super().__init__(start)
         self.residual, self.slope, self.active, self.scale = residual, slope, active, scale
         self.calls = []
-
-    ranks = ONE
-
-    def restrict(self, r):
-        return r
-
-    coefficients = extend = restrict
-
-    def resultants(self, evaluation):
-        return 0.0, 0.0
-
-    def largest_entry(self, values):
-        return float(np.abs(values).max())
-
-    @property
-    def state(self):
-        return SimpleNamespace(x=self.x)
-
-    def state_at(self, x, goal):
-        return x
-
-    def prescribed_displacement(self, goal):
-        return np.zeros(1)
-
-    def displacement_of_supports(self, values):
-        return np.zeros(1)
 
     def evaluate(self, x, du=None, *, tangent=True, keep=False):
         at = float(x[0])

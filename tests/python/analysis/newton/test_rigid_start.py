@@ -32,7 +32,7 @@ def test_there_is_no_such_motion_with_room_or_with_supports(given):
 
 def tipped() -> tuple[uf.Model, uf.Move]:
     """A flange beside a block: the pad above the block holds the sheet only after it has tipped by the gap."""
-    mesh = uf.mesh.strip(40.0, 1.0, 1.0, (36, 1)).transformed(lambda X: X + np.array([-22.0, 0.0, 0.5]))
+    mesh = uf.mesh.strip(40.0, 1.0, 1.0, (36, 1)).moved((-22.0, 0.0, 0.5))
     model = uf.Model(mesh, "BEND8", material=uf.J2(E=206e3, nu=0.3, hardening=uf.Linear(300.0, 900.0)))
     model.fix(np.arange(len(mesh.points)), "y")
     more = {"friction": 0.15, "points": 2}

@@ -24,7 +24,7 @@ STROKE = 24.5
 
 def bent(elements=60, friction=0.0):
     """A strip pushed into a round die by a cylinder: its legs slide over the shoulders, on a few points each."""
-    mesh = uf.mesh.strip(60.0, 1.0, 1.0, (elements, 1)).transformed(lambda X: X + np.array([0.0, 0.0, 0.5]))
+    mesh = uf.mesh.strip(60.0, 1.0, 1.0, (elements, 1)).moved((0.0, 0.0, 0.5))
     metal = uf.J2(E=70500.0, nu=0.342, hardening=uf.Swift(550.4, 0.0093, 0.223))
     model = uf.Model(mesh, "BEND8", material=metal)
     model.symmetry("x0", "x")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import signal
 import subprocess
 import sys
@@ -20,7 +19,6 @@ from umform.analysis.newton.newton import Newton
 from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.newton.recorder import Recorder
 from umform.analysis.run import Result, resume, solve
-from umform.analysis.run.checkpoint import Checkpoints
 from umform.analysis.steps import Arc, Move, Release
 from umform.io.atomic import PendingFile
 from umform.io.trees import read_tree, write_tree
@@ -192,7 +190,7 @@ def multiplied():
 def stacked(**rule):
     """Two strips of other meshes, pressed on each other and bent together, which slip on each other back and forth."""
     lower = strip(20.0, 2.0, 1.0, (10, 1))
-    upper = strip(20.0, 2.0, 0.8, (13, 1)).transformed(lambda X: X + np.array([0.0, 0.0, 0.9]))
+    upper = strip(20.0, 2.0, 0.8, (13, 1)).moved((0.0, 0.0, 0.9))
     material = mt.J2(kappa=175e3, mu=80.77e3, hardening=mt.Linear(160.0, 500.0))
     model = Model(together(a=lower, b=upper), material=material)
     model.sheet_contact("upper of a", "lower of b", name="stack", friction=0.15, **rule)
@@ -254,19 +252,6 @@ def assert_the_same_results(result, expected):
         for name in one.contacts:
             np.testing.assert_equal(vars(one.contacts[name]), vars(two.contacts[name]))
     np.testing.assert_equal(vars(result.balance()), vars(expected.balance()))
-
-
-@pytest.fixture
-def copies(monkeypatch, tmp_path):
-    """Paths of copies of all checkpoints that are written."""
-    write, paths = Checkpoints.write, []
-
-    def write_and_copy(self, run):
-        write(self, run)
-        paths.append(shutil.copy(self.path, tmp_path / f"copy{len(paths)}.h5"))
-
-    monkeypatch.setattr(Checkpoints, "write", write_and_copy)
-    return paths
 
 
 # The same bits ----------------------------------------------------------------------------------------------

@@ -20,7 +20,7 @@ def contact_of(model, **options):
 def bent():
     """Two strips of other meshes, pressed on each other and bent together, slipping; and their contact."""
     lower = uf.mesh.strip(20.0, 2.0, 1.0, (10, 1))
-    upper = uf.mesh.strip(20.0, 2.0, 0.8, (13, 1)).transformed(lambda X: X + np.array([0.0, 0.0, 0.9]))
+    upper = uf.mesh.strip(20.0, 2.0, 0.8, (13, 1)).moved((0.0, 0.0, 0.9))
     material = uf.J2(kappa=175e3, mu=80.77e3, hardening=uf.Linear(160.0, 500.0))
     model = uf.Model(uf.mesh.together(a=lower, b=upper), material=material)
     contact = contact_of(model)
