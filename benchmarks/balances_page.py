@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Mapping, Sequence
 from typing import Any
+
+from pages import item
 
 _PAGE = """# What balances
 
@@ -73,11 +74,11 @@ def page(outcomes: _Outcomes, limits: Mapping[str, Any], known: Sequence[Any]) -
         verdict=verdict,
         seconds=sum(one["CPU s"] for one in outcomes),
         summary=summary(outcomes, limits),
-        limits="\n".join(_item(f"**{name}**: {limit.what}. Limit: {limit.why}.") for name, limit in limits.items()),
+        limits="\n".join(item(f"**{name}**: {limit.what}. Limit: {limit.why}.") for name, limit in limits.items()),
         misses="\n".join(_missed(limits, name, outcomes) for name in [*limits, "end"] if _missing(name, outcomes))
         or "None.",
         known="\n".join(
-            _item(f"**{one.job}**, {one.quantity}, {found[one.job].get(one.quantity, 0.0):.2g}: {one.cause}.")
+            item(f"**{one.job}**, {one.quantity}, {found[one.job].get(one.quantity, 0.0):.2g}: {one.cause}.")
             for one in known
         ),
         table=_table(outcomes, limits),
@@ -91,12 +92,12 @@ def _missing(name: str, outcomes: _Outcomes) -> list[Mapping[str, Any]]:
 def _missed(limits: Mapping[str, Any], name: str, outcomes: _Outcomes) -> str:
     """The jobs that miss a limit, the worst first."""
     if name == "end":
-        return _item(
+        return item(
             "**not finished**: " + "; ".join(f"{one['name']}: {one['error']}" for one in _missing(name, outcomes))
         )
     worst = sorted(_missing(name, outcomes), key=lambda one: -one["found"][name])
     text = "; ".join(f"{one['name']} {one['found'][name]:.2g}" for one in worst)
-    return _item(f"**{name}** above {limits[name].most:g}: {text}")
+    return item(f"**{name}** above {limits[name].most:g}: {text}")
 
 
 def _table(outcomes: _Outcomes, limits: Mapping[str, Any]) -> str:
@@ -110,8 +111,3 @@ def _table(outcomes: _Outcomes, limits: Mapping[str, Any]) -> str:
 def _bold(value: float | None, missed: bool) -> str:
     text = "" if value is None else f"{value:.1e}" if 0.0 < value < 1e-3 else f"{value:.3g}"
     return f"**{text}**" if missed else text
-
-
-def _item(text: str) -> str:
-    """An item of a list, in lines of the length of the house."""
-    return textwrap.fill(text, 120, initial_indent="* ", subsequent_indent="  ", break_on_hyphens=False)

@@ -18,6 +18,7 @@ from unittest.mock import patch
 
 import draws
 import needs_book  # noqa: F401
+import pages
 import record
 import umform as uf
 from umform.analysis.newton import newton
@@ -34,7 +35,6 @@ from umform.timing import Timing, timings
 from umform_book.drawing import hemisphere, s_rail, square_cup
 from umform_book.page import Page
 
-BEGIN, END = "<!-- beside -->\n", "<!-- /beside -->"
 #: Purposes beside the iterations, in the order of the columns.
 PURPOSES = ("line search", "passes", "starts", "discarded", "other")
 
@@ -197,7 +197,7 @@ def main() -> None:
         print(" | ".join(rows[-1].values()), flush=True)
     record.write(given.json, "beside", {f"{row['job']}, evaluations": float(row["evaluations"]) for row in rows})
     if given.page:
-        draws.put(given.page, BEGIN, END, draws.table(rows))
+        pages.put(given.page, "beside", pages.table(rows, left=(0, 9)))
 
 
 if __name__ == "__main__":

@@ -174,7 +174,7 @@ class Brake:
 
     def bend(self, rule: Rule, steps: int) -> Curve:
         """Drive the punch."""
-        mesh = meshes.strip(16.0, 1.0, 2.0, (32, 1)).transformed(lambda x: x + np.array([0.0, 0.0, 1.0]))
+        mesh = meshes.strip(16.0, 1.0, 2.0, (32, 1)).moved((0.0, 0.0, 1.0))
         model = uf.Model(mesh, "ANS3DEAS", material=STEEL, thickness_order=1, thickness_points=5)
         model.symmetry("x0", "x")
         model.fix(np.arange(len(mesh.points)), "y")

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
+import pages
 import record
 from cell_cases import PROBLEMS, Curve, Problem, Rule
 from umform.errors import NoConvergence
@@ -99,7 +100,7 @@ def main() -> None:
         if arguments.page and problem == PROBLEMS[1]:
             draw(problem, runs, finest)
     if arguments.page:
-        record.put(PAGE, "tables", "\n\n".join(tables))
+        pages.put(PAGE, "tables", "\n\n".join(tables))
     record.write(arguments.json, "cells", numbers)
 
 

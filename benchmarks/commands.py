@@ -19,10 +19,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+import pages
 import record
 from umform.problem.templates import template_file
 
-BEGIN, END = "<!-- commands -->\n", "<!-- /commands -->"
 BEND = "bend --thickness 2 --opening 16 --die-radius 2 --punch-radius 1.5 --material DC04 --angle 90"
 SEQUENCE = """
 length = 100.0
@@ -113,9 +113,7 @@ def main() -> None:
         print(lines[-1], flush=True)
     record.write(given.json, "commands", numbers)
     if given.page:
-        head, rest = given.page.read_text(encoding="utf-8").split(BEGIN)
-        text = head + BEGIN + "\n" + "\n".join(lines) + "\n\n" + END + rest.split(END)[1]
-        given.page.write_text(text, encoding="utf-8")
+        pages.put(given.page, "commands", "\n".join(lines))
 
 
 if __name__ == "__main__":

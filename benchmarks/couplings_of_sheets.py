@@ -14,13 +14,12 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array, triu
 from scipy.spatial import cKDTree
 
-import draws
+import pages
 import umform as uf
 from sheets_that_touch import CASES, pairs_of
 from umform.solvers import Pattern
 from umform.solvers.multifrontal import Multifrontal
 
-BEGIN, END = "<!-- couplings -->\n", "<!-- /couplings -->"
 Numbers = NDArray[np.integer]
 
 
@@ -111,7 +110,7 @@ def main() -> None:
     uf.set_threads(1)
     rows = [row for name in given.case for row in counted(name, given.side)]
     if given.page:
-        draws.put(given.page, BEGIN, END, draws.table(rows))
+        pages.put(given.page, "couplings", pages.table(rows, left=(0, 1)))
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+import pages
 import record
 
 SIZES = (1_000, 2_500, 10_000, 40_000, 160_000)
@@ -197,7 +198,7 @@ def main() -> None:
     print(f"{table(ordered)}\n\n{failures(ordered)}")
     record.write(arguments.json, "dome exponents", exponents(ordered))
     if arguments.page is not None:
-        record.put(arguments.page, "dome", table(ordered))
+        pages.put(arguments.page, "dome", table(ordered))
     if arguments.plot is not None:
         draw(ordered, arguments.plot)
 

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 from unittest.mock import patch
 
+import pages
 import record
 import umform as uf
 from umform.analysis.newton.options import NewtonOptions
@@ -25,7 +26,6 @@ from umform.processes.draw.cup import ESAFORM
 from umform.processes.draw.u_bend import NUMISHEET
 from umform.timing import Timing, timings
 
-BEGIN, END = "<!-- draws -->\n", "<!-- /draws -->"
 #: Parts with the defaults of the commands: U-bends of NUMISHEET 93, cups of ESAFORM 2021, all of one steel.
 STEEL = uf.J2(E=210e3, nu=0.3, hardening=uf.Swift(strength=520.0, offset=0.004, exponent=0.22))
 PARTS: dict[str, Cup | UBend] = {
@@ -85,18 +85,6 @@ def numbers(drawn: Drawn) -> str:
     return ", ".join([f"{drawn['largest punch force'].best:.2f} kN", *texts])
 
 
-def table(rows: list[dict[str, str]]) -> str:
-    """All rows in Markdown."""
-    lines = ["| " + " | ".join(rows[0]) + " |", "|---|---|" + "---:|" * (len(rows[0]) - 3) + "---|"]
-    return "\n".join([*lines, *("| " + " | ".join(row.values()) + " |" for row in rows)]) + "\n"
-
-
-def put(page: Path, begin: str, end: str, text: str) -> None:
-    """Write a table between its marks in a page."""
-    head, rest = page.read_text(encoding="utf-8").split(begin)
-    page.write_text(head + begin + "\n" + text + "\n" + end + rest.split(end)[1], encoding="utf-8")
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--part", choices=[*PARTS, TWO], nargs="*", default=[*PARTS, TWO])
@@ -113,7 +101,7 @@ def main() -> None:
             print(" | ".join(rows[-1].values()), flush=True)
     record.write(given.json, "draws", {f"{row['part']}, {row['']}, CPU s": float(row["CPU s"]) for row in rows})
     if given.page:
-        put(given.page, BEGIN, END, table(rows))
+        pages.put(given.page, "draws", pages.table(rows, left=(0, 1, 7)))
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import needs_book  # noqa: F401
+import pages
 import record
 from umform_book.drawing.cups import esaform, isotropic
 
@@ -82,7 +83,7 @@ def main() -> None:
         print(lines[-1], flush=True)
         numbers |= {f"{name}: {key}": found[key] for key in ("mean height", "CPU s", "iterations")}
     if given.page is not None:
-        record.put(given.page, "cup", "\n".join(lines))
+        pages.put(given.page, "cup", "\n".join(lines))
     record.write(given.json, "esaform_cup", numbers)
 
 

@@ -27,7 +27,7 @@ from sheets import sheet
 from umform import _core
 
 STORED = Path(__file__).with_suffix(".json")
-#: The same kernels may not need more, and should not need less without being stored anew.
+#: The same kernels may not need more, and a smaller number should be stored.
 TOLERANCE = 0.02
 #: For the shares of the kernels when compiler or instruction set are others than those stored.
 TOLERANCE_OF_SHARES = 0.25

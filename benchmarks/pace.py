@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-import record
+import pages
 import umform as uf
 from dome import build as dome
 from umform.processes.air_bending import brake, problem
@@ -97,7 +97,7 @@ def main() -> None:
     text = "\n".join(lines) + "\n"
     print(text)
     if arguments.page:
-        record.put(arguments.page, "pace", text)
+        pages.put(arguments.page, "pace", text)
 
 
 if __name__ == "__main__":

@@ -14,13 +14,13 @@ from typing import Any
 
 import numpy as np
 
+import pages
 import umform as uf
 from umform.processes.draw.cup import Cup
 from umform.results.penetration import force_error, penetrations
 
 STEEL = uf.J2(E=210e3, nu=0.3, hardening=uf.Swift(strength=520.0, offset=0.004, exponent=0.22))
 ALUMINIUM = uf.J2(E=70e3, nu=0.33, hardening=uf.Swift(strength=450.0, offset=0.01, exponent=0.25))
-BEGIN, END = "<!-- penetration -->\n", "<!-- /penetration -->"
 
 
 def quarter(mesh: Any, law: Any) -> Any:
@@ -99,24 +99,16 @@ def measured(name: str, *, grows: bool) -> dict[str, Any]:
     }
 
 
-def table(rows: list[dict[str, Any]]) -> str:
-    """All jobs in Markdown."""
-    lines = ["| " + " | ".join(rows[0]) + " |", "|" + "---|" * len(rows[0])]
-    return "\n".join([*lines, *("| " + " | ".join(row.values()) + " |" for row in rows)]) + "\n"
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--job", choices=JOBS, nargs="*", default=list(JOBS))
     parser.add_argument("--page", type=Path, metavar="FILE", help="write the table into this page")
     given = parser.parse_args()
     uf.set_threads(1)
-    text = table([measured(name, grows=grows) for name in given.job for grows in (False, True)])
+    text = pages.table([measured(name, grows=grows) for name in given.job for grows in (False, True)], left=(0, 1, 2))
     print(text)
     if given.page:
-        page = given.page.read_text(encoding="utf-8")
-        head, rest = page.split(BEGIN)
-        given.page.write_text(head + BEGIN + "\n" + text + "\n" + END + rest.split(END)[1], encoding="utf-8")
+        pages.put(given.page, "penetration", text)
 
 
 if __name__ == "__main__":

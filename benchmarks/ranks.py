@@ -2,7 +2,7 @@
 
     python benchmarks/ranks.py                    # measures (minutes, and 6 GB at 102 400 elements); writes the figure
     python benchmarks/ranks.py benchmarks/ranks.json # tables and figure once more, from what was measured
-    python benchmarks/ranks.py benchmarks/ranks.json memory # the same with memory measured anew; seconds stay
+    python benchmarks/ranks.py benchmarks/ranks.json memory # repeat the measurements of memory only
     mpiexec -n 2 python benchmarks/ranks.py 160   # one measurement: a sheet of 160 x 160 elements, as one line of JSON
     mpiexec -n 2 python benchmarks/ranks.py 1000 describe   # no more than the description of the sheet, and its parts
     mpiexec -n 8 python benchmarks/ranks.py 480000 tables   # what MUMPS keeps of each unknown on every rank

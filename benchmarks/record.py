@@ -67,10 +67,3 @@ def commit() -> str:
 
     name = git("rev-parse", "HEAD").strip()
     return name + ("+" if name and git("status", "--porcelain", "--untracked-files=no").strip() else "")
-
-
-def put(page: Path, name: str, text: str) -> None:
-    """Put text between the marks of a name in a page: ``<!-- name -->`` and ``<!-- /name -->``."""
-    first, last = f"<!-- {name} -->", f"<!-- /{name} -->"
-    before, rest = page.read_text(encoding="utf-8").split(first)
-    page.write_text(f"{before}{first}\n{text.strip()}\n{last}{rest.split(last)[1]}", encoding="utf-8")

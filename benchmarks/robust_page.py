@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import textwrap
 import tomllib
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from imbalance import COARSE, DEEP, DRIFTS, MISSED
+from pages import item
 from robust_lots import Rated
 
 #: Outcomes that no lot may have.
@@ -95,7 +95,7 @@ def page(rated: Rated, outcomes: _Outcomes) -> str:
     check(rated, outcomes, known)
     share, never = rate(rated, outcomes), any(one["outcome"] in NEVER for one in outcomes)
     explained = [
-        _item(f"**Job {one['number']}**, {one['kind']}, {one['outcome']}: {known[one['number']].strip()}")
+        item(f"**Job {one['number']}**, {one['kind']}, {one['outcome']}: {known[one['number']].strip()}")
         for one in outcomes
         if one["outcome"] not in rated.good
     ]
@@ -110,8 +110,3 @@ def page(rated: Rated, outcomes: _Outcomes) -> str:
         failures="\n".join(explained or ["All finish."]),
         jumps=", ".join(str(one["number"]) for one in outcomes if one.get("jumps")) or "none",
     )
-
-
-def _item(text: str) -> str:
-    """An item of a list, in lines of the length of the house."""
-    return textwrap.fill(text, 120, initial_indent="* ", subsequent_indent="  ", break_on_hyphens=False)

@@ -18,7 +18,7 @@ from unittest.mock import patch
 
 import numpy as np
 
-import draws
+import pages
 import record
 import umform as uf
 from umform.model.contact.sheets import SheetContact
@@ -27,8 +27,6 @@ from umform.model.equations.assembly import Assembly
 from umform.solvers import Pattern
 from umform.solvers.multifrontal import Multifrontal
 
-BEGIN, END = "<!-- touch -->\n", "<!-- /touch -->"
-BEGIN_SEARCH, END_SEARCH = "<!-- search -->\n", "<!-- /search -->"
 STEEL = uf.J2(E=210e3, nu=0.3, hardening=uf.Swift(500.0, 0.01, 0.2))
 #: Square roots of the numbers of elements of the runs.
 SIDES = {"two sheets": (25, 50, 100), "fold": (25,)}
@@ -43,7 +41,7 @@ def two_sheets(side: int, *, touching: bool = True) -> tuple[uf.Model, list[Any]
     lower = max(side**2 // 2 // round(side * 0.7), 1)
     across = round(side * 0.7)
     one = uf.mesh.strip(100.0, 100.0, 1.0, (lower, across))
-    other = uf.mesh.strip(100.0, 100.0, 1.0, (across, lower)).transformed(lambda X: X + np.array([0.0, 0.0, 1.0]))
+    other = uf.mesh.strip(100.0, 100.0, 1.0, (across, lower)).moved((0.0, 0.0, 1.0))
     model = uf.Model(uf.mesh.together(a=one, b=other), "ANS3DEAS", material=STEEL)
     for edge in ("x0 of a", "x1 of a", "x0 of b", "x1 of b"):
         model.fix(edge)
@@ -237,8 +235,7 @@ def main() -> None:
     if numbers:
         record.write(given.json, "sheets that touch", numbers)
     if given.page:
-        marks = (BEGIN_SEARCH, END_SEARCH) if given.search else (BEGIN, END)
-        draws.put(given.page, *marks, draws.table(rows))
+        pages.put(given.page, "search" if given.search else "touch", pages.table(rows, left=(0, 1)))
 
 
 if __name__ == "__main__":

@@ -23,6 +23,7 @@ from pathlib import Path
 
 import numpy as np
 
+import pages
 import record
 import umform as uf
 from umform.solvers import Pattern, available, make_solver
@@ -183,7 +184,7 @@ def main() -> None:
                     rows.append(beside(case, kind, threads, best))
     record.write(arguments.json, "sparse", numbers)
     if paged:
-        record.put(arguments.page, "sparse", "\n".join(rows))
+        pages.put(arguments.page, "sparse", "\n".join(rows))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""What becomes of the attempts of Newton's method: strategies tried and won, what was thrown away and why.
+"""Attempts of Newton's method: strategies that were tried and succeeded, discarded evaluations and their causes.
 
 ``python benchmarks/strategies.py --page docs/attempts.md`` writes the tables between the marks of the page.
 """
@@ -11,7 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import needs_book  # noqa: F401
-import record
+import pages
 import umform as uf
 from dome import build as dome
 from umform.attempts import Attempts
@@ -119,7 +119,7 @@ def main() -> None:
     text = tables({name: attempts(WORKLOADS[name]) for name in arguments.only or WORKLOADS})
     print(text)
     if arguments.page:
-        record.put(arguments.page, "attempts", text)
+        pages.put(arguments.page, "attempts", text)
 
 
 if __name__ == "__main__":

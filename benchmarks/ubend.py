@@ -23,6 +23,7 @@ from typing import Any
 import numpy as np
 
 import needs_book  # noqa: F401
+import pages
 import record
 from umform_book.calculix import element, node_set
 
@@ -46,7 +47,7 @@ def build(
 
     if mesh is None:
         mesh = uf.mesh.strip(LENGTH, 1.0, THICKNESS, (CELLS, 1))
-        mesh = mesh.transformed(lambda x: x + np.array([0.0, 0.0, THICKNESS / 2]))
+        mesh = mesh.moved((0.0, 0.0, THICKNESS / 2))
     model = uf.Model(mesh, "BEND8", material=uf.J2(E=E, nu=NU, hardening=uf.Swift(*SWIFT)))
     model.symmetry("x0", normal="x")
     model.fix(lambda x, y, z: x > -1.0, "y")
@@ -121,7 +122,7 @@ def deck(
 
     if mesh is None:
         mesh = uf.mesh.strip(LENGTH, 1.0, THICKNESS, (CELLS, 1), layers=LAYERS)
-        mesh = mesh.transformed(lambda x: x + np.array([0.0, 0.0, THICKNESS / 2]))
+        mesh = mesh.moved((0.0, 0.0, THICKNESS / 2))
     points = mesh.points
     cells = mesh.connectivity
     made = ["*NODE,NSET=NSHEET", *(f"{n},{x:.9g},{y:.9g},{z:.9g}" for n, (x, y, z) in enumerate(points.tolist(), 1))]
@@ -251,7 +252,7 @@ def main() -> None:
         more = with_friction["median"] / without["median"]
         print(f"{with_friction['what']}: iterations an increment, median, over those without friction: {more:.2f}")
     if given.page is not None:
-        record.put(given.page, "ubend", table(rows))
+        pages.put(given.page, "ubend", table(rows))
     numbers = {f"{row['what']}: {key}": row[key] for row in rows for key in ("stroke", "CPU s", "iterations")}
     record.write(given.json, "ubend", numbers)
 

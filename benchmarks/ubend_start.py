@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 import needs_book  # noqa: F401
+import pages
 import record
 from ubend import LENGTH, MU, THICKNESS, build, deck, run_deck
 from umform_book.calculix import totals
@@ -100,7 +101,7 @@ def main() -> None:
             add(f"CalculiX, C3D8I, layers {layers}, {size:g} mm, increments of {way:g} mm", (found[0], found[1]))
     print(table(rows))
     if given.page is not None:
-        record.put(given.page, "ubend-start", table(rows))
+        pages.put(given.page, "ubend-start", table(rows))
     record.write(given.json, "ubend-start", rows)
 
 

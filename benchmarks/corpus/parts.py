@@ -221,7 +221,7 @@ def beaded(
     *, law: str = "swift", restraint: float = 60.0, uplift: float = 20.0, friction: float | None = None
 ) -> Answer:
     """A strip is pulled through an equivalent bead."""
-    mesh = uf.mesh.strip(60.0, 10.0, 0.8, (30, 2)).transformed(lambda X: X + np.array([0.0, 0.0, 0.4]))
+    mesh = uf.mesh.strip(60.0, 10.0, 0.8, (30, 2)).moved((0.0, 0.0, 0.4))
     model = _model(mesh, "ANS3DEAS", law, {"y0": "y"})
     die = model.contact("lower", uf.Plane(), name="die", friction=friction)
     model.contact("upper", uf.Plane((0.0, 0.0, 0.84), (0.0, 0.0, -1.0)), name="holder", friction=friction)

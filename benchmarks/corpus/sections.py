@@ -58,9 +58,9 @@ class Sheet:
         s, cell = self.length, uf.elements.element(self.element).cell
         count = round((right - left) / self.size / (1 if cell == "hex8" else 2))
         mesh = uf.mesh.strip(s * (right - left), s, s * self.thickness, (count, 1), cell=cell, layers=self.layers)
-        mesh = mesh.transformed(lambda X: X + s * np.array([left, 0.0, 0.5 * self.thickness]))
+        mesh = mesh.moved(s * np.array([left, 0.0, 0.5 * self.thickness]))
         if self.mirrored:
-            mesh = mesh.transformed(lambda X: X + s * np.array([-left - right, 0.0, 0.0]))
+            mesh = mesh.moved(s * np.array([-left - right, 0.0, 0.0]))
         model = uf.Model(mesh, self.element, **law(self.law, self.stress))
         model.fix(np.arange(len(mesh.points)), "y")
         return model

@@ -32,7 +32,7 @@ class Entry:
     build : callable
         Makes the problem.
     options : mapping
-        What the code is told beside: solver, points through the thickness.
+        Further settings of the code: solver, points through the thickness.
     note : str
         What tells it from another entry with the same element and mesh.
     """

@@ -1,4 +1,4 @@
-"""What was measured: kept in a JSON file by case, so that a case can be run anew alone; and its tables in Markdown."""
+"""What was measured: kept in a JSON file by case, so that a single case can be repeated; and its tables in Markdown."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ LONG, ROUNDS = 12.0, 3
 def run_case(
     case: ModuleType, here: Mapping[str, Peer], short: bool, keep: Path | None
 ) -> dict[str, tuple[Entry, Outcome]]:
-    """Make the runs of a case, one after the other; a run that fails is told and left out.
+    """Make the runs of a case, one after the other; a run that fails is reported and left out.
 
     Others use the machine too, and short runs tell it most: after all runs have been made once, those that are not long
     are made again, in turns, and the fastest one counts.
@@ -68,7 +68,7 @@ def _once(entry: Entry, peer: Peer, keep: Path | None) -> Outcome | None:
 
 
 def _folder(entry: Entry, keep: Path | None) -> AbstractContextManager[str | Path]:
-    """Folder of a run: one that goes with it, or one of its name that stays."""
+    """Folder of a run: a temporary one, or one of its name that stays."""
     if keep is None:
         return tempfile.TemporaryDirectory()
     folder = keep / re.sub(r"[^\w.]+", "-", entry.key)
@@ -117,7 +117,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--out", type=Path, help="file for the tables; the cases that are not run are kept in it")
     parser.add_argument("--page", type=Path, help="page that gets the table of ratios between its marks")
     parser.add_argument("--keep", type=Path, help="folder in which problems, decks and logs of all runs stay")
-    parser.add_argument("--tables", action="store_true", help="run nothing: tables anew from the runs beside --out")
+    parser.add_argument("--tables", action="store_true", help="run nothing: tables from the runs beside --out")
     told = parser.parse_args(arguments)
     if unknown := set(told.cases) - set(CASES):
         parser.error(f"there is no case {', '.join(sorted(unknown))}; the cases are {', '.join(CASES)}")
