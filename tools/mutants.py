@@ -101,7 +101,7 @@ class Sandbox:
             self._configure()
 
     def try_out(self, mutant: Mutant) -> tuple[str, str]:
-        """What becomes of a mutant, and what noticed it."""
+        """The outcome of a mutant, and the test that noticed it."""
         path = self.package / Path(mutant.file).relative_to("src") if not mutant.compiled else TREE / mutant.file
         text = path.read_text()
         path.write_text(text.replace(mutant.old, mutant.new))
@@ -215,7 +215,7 @@ def main() -> None:
 
 
 def _try_all(sandbox: Sandbox, mutants: list[Mutant]) -> int:
-    """Report what becomes of mutants; the number of those that no test notices."""
+    """Report the outcome of mutants; return the number of those that no test notices."""
     output = sandbox.passes([test for mutant in mutants for test in mutant.tests])
     if output:
         raise SystemExit(f"{output}\nthese tests fail without a mutant")

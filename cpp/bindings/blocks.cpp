@@ -191,7 +191,7 @@ void bind_blocks(nb::module_& m) {
         .def("take_blocks", &ShellBlock::take_blocks, nb::arg("of"),
              "Take the tangent with which enhanced parameters are recovered from the same elements of a similar run.")
         .def("follow", &ShellBlock::follow,
-             "After an evaluation of forces alone: the next recover takes its residual, with the tangent of before.")
+             "After an evaluation of forces alone: the next recover takes its residual, with the previous tangent.")
         .def("shorten", &ShellBlock::shorten, nb::arg("part"),
              "Shorten what the last recover has changed to a part of it.")
         .def("commit", &ShellBlock::commit, "Make the trial history the converged one.")

@@ -487,7 +487,7 @@ class ShellBlock:
 
     def follow(self) -> None:
         """
-        After an evaluation of forces alone: the next recover takes its residual, with the tangent of before.
+        After an evaluation of forces alone: the next recover takes its residual, with the previous tangent.
         """
 
     def shorten(self, part: float) -> None:

@@ -165,7 +165,7 @@ def check_processes(processes: object) -> None:
 def _died() -> SolveError:
     return SolveError(
         "a process that computes runs has died, this run or one beside it",
-        cause="it was killed, perhaps for want of memory",
+        cause="it was killed, perhaps because memory ran out",
         remedy="run again with fewer: processes=1",
     )
 

@@ -1,1 +1,1 @@
-"""The bench: a page on which a sheet is bent, seen to bend, and measured; it stands on `umform bend` and decks."""
+"""The bench: a page in the browser that orders bends and decks, and shows their runs and results."""

@@ -1,4 +1,4 @@
-"""Tables of jobs as CSV for spreadsheets: digits that mean something, and the signs of the language of the reader."""
+"""Tables of jobs as CSV for spreadsheets: significant digits, and the decimal sign of the language of the reader."""
 
 from __future__ import annotations
 

@@ -1,11 +1,11 @@
-"""What the numbers of a finished job say: fit for the shop, to be read with care, beyond a limit, or in collision."""
+"""Verdict on the numbers of a finished job: good, with warnings, beyond a limit, unfinished, or in collision."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-#: Standard deviations from which a measured bend is not met by the corrected metal.
+#: Misfit in standard deviations above which the corrected metal does not explain the measured bend.
 _FAR = 2.0
 #: The verdicts, the worst first; a job without any of them is good.
 VERDICTS = ("collides", "failed", "missed", "warned")

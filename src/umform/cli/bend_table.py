@@ -94,7 +94,7 @@ def checked_formats(text: str) -> list[str]:
 
 
 def check_jobs(jobs: int | None) -> None:
-    """Refuse a number of setups at a time that is none."""
+    """Refuse an invalid number of setups at a time."""
     from umform.pool import check_processes
 
     try:

@@ -45,7 +45,7 @@ def check_goal(
 
 
 def check_length(length: float | None) -> None:
-    """Refuse a bend length that is none."""
+    """Refuse a bend length that is not positive and finite."""
     if length is not None and not 0.0 < length < math.inf:
         raise InvalidValue(
             "a bend length must be positive and finite",
@@ -68,7 +68,7 @@ def check_no_goal(option: str, *goals: object) -> None:
 
 
 def check_budgeted(processes: int, budget: bool) -> None:
-    """Refuse a number of runs at a time where one follows the other."""
+    """Refuse a number of runs at a time without an error budget, whose runs alone are independent."""
     if not budget:
         raise InvalidValue(
             "only the runs of an error budget go side by side",

@@ -41,7 +41,7 @@ _OPTIONS = {
 
 @dataclass(frozen=True)
 class ScatterOptions:
-    """What is wanted of the scatter, as it is typed.
+    """Options of scatter as they are typed.
 
     Attributes
     ----------

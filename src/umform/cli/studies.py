@@ -72,7 +72,7 @@ class Studies:
         return [name for name, values in options.items() if values]
 
     def extrapolates(self, given: bool | None, *, usual: bool = True) -> bool:
-        """Whether a command extrapolates from several meshes; the studies are those of the mesh of the case.
+        """Whether a command extrapolates from several meshes; beside a study, which has one mesh, it does not.
 
         Parameters
         ----------

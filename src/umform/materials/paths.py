@@ -62,8 +62,8 @@ def point_path(
     Parameters
     ----------
     material : Material
-        Any law. One of the Green-Lagrange strain, J2 for instance, is asked at that of the logarithmic strains, and its
-        stress is turned into the one that is conjugate to them; a UserLaw is taken as one of the strain that it gets.
+        Any law. One of the Green-Lagrange strain, such as J2, gets this strain, and its stress is converted to the one
+        conjugate to logarithmic strains; a UserLaw is a law of the strain that it gets.
     strain : array_like, shape (n, 6)
         Logarithmic strains 11, 22, 33, 12, 23, 13 with engineering shears; NaN where the stress is prescribed.
     stress : array_like, shape (n, 6)

@@ -144,7 +144,7 @@ def idle(deck: Problem) -> Iterator[Finding]:
         ends = [step.to[name] for step in deck.contents.steps if isinstance(step, Move | Arc) and name in step.to]
         followed = any(isinstance(step, Move) and name in step.follow for step in deck.contents.steps)
         if ends and ends[-1] != 0.0 and not followed:
-            text = f"the last step that moves it ends at {ends[-1]:g}: this part of the forces of before stays"
+            text = f"the last step that moves it ends at {ends[-1]:g}: this part of the previous forces stays"
             yield warning(f"control {name}", text, f"to = {{ {name} = 0.0 }} in its last step, if the part is released")
 
 

@@ -258,7 +258,7 @@ class Rendering:
         return np.asarray(pixels.resize((width, height), Image.Resampling.LANCZOS))
 
     def _lights(self) -> None:
-        """Lights that go with the camera."""
+        """Lights that move with the camera."""
         for place, strength in looks.LIGHTS:
             self.plotter.add_light(self.pv.Light(position=place, intensity=strength, light_type="camera light"))
 

@@ -67,7 +67,7 @@ class ShellBlock {
     }
     /// Takes the blocks of the last tangent of the same elements in a similar run, for an `evaluate` of forces alone.
     virtual void take_blocks(const ShellBlock& of) = 0;
-    /// After an `evaluate` of forces alone: the next `recover` takes its residual, with the tangent of before.
+    /// After an `evaluate` of forces alone: the next `recover` takes its residual, with the previous tangent.
     virtual void follow() = 0;
     /// Shortens what the last `recover` has changed to a part of it. eq. (5.12)
     void shorten(double part) {

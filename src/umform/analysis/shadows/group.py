@@ -303,5 +303,5 @@ def _refuse_another(name: Any, lead: Model, model: Model, cause: str) -> None:
             where=f"shadow {name}",
             value=cause or "the model of the run",
             cause="their number follows from the changed parameter" if cause else "one model for several runs",
-            remedy="give the numbers of elements and steps; build each model anew",
+            remedy="give the numbers of elements and steps; a new model in each call",
         )

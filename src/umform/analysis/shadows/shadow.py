@@ -36,7 +36,7 @@ _OF_DIFFERENCE, _ENOUGH = 1e-6, 1e-12
 _EXACT, _ROUND_OFF, _STAYS = 1e-13, 1e-9, 0.3
 #: Corrections with the factors of the reference; all corrections after which the same points touch and slide.
 _CORRECTIONS, _MOST = 5, 20
-#: Relative difference of residuals two corrections apart below which they go to and fro between two states.
+#: Relative difference of residuals two corrections apart below which they alternate between two states.
 _CYCLE = 1e-6
 #: Residual, relative to the forces, up to which a run that fails is solved with a line search; a shadow is then at most
 #: this part of the thickness from the reference.
@@ -329,7 +329,7 @@ def forces_of(model: Model, evaluation: Evaluation) -> Floats:
 
 
 def _cycles(norms: Sequence[float]) -> bool:
-    """Whether corrections go to and fro between two states."""
+    """Whether corrections alternate between two states."""
     if len(norms) < 5:
         return False
     a, b, c, d = norms[-4:]
@@ -338,7 +338,7 @@ def _cycles(norms: Sequence[float]) -> bool:
 
 def _not_solved(norms: Sequence[float], where: str) -> str:
     """Why corrections end, and where points still come into contact, or leave it, stick or slide, as text."""
-    ended = "they go to and fro between two states" if _cycles(norms) else "no convergence"
+    ended = "they alternate between two states" if _cycles(norms) else "no convergence"
     still = f"; contact still changes{where}" if where else ""
     return f"{ended} after {len(norms)} corrections, residual {norms[-1]:.1e}{still}"
 

@@ -1,4 +1,4 @@
-"""Stages of a run with its shadows: each goes on from its own result of the stage before. docs/theory, 5.17"""
+"""Stages of a run with its shadows: each continues from its own result of the previous stage. docs/theory, 5.17"""
 
 from __future__ import annotations
 

@@ -140,7 +140,7 @@ export class Result {
     ];
   }
 
-  /** Say what has become of the job, and on a small screen go there. @param {any} job */
+  /** Show the outcome of the job, and on a small screen scroll there. @param {any} job */
   tell(job) {
     const state = job.state === "done" ? t("told.done") : t(`state.${job.state}`);
     announce(t(narrow() ? "told.above" : "told", { number: job.number, title: titleOf(job), state }));

@@ -1,4 +1,4 @@
-"""What is asked of a one-step estimate: the sheet, and what holds it."""
+"""Input of a one-step estimate: the sheet, and what holds it."""
 
 from __future__ import annotations
 

@@ -48,7 +48,7 @@ def stop_at_gap(model: Evaluated, press: Press, to: Tool, gap: float) -> tuple[f
     ways = np.concatenate([np.empty((0, 2)), *_facing(model, press, to)])
     if len(ways) == 0:
         raise InvalidValue(
-            "two tools that keep a gap face each other across the sheet, along the way of the one that is pressed",
+            "two tools that keep a gap face each other across the sheet, along the travel of the pressed one",
             where=where,
             value="no contact point of either has both tools on opposite sides",
             cause="another tool than the one behind the sheet, or a way that is not normal to it",

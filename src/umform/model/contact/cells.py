@@ -36,7 +36,7 @@ def cells_for(met: Encounter, ripple: float, touching: float, allowed: float) ->
 
 
 def refuse_points_and_cells(points: object, cells: object) -> None:
-    """Refuse both numbers of a contact."""
+    """Refuse points and cells of one contact."""
     if points is not None and cells is not None:
         raise InvalidValue(
             "give points or cells, and not both",

@@ -59,7 +59,7 @@ class KeptContact:
         """The converged history of a pair."""
         penalty, over_cells = contact.penalty if contact.adapts else 0.0, contact.cells is not None
         history, history_variables = _history(contact)
-        if isinstance(contact, SheetContact):  # its places and tractions go with the other sheet
+        if isinstance(contact, SheetContact):  # its places and tractions move with the other sheet
             facet = named(history, history_variables)["facet"][..., 0].astype(np.int64)
             rows = np.where(facet > 0, contact.opposite[:, None] + facet - 1, 0)
             feet = np.where(facet[..., None] > 0, contact.faces[rows], -1).astype(np.int32)

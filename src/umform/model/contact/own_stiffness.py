@@ -1,4 +1,4 @@
-"""How stiff a contact law of a user is, and what it does not go with."""
+"""Stiffness of a contact law of the user, and the options that it excludes."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def measured(law: AnyContactLaw, depth: float, where: str) -> float:
 def refuse_beside(
     law: AnyContactLaw | None, penalty: float | None, augmented: bool, points: object, cells: object
 ) -> None:
-    """Refuse what a law of one's own does not go with.
+    """Refuse options that a contact law of the user excludes.
 
     Raises
     ------

@@ -143,7 +143,7 @@ class ModelPart:
         Parameters
         ----------
         contact : Contact
-            A pair of the model of this part, with its points of before; with friction if it had friction.
+            A pair of the model of this part, with the points and the friction that it had.
         before : str
             Name of the pair in the whole sheet; default: that of ``contact``.
 

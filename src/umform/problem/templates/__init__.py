@@ -77,7 +77,7 @@ def write_template(name: str, path: str | Path) -> list[Path]:
             raise InvalidValue(
                 "there is a file of this name",
                 where=str(target),
-                cause="a deck of before",
+                cause="an earlier deck",
                 remedy="choose another name, or move the file away",
             )
     for target, text in texts.items():

@@ -1,4 +1,4 @@
-"""What each of several sheets that are bent at once has become."""
+"""Results of each of several sheets that are bent at once."""
 
 from __future__ import annotations
 

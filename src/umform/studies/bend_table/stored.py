@@ -175,7 +175,7 @@ def bends(
         check_bend(case, angle, tolerance)
     found: dict[float, StoredBend] = {}
     brakes: list[Brake] = []
-    for angle in sorted(set(angles), reverse=True):  # from flat to sharp: each goes on from the loading before
+    for angle in sorted(set(angles), reverse=True):  # from flat to sharp: each continues the previous loading
         entry = store.get(key := bend_key(case, angle, tolerance, solver))
         try:
             if entry is None:
@@ -271,7 +271,7 @@ def _run(
 
 
 def _of(case: AirBending, angle: float, entry: Entry) -> StoredBend:
-    numbers = {"below_die": entry.value["stroke"] - case.thickness} | dict(entry.value)  # entries of before lack it
+    numbers = {"below_die": entry.value["stroke"] - case.thickness} | dict(entry.value)  # older entries lack it
     notes = tuple(numbers.pop("notes"))
     return StoredBend(replace(case, stroke=numbers["stroke"]), angle, Measures(**numbers), notes, entry.key)
 

@@ -82,7 +82,7 @@ def derivatives(
         Show a progress bar.
     checkpoint : str or PathLike, optional
         File for the state of the run and of its shadows, or a folder for the files of several operations; the same call
-        goes on from it, to the same bits.
+        continues from it, to the same bits.
 
     Returns
     -------

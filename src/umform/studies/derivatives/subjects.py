@@ -279,5 +279,5 @@ def refuse_same_model(builds: Sequence[Built]) -> None:
             where="the function of the parameters",
             value=builds[0].model,
             cause="it keeps the model, or was given it",
-            remedy="build the mesh, the model and its steps anew in each call",
+            remedy="build a new mesh, model and steps in each call",
         )

@@ -110,7 +110,7 @@ def scatter(
 
 @dataclass(frozen=True)
 class Plan:
-    """What is to be run; all that can be checked before the run has been checked.
+    """A study that is ready to run: all that can be checked before the run has been checked.
 
     Attributes
     ----------
