@@ -86,7 +86,7 @@ def test_what_is_refused():
         replace(COARSE, width=20.0, rolling=45.0)
     with pytest.raises(InvalidValue, match="-180 to 180"):
         replace(COARSE, rolling=270.0)
-    assert replace(COARSE, width=20.0, rolling=0.0).rolling_direction == (0.0, 1.0, 0.0)
+    assert replace(COARSE, width=20.0, rolling=0.0).rolling == 0.0
     with pytest.raises(InvalidValue, match="which is not given"):
         DrawBead(thickness=1.0, material=ALUMINIUM)
 
