@@ -13,7 +13,7 @@ from band_jobs import COARSE, DEFAULT, FINEST, QUICK, SOURCES
 from umform.problem.coarser import MESH
 from umform.problem.error_budget import SAFETY
 from umform.processes.draw.two_meshes import COARSER, EXTRAPOLATED
-from umform.processes.limit import Limit
+from umform.processes.extrapolation import Limit
 from umform.results.quantity import ALL_BUT_MESH
 from umform.results.studies import StudiedMesh, band_of, studied_name
 

@@ -15,7 +15,7 @@ from dataclasses import replace
 from statistics import median
 
 import umform as uf
-from umform.processes.air_bending.branches import Brake
+from umform.processes.air_bending.brake import Brake
 from umform.processes.air_bending.goal import Goal
 from umform.processes.air_bending.search import find_stroke
 from umform.processes.air_bending.spec import AirBending

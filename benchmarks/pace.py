@@ -18,7 +18,7 @@ from scipy.interpolate import PchipInterpolator
 import pages
 import umform as uf
 from dome import build as dome
-from umform.processes.air_bending import brake, problem
+from umform.processes.air_bending import loading, problem
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bending import case as bending
 from umform.processes.bending.spec import FreeBending
@@ -42,7 +42,7 @@ def air_bend() -> tuple[Any, Any, float, int]:
     """The air bending of the defaults, to a stroke of 6."""
     case = replace(AirBending(), stroke=6.0)
     model, punch = problem.build(case)
-    return model, punch, case.stroke, brake.increments(case, case.stroke)
+    return model, punch, case.stroke, loading.increments(case, case.stroke)
 
 
 def pressed_sheet() -> tuple[Any, Any, float, int]:

@@ -333,11 +333,11 @@ def test_a_step_is_a_dataclass_and_its_loop(addition):
     )
     addition.put("analysis/steps/__init__.py", "Move | Release", "Fade | ")
     addition.put(
-        "analysis/run/going.py",
+        "analysis/run/run_steps.py",
         "from umform.analysis.steps.free",
         "from umform.analysis.steps.fade import Fade, Fading\n",
     )
-    addition.put("analysis/run/going.py", "Release: Releasing", "Fade: Fading, ")
+    addition.put("analysis/run/run_steps.py", "Release: Releasing", "Fade: Fading, ")
     addition.put("problem/steps.py", "class Close(_Controlled", STEP_TABLE)
     addition.put("__init__.py", '"Arc", "Close", "Free", "Move"', '"Fade", ')
     addition.put("problem/steps.py", "Move | Release | Arc | Free", "Fade | ")
@@ -653,7 +653,7 @@ PULL = '''"""``umform pull``: pull a strip."""
 
 from __future__ import annotations
 
-from umform.cli.given import Given, given_by
+from umform.cli.spec_options import Given, given_by
 from umform.cli.options import PrintDeck, print_deck
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import app

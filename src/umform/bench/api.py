@@ -15,13 +15,13 @@ from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, R
 from starlette.routing import Route
 
 from umform.bench.decks import checked_deck, known_templates, schema_text, template_text, title_of
+from umform.bench.errors_as_json import error_record, problems_of
 from umform.bench.folders import METAL, RESULTS, SCENE, SHAPE, TABLE
+from umform.bench.form_check import look
 from umform.bench.index import Job
 from umform.bench.jobs import MOST_WAITING, Queue, result_file
 from umform.bench.library import library
-from umform.bench.look import look
 from umform.bench.parts import PARTS, Parts
-from umform.bench.refusals import error_record, problems_of
 from umform.bench.strips import FILES as STRIP_FILES
 from umform.bench.tables import converted, style_of, table_of
 from umform.bench.verdicts import verdict

@@ -1,4 +1,4 @@
-"""What the form of the page asks besides the parameters of the processes, as Specs of the bench."""
+"""Fields of the form beside the parameters of the processes, as Specs of the bench."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from umform.spec.types import Degrees, Length, Positive, Stress
 
 @dataclass(frozen=True)
 class Choices:
-    """What the form asks besides the parameters of the processes."""
+    """Fields of the form beside the parameters of the processes."""
 
     groups: ClassVar = {
         "work": "What to do",
@@ -52,7 +52,7 @@ class Choices:
 
 @dataclass(frozen=True)
 class Measured:
-    """What was measured of a bend, to correct its metal."""
+    """Measurements of a bend, which correct its metal."""
 
     groups: ClassVar = {"measured_angle": "Measured bend"}
     """Group of the parameters from each of these on."""
@@ -69,7 +69,7 @@ class Measured:
 
 @dataclass(frozen=True)
 class FlatChoices:
-    """What the form asks of a part that is unfolded."""
+    """Fields of the form for a part to unfold."""
 
     groups: ClassVar = {"part": "Flat pattern"}
     """Group of the parameters from each of these on."""
@@ -86,7 +86,7 @@ class FlatChoices:
 
 @dataclass(frozen=True)
 class TableChoices:
-    """What the form asks of a bend table."""
+    """Fields of the form for a bend table."""
 
     groups: ClassVar = {"check": "Bend table"}
     """Group of the parameters from each of these on."""

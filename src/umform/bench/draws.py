@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from umform.analysis.run.watching import watching
+from umform.analysis.run.observers import watching
 from umform.bench.folders import RESULTS
 from umform.bench.live import Watch
 from umform.bench.wanted import Wanted
@@ -99,7 +99,7 @@ def facts(case: Cup | UBend) -> dict[str, Any]:
 
 
 def follow(case: Cup | UBend) -> dict[str, float]:
-    """What empty fields of the form have, by their names."""
+    """Values of empty fields of the form, by their names."""
     if isinstance(case, Cup):
         found = {"cup_opening": 2.0 * case.throat, "cup_holder_gap": case.gap, "cup_stroke": case.way}
     else:

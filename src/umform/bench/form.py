@@ -102,7 +102,7 @@ class FormField:
 
     @property
     def kind(self) -> str:
-        """How the page asks for it: "bends", "outside", "select", "check" or "number"; lists: "words" or "numbers"."""
+        """Kind of input on the page: "bends", "outside", "select", "check" or "number"; lists: "words" or "numbers"."""
         types = {kind.type for kind in self.parameter.kinds}
         if self.name in _COMPOSED:
             return self.name
@@ -135,7 +135,7 @@ class FormField:
         return LONGEST_STRIP if self.parameter.spec in (BendSequence, Hemming) else LONGEST
 
     def record(self) -> dict[str, Any]:
-        """What the page needs of it."""
+        """Its data for the page."""
         one, size = self.parameter, None if self.many else note_of(self.parameter.hint, SizeOf)
         numbers = [kind for kind in one.kinds if kind.type in (int, float)]
         states, label = one.noun.startswith("whether "), self.said(one.noun.removeprefix("whether "))

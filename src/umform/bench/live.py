@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from umform.analysis.steps import Release
 from umform.bench.folders import LIVE
-from umform.processes.air_bending.brake import force_per_width
-from umform.processes.air_bending.branches import Brake
+from umform.processes.air_bending.brake import Brake
+from umform.processes.air_bending.loading import force_per_width
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.stack import edges_of
 from umform.report.looks import UNKNOWN, Units

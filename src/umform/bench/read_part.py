@@ -11,9 +11,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from umform.bench.errors_as_json import error_record
 from umform.bench.form import ABOUT_K
 from umform.bench.limits import limit_memory
-from umform.bench.refusals import error_record
 from umform.errors import UmformError
 from umform.flat_pattern.allowance import KFactor
 from umform.flat_pattern.pattern import pattern_of

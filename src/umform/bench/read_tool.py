@@ -7,8 +7,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from umform.bench.errors_as_json import error_record
 from umform.bench.limits import limit_memory
-from umform.bench.refusals import error_record
 from umform.bench.shelf import profile_record
 from umform.errors import UmformError
 from umform.processes.air_bending.drawn_tools import DrawnDie, DrawnPunch, read_section

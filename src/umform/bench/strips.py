@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from umform.analysis.run.watching import watching
+from umform.analysis.run.observers import watching
 from umform.bench.folders import RESULTS
 from umform.bench.forces import computed_forces, largest
 from umform.bench.live import Watch, write_live

@@ -38,7 +38,7 @@ def title_of(values: Mapping[str, Any], goal: Goal) -> str:
 
 
 def _bent(values: Mapping[str, Any], goal: Goal) -> str:
-    """What is bent."""
+    """The part and its bends."""
     work, die = values["work"], f"V{values['opening']:.4g}"
     if work == "outside":
         return f"outside {_listed(values['outside']['flanges'])} mm"

@@ -1,4 +1,4 @@
-"""What the form of the page asks for, and the parameters of the process that follow from it."""
+"""The values of a form, and the parameters of the process that follow from them."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ class Wanted:
 
     @cached_property
     def choices(self) -> Choices:
-        """What the bench asks itself."""
+        """Fields of the form that belong to the bench."""
         return Choices(**self.of(Choices))
 
     @cached_property
@@ -98,7 +98,7 @@ class Wanted:
 
     @property
     def measured(self) -> Measured:
-        """What was measured of a bend."""
+        """Measurements of the bend."""
         return Measured(**self.of(Measured))
 
     @property

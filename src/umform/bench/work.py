@@ -14,13 +14,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from umform.analysis.run.watching import watching
+from umform.analysis.run.observers import watching
+from umform.bench.errors_as_json import error_record
 from umform.bench.folders import DECK, ORDER, OUTCOME, RESULTS, locked
 from umform.bench.forces import computed_forces, largest
 from umform.bench.form import DRAWS
 from umform.bench.limits import limit_memory
 from umform.bench.live import BendProgress, DeckProgress, Watch, write_live
-from umform.bench.refusals import error_record
 from umform.bench.shelf import Shelf
 from umform.bench.strips import run_strip
 from umform.bench.wanted import Wanted
@@ -29,7 +29,7 @@ from umform.io.atomic import write_text
 from umform.io.staging import staging
 from umform.io.tables import write_csv
 from umform.processes.air_bending.bottoming import press_to_force
-from umform.processes.air_bending.branches import FRAMES, Brake
+from umform.processes.air_bending.brake import FRAMES, Brake
 from umform.processes.air_bending.budget import error_budget
 from umform.processes.air_bending.case import air_bending
 from umform.processes.air_bending.files import FILES, record, write_files

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Annotated
 
 from umform.cli.folders import out_option, results_folder, say_written
-from umform.cli.given import Given, given_by
 from umform.cli.metal import SheetMetal, with_metal
 from umform.cli.options import (
     SOLUTION,
@@ -20,6 +19,7 @@ from umform.cli.options import (
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.plausible import refuse_implausible
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, printing
+from umform.cli.spec_options import Given, given_by
 from umform.cli.studies import Studies, with_studies
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once

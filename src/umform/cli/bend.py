@@ -11,13 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from umform.cli import bend_correct, bend_table  # noqa: F401  (they add their commands)
-from umform.cli.bends import alone, bends
-from umform.cli.check import Force
-from umform.cli.deflection import deflected, press_brake
-from umform.cli.drawn_tools import drawn_tools, named_tools
-from umform.cli.folders import out_option, results_folder, say_written
-from umform.cli.given import Given, given_by
-from umform.cli.goals import (
+from umform.cli.bend_goals import (
     check_budgeted,
     check_flat_only,
     check_goal,
@@ -27,6 +21,11 @@ from umform.cli.goals import (
     check_press,
     strokes_of,
 )
+from umform.cli.bends import alone, bends
+from umform.cli.check import Force
+from umform.cli.deflection import deflected, press_brake
+from umform.cli.drawn_tools import drawn_tools, named_tools
+from umform.cli.folders import out_option, results_folder, say_written
 from umform.cli.identify import MOST, Find, Quantities, identify_case
 from umform.cli.metal import SheetMetal, with_metal
 from umform.cli.options import (
@@ -41,6 +40,7 @@ from umform.cli.outcome_screen import show_outcome
 from umform.cli.plausible import refuse_implausible
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, printing, say
 from umform.cli.sequence import run_sequence
+from umform.cli.spec_options import Given, given_by
 from umform.cli.stack import OnTop, stacked
 from umform.cli.studies import Studies, with_studies
 from umform.cli.timing import Timed, show_timing
@@ -54,7 +54,7 @@ from umform.studies.deflection.press_brake import PressBrake
 if TYPE_CHECKING:
     from umform.analysis.run import Result
     from umform.processes.air_bending.bend import AirBend
-    from umform.processes.air_bending.branches import Brake
+    from umform.processes.air_bending.brake import Brake
     from umform.processes.air_bending.measures import Measures
 
 
@@ -114,7 +114,7 @@ def bend(
     """
     from umform.io.staging import staging
     from umform.processes.air_bending.bottoming import with_travel
-    from umform.processes.air_bending.branches import FRAMES, Brake
+    from umform.processes.air_bending.brake import FRAMES, Brake
     from umform.processes.air_bending.files import FILES, RESULTS, write_files
     from umform.processes.air_bending.search import angle_table, bending_table
     from umform.timing import Timing, timings

@@ -10,12 +10,12 @@ from typing import Annotated, Any
 from umform.cli.bend_table import StoreFolder, check_jobs, checked_formats, files_of, issue
 from umform.cli.bends import bends
 from umform.cli.folders import results_folder
-from umform.cli.given import Given, given_by
 from umform.cli.metal import by_name
 from umform.cli.options import SHEET, SOLUTION, option
 from umform.cli.outcome_screen import print_table
 from umform.cli.plausible import refuse_implausible
 from umform.cli.root import Debug, Overwrite, Verbose, console
+from umform.cli.spec_options import Given, given_by
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
 from umform.processes.air_bending.spec import AirBending

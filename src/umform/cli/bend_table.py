@@ -10,12 +10,12 @@ import typer
 
 from umform.cli.bends import bends
 from umform.cli.folders import results_folder, say_written
-from umform.cli.given import Given, given_by
 from umform.cli.metal import by_name
 from umform.cli.options import SHEET, SOLUTION, option
 from umform.cli.outcome_screen import print_table
 from umform.cli.plausible import refuse_implausible
 from umform.cli.root import Debug, Overwrite, Verbose, say
+from umform.cli.spec_options import Given, given_by
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
 from umform.processes.air_bending.spec import AirBending

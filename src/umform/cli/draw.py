@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from umform.cli.folders import results_folder, say_written
-from umform.cli.given import Given, given_by
 from umform.cli.metal import SheetMetal, with_metal
 from umform.cli.options import (
     SHEET,
@@ -23,6 +22,7 @@ from umform.cli.options import (
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.plausible import refuse_implausible
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, printing, say
+from umform.cli.spec_options import Given, given_by
 from umform.cli.studies import Studies, with_studies
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
@@ -58,7 +58,7 @@ LimitCurve = Annotated[Path | None, option("Forming limit: a CSV file of minor a
 
 
 def _varied(spec: type[Cup | UBend]) -> dict[str, None]:
-    """What depends on the mesh: options without a default."""
+    """Options that depend on the mesh, without defaults."""
     return dict.fromkeys(name for mesh in spec.meshes.values() for name in mesh)
 
 

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from umform.cli.folders import out_option, results_folder, say_written
-from umform.cli.given import Given, given_by
 from umform.cli.metal import by_name
 from umform.cli.options import SHEET, SOLUTION, is_typed, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, say
+from umform.cli.spec_options import Given, given_by
 from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
 from umform.processes.air_bending.spec import AirBending
@@ -113,7 +113,7 @@ def flat(
 
 
 def _provider(metal: str | None, k_factor: float | None, table: Path | None) -> AllowanceProvider | None:
-    """What was given in place of computed bends."""
+    """The allowance given in place of computed bends; None without one."""
     from umform.flat_pattern import AllowanceTable, KFactor
 
     if k_factor is not None and table is not None:

@@ -9,9 +9,9 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
-from umform.cli.given import in_place_of
 from umform.cli.options import SHEET, option
 from umform.cli.root import say
+from umform.cli.spec_options import in_place_of
 from umform.errors import InvalidValue
 
 if TYPE_CHECKING:

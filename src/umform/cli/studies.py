@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 import typer
 
 from umform.cli.compensate import bounded, check_wanted, wanted
-from umform.cli.given import in_place_of
 from umform.cli.scattering import ScatterOptions, scatter_options
+from umform.cli.spec_options import in_place_of
 from umform.errors import InvalidValue
 
 if TYPE_CHECKING:

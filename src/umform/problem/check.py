@@ -13,7 +13,6 @@ from umform.analysis.run.loose import carried, carried_motions
 from umform.errors import NotFinite, RigidBodyMotion, SingularMatrix, ToolSwallowsSheet, UmformError
 from umform.materials import Plastic
 from umform.model.contact.encounter import sheet_thickness
-from umform.problem.before import STATE_KIND
 from umform.problem.clearance import away, clearances
 from umform.problem.contents import Contents
 from umform.problem.controls import ControlPart, Displacement, Drive, MidLine, Moment, Press, Spring, Turn
@@ -25,6 +24,7 @@ from umform.problem.placement import out_of_the_sheet
 from umform.problem.planes import planes
 from umform.problem.plausible import of_model
 from umform.problem.prepared import Prepared
+from umform.problem.previous_operation import STATE_KIND
 from umform.problem.problem import Problem, load
 from umform.problem.references import references
 from umform.problem.resolution import resolution
@@ -169,7 +169,7 @@ def state_before(deck: Problem) -> Iterator[Finding]:
 
 
 def unmoved(about: str, part: ControlPart) -> Finding:
-    """What a control does that no step moves."""
+    """Finding on a control that no step moves."""
     add = "add it to a step"
     if isinstance(part, Spring):
         return ok(about, "a spring with its preload holds the tool; no step adds a force")

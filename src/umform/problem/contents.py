@@ -7,7 +7,6 @@ from dataclasses import field
 from typing import TYPE_CHECKING, Annotated, Any, get_args
 
 from umform.problem.beads import BeadPart
-from umform.problem.before import Before, Cut, Placement
 from umform.problem.contacts import ContactPart
 from umform.problem.controls import ControlPart
 from umform.problem.element import ElementPart
@@ -15,6 +14,7 @@ from umform.problem.material import MaterialPart
 from umform.problem.mesh import MeshPart, OneMesh
 from umform.problem.notes import Field, Later
 from umform.problem.parts import Name, Part
+from umform.problem.previous_operation import Before, Cut, Placement
 from umform.problem.settings import Derivatives, Output, Solution, Units
 from umform.problem.sheet_contacts import SheetContactPart
 from umform.problem.steps import StepPart

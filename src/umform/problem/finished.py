@@ -9,8 +9,8 @@ from umform.analysis.run.checkpoint import CHECKPOINT_KIND, read_checkpoint
 from umform.errors import FileProblem, InvalidValue
 from umform.io.trees import kind_of
 from umform.model import Model
-from umform.problem.before import STATE_KIND, Before
 from umform.problem.kept import Kept
+from umform.problem.previous_operation import STATE_KIND, Before
 from umform.problem.results import CHECKPOINT, FILES, STATE
 
 

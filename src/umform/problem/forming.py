@@ -130,7 +130,7 @@ class Forming:
         )
 
     def parts(self) -> Iterator[str]:
-        """What the report has of it."""
+        """Parts of the report."""
         from umform.report.forming import forming_parts
 
         return forming_parts(self.numbers, self.diagram)

@@ -10,11 +10,11 @@ from umform.errors import FileProblem
 from umform.io.atomic import write_text
 from umform.materials import J2, Metal
 from umform.materials.laws import Law
+from umform.problem.deck_text import deck_text
 from umform.problem.errors import DeckError
 from umform.problem.keys import law_keys
 from umform.problem.reading import Unfit, read
 from umform.problem.source import Source, parse, read_file
-from umform.problem.written import deck_text
 from umform.sheet_metals import get
 
 #: Ending of the names of such files.

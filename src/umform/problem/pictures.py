@@ -13,7 +13,7 @@ from umform.model.terms.pressure import Pressure
 from umform.plotting import Plot, history_picture, house_style, shape_picture
 from umform.problem.prepared import Prepared
 from umform.report.symmetry import mirrors, whole
-from umform.results.leading import leading_controls
+from umform.results.leading_controls import leading_controls
 from umform.results.shape import Shape
 
 

@@ -15,17 +15,17 @@ from umform.errors import InvalidValue, UmformError
 from umform.mesh import Mesh
 from umform.model import Model
 from umform.model.model import sent_as
-from umform.problem.before import TAKEN, merged
 from umform.problem.building import build, sheet
 from umform.problem.contents import Contents
+from umform.problem.deck_text import deck_text, plain
 from umform.problem.errors import DeckError, DeckKey
 from umform.problem.keys import written_out
 from umform.problem.prepared import Prepared
+from umform.problem.previous_operation import TAKEN, merged
 from umform.problem.profiles import as_written
 from umform.problem.reading import Unfit, read
 from umform.problem.references import unknown_names
 from umform.problem.source import Source, change, parse, read_file, within
-from umform.problem.written import deck_text, plain
 from umform.spec import Scalar, scalars
 
 

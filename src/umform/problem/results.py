@@ -14,13 +14,13 @@ from umform.analysis.run import Result
 from umform.errors import UmformError
 from umform.io.atomic import write_problem
 from umform.io.staging import Staging
-from umform.problem.before import write_state
+from umform.problem.deck_text import toml
 from umform.problem.forming import Forming
 from umform.problem.kept import Kept
 from umform.problem.measured import TABLE, Taken, data_files, picture_files
 from umform.problem.prepared import Prepared
+from umform.problem.previous_operation import write_state
 from umform.problem.problem import Problem
-from umform.problem.written import toml
 from umform.results.outcome import QUANTITIES
 
 if TYPE_CHECKING:

@@ -9,11 +9,11 @@ from pathlib import Path as File
 from typing import Any
 
 from umform.errors import FileProblem
+from umform.problem.deck_text import deck_text, plain
 from umform.problem.errors import DeckError, DeckKey, shortened, slip, written
 from umform.problem.keys import written_out
 from umform.problem.lines import Path, lines_of, nearest_line
 from umform.problem.syntax import no_toml
-from umform.problem.written import deck_text, plain
 
 #: Tables of things by name.
 _NAMED = ("tools", "contacts", "sheet_contacts", "beads", "controls", "measures")

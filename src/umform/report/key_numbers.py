@@ -10,7 +10,7 @@ import numpy as np
 from umform.report.looks import Units, look_of
 from umform.report.symmetry import modelled_part
 from umform.report.words import column_text
-from umform.results.leading import leading_controls
+from umform.results.leading_controls import leading_controls
 from umform.results.quantity import Quantity
 
 if TYPE_CHECKING:

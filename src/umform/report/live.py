@@ -22,7 +22,7 @@ from umform.report.looks import UNKNOWN, Units
 from umform.report.scene import Scene, scene_of
 from umform.report.symmetry import modelled_part, whole
 from umform.report.words import column_text
-from umform.results.leading import leading_controls
+from umform.results.leading_controls import leading_controls
 from umform.results.shape import Shape
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""What a process reports of its runs; terminal, page, files, sweeps and the bench read nothing else."""
+"""Results of a process: terminal, page, files, sweeps and the bench read nothing else."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ class Study(InNotebook):
 
     @property
     def annexes(self) -> Sequence[Annex]:
-        """All that is shown."""
+        """All studies that are shown."""
         return [self.annex]
 
     def __repr__(self) -> str:
@@ -182,7 +182,7 @@ class Outcome(InNotebook, ABC):
     @property
     @abstractmethod
     def warnings(self) -> Sequence[str]:
-        """What makes the numbers doubtful."""
+        """Warnings about the numbers."""
 
     @property
     def length(self) -> str:
@@ -191,7 +191,7 @@ class Outcome(InNotebook, ABC):
 
     @property
     def notes(self) -> list[str]:
-        """What belongs beside the numbers."""
+        """Remarks on the numbers."""
         return []
 
     @property

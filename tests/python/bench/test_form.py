@@ -19,7 +19,7 @@ PROGRAM = """
 import json
 from typer.testing import CliRunner
 from umform.bench.library import library
-from umform.bench.look import look
+from umform.bench.form_check import look
 from umform.bench.wanted import Wanted
 from umform.cli import app
 from umform.processes.air_bending import AirBending

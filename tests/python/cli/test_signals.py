@@ -15,7 +15,7 @@ from command_line import umform
 
 from umform import cli
 from umform.problem.templates import write_template
-from umform.processes.air_bending.branches import Brake
+from umform.processes.air_bending.brake import Brake
 
 SOURCE = Path(cli.__file__).parents[2]
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals")

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import umform as uf
-from umform.analysis.newton import keeping, newton
+from umform.analysis.newton import growing_penalties, newton
 from umform.analysis.newton.options import NewtonOptions
 from umform.errors import NoConvergence
 from umform.model.contact import Contact
@@ -179,7 +179,7 @@ def test_a_penalty_grows_before_the_iterations_converge(monkeypatch):
 
 
 def test_the_last_pass_converges_although_a_contact_is_too_deep(monkeypatch):
-    monkeypatch.setattr(keeping, "_PASSES", 1)
+    monkeypatch.setattr(growing_penalties, "_PASSES", 1)
     model, move, pair = stretched(steps=1)
     pair.use_penalty(2e-3 * pair.initial_penalty)
     result = uf.solve(model, move, frames=0, progress=False)
@@ -199,7 +199,7 @@ def test_a_penetration_that_is_prescribed_does_not_grow_the_penalty_without_end(
 
 def failing(monkeypatch, times):
     """Let passes of the penalties fail, so many times; how often they were tried is the length of the list."""
-    tried, grown = [], keeping._grown
+    tried, grown = [], growing_penalties._grown
 
     def sometimes(*given):
         tried.append(given)
@@ -208,7 +208,7 @@ def failing(monkeypatch, times):
             raise Failed("as asked", [])
         return grown(*given)
 
-    monkeypatch.setattr(keeping, "_grown", sometimes)
+    monkeypatch.setattr(growing_penalties, "_grown", sometimes)
     return tried
 
 

@@ -7,10 +7,10 @@ from pydantic import TypeAdapter
 
 import umform as uf
 from umform.errors import InvalidValue
+from umform.problem.deck_text import toml
 from umform.problem.keys import law_keys
 from umform.problem.material import MaterialPart
 from umform.problem.tagged import deck_type
-from umform.problem.written import toml
 from umform.spec import changed, scalars
 
 SWIFT = uf.Swift(520.0, 0.004, 0.22)

@@ -7,10 +7,10 @@ import pytest
 
 from umform.errors import UmformError
 from umform.problem import load
-from umform.problem.before import write_state
 from umform.problem.check import before_run
 from umform.problem.coarser import coarser
 from umform.problem.findings import Level
+from umform.problem.previous_operation import write_state
 
 #: Tool and contact of both operations.
 TOOL = """

@@ -18,13 +18,12 @@ from umform.processes.air_bending import (
     air_bending,
     bending_table,
     brake,
-    branches,
     find_stroke,
 )
-from umform.processes.air_bending.brake import INCREMENTS, loading
-from umform.processes.air_bending.branches import Brake
+from umform.processes.air_bending.brake import Brake
 from umform.processes.air_bending.files import record
 from umform.processes.air_bending.formulas import shop_forces, tensile_strength
+from umform.processes.air_bending.loading import INCREMENTS, OPTIONS, loading
 from umform.processes.air_bending.problem import build, problem_of
 from umform.processes.air_bending.sheet import lines_along
 from umform.results.quantity import GIVEN, declared
@@ -48,7 +47,7 @@ def test_the_punch_pushes_as_hard_as_the_die(bend):
 
 
 def test_tight_iterations_find_the_same_bend(bend, monkeypatch):
-    monkeypatch.setattr(branches, "OPTIONS", replace(brake.OPTIONS, residual=1e-9, increment=1e-6))
+    monkeypatch.setattr(brake, "OPTIONS", replace(OPTIONS, residual=1e-9, increment=1e-6))
     tight = air_bending(replace(COARSE, stroke=6.0), progress=False)
     assert tight.iterations > bend.iterations
     assert bend.measures.angle == pytest.approx(tight.measures.angle, abs=2e-6)

@@ -19,7 +19,7 @@ from umform.processes.draw_bead.case import limits_of
 from umform.processes.draw_bead.equivalent import in_deck, in_python
 from umform.processes.draw_bead.files import FILES, write_files
 from umform.processes.draw_bead.problem import problem_of
-from umform.processes.limit import Limit
+from umform.processes.extrapolation import Limit
 
 MILD = uf.J2(E=210e3, nu=0.3, hardening=uf.Swift(520.0, 0.004, 0.22))
 SMALL = {"thickness": 1.0, "radius": 4.0, "height": 3.0, "groove_radius": 3.0, "elements": 5.0}

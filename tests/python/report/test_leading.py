@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from umform.results.forming.tool_distance import pose_in
-from umform.results.leading import leading_controls
+from umform.results.leading_controls import leading_controls
 
 
 class Named:

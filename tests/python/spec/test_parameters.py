@@ -15,7 +15,7 @@ from pydantic import TypeAdapter, ValidationError
 from typer.testing import CliRunner
 
 import umform as uf
-from umform.cli.given import Given, given_by
+from umform.cli.spec_options import Given, given_by
 from umform.errors import InvalidValue, NotFinite
 from umform.model.contact import ContactOptions
 from umform.processes.air_bending.goal import Goal

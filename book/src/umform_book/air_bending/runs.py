@@ -13,7 +13,7 @@ from umform.analysis.run import Result
 from umform.analysis.steps import Move
 from umform.model.contact import ContactPoints
 from umform.processes.air_bending import AirBend, AirBending, air_bending
-from umform.processes.air_bending.brake import OPTIONS, against_flank, force_per_width
+from umform.processes.air_bending.loading import OPTIONS, against_flank, force_per_width
 from umform.processes.air_bending.problem import build
 from umform.processes.air_bending.section import Section
 from umform_book.balance import balance_row

@@ -11,7 +11,7 @@ from numpy.polynomial import Polynomial
 from umform.analysis.run import Result
 from umform.analysis.steps import Move
 from umform.processes.air_bending import AirBending
-from umform.processes.air_bending.brake import OPTIONS, force_per_width
+from umform.processes.air_bending.loading import OPTIONS, force_per_width
 from umform.processes.air_bending.problem import build
 from umform.processes.bending.measures import SMOOTH_DEGREE, jump
 from umform_book.air_bending.runs import Floats

@@ -11,15 +11,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.analysis.newton.carried import carried, leaves_arc
 from umform.analysis.newton.criteria import SETTLED_INCREMENT, SETTLED_RESIDUAL
 from umform.analysis.newton.newton import Newton
 from umform.analysis.newton.options import IndefiniteTangent
-from umform.analysis.newton.passage import same_side
+from umform.analysis.newton.passed_through import same_side
 from umform.analysis.newton.rigid_start import rigid_start
+from umform.analysis.newton.rotation_check import follows
+from umform.analysis.newton.rotation_predictor import carried, leaves_arc
 from umform.analysis.newton.softening import softened
 from umform.analysis.newton.strategy_statistics import StrategyStatistics
-from umform.analysis.newton.turning import follows
 from umform.model import Evaluation, Model
 from umform.model.terms.control import Control
 from umform.model.terms.state import State

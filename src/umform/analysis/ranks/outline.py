@@ -14,7 +14,7 @@ from umform.model.contact import Contact
 from umform.model.supports.support import Support
 from umform.model.supports.ties import MidLine
 from umform.model.terms.control import Control, Twins
-from umform.model.terms.now import Now
+from umform.model.terms.present_state import Now
 from umform.model.terms.term import Term
 from umform.parallel.mpi_ranks import MpiRanks
 

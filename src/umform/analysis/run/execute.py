@@ -11,9 +11,9 @@ from typing import Any
 from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.run.checked import checked
 from umform.analysis.run.flush import touch_flush_sheet
-from umform.analysis.run.going import checkpoints_of, go_on, loop_for, ready
 from umform.analysis.run.loose import carry_loose_sheet
 from umform.analysis.run.result import Result
+from umform.analysis.run.run_steps import checkpoints_of, go_on, loop_for, ready
 from umform.analysis.steps import Step
 from umform.analysis.steps.loop import Follower, Run
 from umform.errors import InvalidValue

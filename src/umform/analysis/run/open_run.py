@@ -11,8 +11,8 @@ from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.newton.strategy_statistics import StrategyStatistics
 from umform.analysis.run.checked import checked
 from umform.analysis.run.execute import OnIncrement
-from umform.analysis.run.going import begun, taken
 from umform.analysis.run.result import Result
+from umform.analysis.run.run_steps import begun, taken
 from umform.analysis.steps import Step
 from umform.analysis.steps.trail import Trail
 from umform.errors import InvalidValue

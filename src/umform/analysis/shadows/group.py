@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.run.execute import prepared_steps, resume_followed, solve_followed
 from umform.analysis.run.fingerprint import fingerprint, text
-from umform.analysis.run.going import ready
 from umform.analysis.run.result import Result
+from umform.analysis.run.run_steps import ready
 from umform.analysis.shadows.shadow import Factors, Guess, Kept, Shadow, factored, forces_of, reason
 from umform.analysis.shadows.structure import other_structure
 from umform.analysis.steps import Step

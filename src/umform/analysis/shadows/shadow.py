@@ -14,7 +14,7 @@ from umform.analysis.newton.bordered import Bordered
 from umform.analysis.newton.criteria import EPS
 from umform.analysis.newton.shift import Shift
 from umform.analysis.run.checkpoint import memory_of, recall
-from umform.analysis.run.going import loop_for
+from umform.analysis.run.run_steps import loop_for
 from umform.analysis.steps import Step
 from umform.analysis.steps.loop import Run
 from umform.errors import NotFinite, SingularMatrix, UmformError
@@ -93,7 +93,7 @@ class Guess:
 
 @dataclass
 class Kept:
-    """What a shadow has kept so far.
+    """Results that a shadow has stored so far.
 
     Attributes
     ----------

@@ -15,7 +15,7 @@ from umform.model.contact.sheets import SheetContact
 
 
 def other_structure(model: Model, steps: Sequence[Step], other: Model, other_steps: Sequence[Step]) -> str:
-    """How the structure of another model differs; empty if it does not."""
+    """Difference between the structures of two models as text; empty if there is none."""
     one, two = model.mesh, other.mesh
     if not np.array_equal(one.connectivity, two.connectivity) or len(one.points) != len(two.points):
         return f"{len(two.connectivity)} elements in place of {len(one.connectivity)}"

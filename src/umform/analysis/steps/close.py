@@ -10,7 +10,7 @@ import numpy as np
 
 from umform.analysis.steps.increment import no_convergence, take_increment
 from umform.analysis.steps.loop import Run, Take
-from umform.analysis.steps.saved import Saved, tightened
+from umform.analysis.steps.saved_state import Saved, tightened
 from umform.errors import InvalidValue, NoConvergence
 from umform.model import Model
 from umform.model.tools.press import Press

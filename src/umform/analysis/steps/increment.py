@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.analysis.newton.augmentation import augmented
-from umform.analysis.newton.keeping import relaxed, within_allowed
+from umform.analysis.newton.growing_penalties import relaxed, within_allowed
 from umform.analysis.newton.newton import Newton
 from umform.analysis.newton.strategies import Increment, equilibrium
 from umform.analysis.steps.crushed import crushed

@@ -13,7 +13,7 @@ from typing import Any, Protocol
 
 from umform.analysis.newton.newton import Newton
 from umform.analysis.newton.strategy_statistics import StrategyStatistics
-from umform.analysis.steps.lost import lost_tools
+from umform.analysis.steps.lost_contact import lost_tools
 from umform.analysis.steps.own_parts import linear_rate, own_checks
 from umform.analysis.steps.trail import Trail
 from umform.model import Evaluation, Model

@@ -16,7 +16,7 @@ from umform.analysis.steps.increment import no_convergence, take_increment
 from umform.analysis.steps.loop import Run, Take
 from umform.analysis.steps.move import Move
 from umform.analysis.steps.pace import Happened
-from umform.analysis.steps.saved import Saved
+from umform.analysis.steps.saved_state import Saved
 from umform.analysis.steps.trail import changes
 from umform.model.terms.control import OnDofs
 from umform.model.tools.tool_controls import ToolWay

@@ -9,7 +9,7 @@ from typing import Any, Self
 
 from umform.analysis.steps.increment import no_convergence, take_increment
 from umform.analysis.steps.loop import Run, Take
-from umform.analysis.steps.saved import Saved, tightened
+from umform.analysis.steps.saved_state import Saved, tightened
 from umform.errors import InvalidValue
 from umform.model import Evaluation
 from umform.model.terms.control import Control

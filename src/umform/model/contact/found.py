@@ -242,7 +242,7 @@ class ContactFound(Found):
         return 0.5 / self.penalty * float((difference * self.area) @ total)
 
     def work_of_touch(self, before: ContactFound) -> float:
-        """What the mean of both ends has too little of the work of points that touch or leave in between. eq. (5.104)
+        """Work of points that touch or leave within an increment, less that of the mean of both ends. eq. (5.104)
 
         Parameters
         ----------

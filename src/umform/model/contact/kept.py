@@ -69,7 +69,7 @@ class KeptContact:
         return cls(contact.faces.copy(), turned, history_variables, penalty, over_cells=over_cells, gaps=gaps)
 
     def left(self, parents: Numbers, same: NDArray[np.bool_]) -> KeptContact:
-        """What a part keeps of it.
+        """The history that remains on a part.
 
         Parameters
         ----------

@@ -9,7 +9,7 @@ from umform.model.contact.pair import Contact
 from umform.model.terms import forces
 from umform.model.terms.controls import Controls
 from umform.model.terms.forces import Vector
-from umform.model.terms.now import Now
+from umform.model.terms.present_state import Now
 from umform.model.terms.term import Global
 from umform.model.tools.press import Press, Stiffness, Stop
 from umform.model.tools.tool import Motion, Tool

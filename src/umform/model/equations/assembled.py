@@ -24,7 +24,7 @@ from umform.model.equations.whole import Whole
 from umform.model.supports.supports import Supports
 from umform.model.terms.control import Control
 from umform.model.terms.controls import Controls
-from umform.model.terms.now import Now
+from umform.model.terms.present_state import Now
 from umform.model.terms.state import State
 from umform.model.terms.term import Global, Term
 from umform.model.terms.term_checks import check_term
@@ -185,7 +185,7 @@ class Assembled:
 
     @property
     def multiplied(self) -> list[Contact | SheetContact]:
-        """Those of them with multipliers."""
+        """All contacts with multipliers."""
         return [contact for contact in self.penalised if contact.augmented]
 
     @property

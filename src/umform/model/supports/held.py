@@ -17,7 +17,7 @@ from umform.model.supports.support import Support
 from umform.model.supports.ties import Tie, split_ties
 from umform.model.terms.control import Control, OnDofs, Prescribed
 from umform.model.terms.controls import Controls
-from umform.model.terms.now import Now
+from umform.model.terms.present_state import Now
 from umform.model.terms.state import State
 
 Floats = NDArray[np.float64]

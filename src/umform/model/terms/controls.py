@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 
 from umform.errors import InvalidValue
 from umform.model.terms.control import Control
-from umform.model.terms.now import Now
+from umform.model.terms.present_state import Now
 from umform.model.terms.state import State
 from umform.model.terms.term import Term
 

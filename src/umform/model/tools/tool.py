@@ -16,7 +16,7 @@ from umform.errors import InvalidValue
 from umform.model.terms.control import Control, Twins
 from umform.model.terms.dead_load import Load
 from umform.model.terms.forces import vector3
-from umform.model.terms.now import Now
+from umform.model.terms.present_state import Now
 from umform.model.terms.term import At, Found, Global, Into, Term, Tree
 from umform.model.tools.press import Press
 from umform.model.tools.rigid_stops import ToolFound, bear

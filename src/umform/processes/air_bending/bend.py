@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.analysis.run import Result
-from umform.processes.air_bending.brake import force_per_width, loading
 from umform.processes.air_bending.formulas import RULE, shop_forces
+from umform.processes.air_bending.loading import force_per_width, loading
 from umform.processes.air_bending.measures import Measures, measure
 from umform.processes.air_bending.remarks import STROKES, depth_text, of_this_mesh, remarks, tools_text, total_force
 from umform.processes.air_bending.section import Section

@@ -7,9 +7,9 @@ from dataclasses import replace
 
 from umform.errors import InvalidValue, SolveError
 from umform.processes.air_bending.bend import Loaded
-from umform.processes.air_bending.brake import part_end
-from umform.processes.air_bending.branches import FRAMES, Brake
+from umform.processes.air_bending.brake import FRAMES, Brake
 from umform.processes.air_bending.goal import Goal
+from umform.processes.air_bending.loading import part_end
 from umform.processes.air_bending.search import Found
 from umform.processes.air_bending.spec import AirBending
 from umform.progress import Tick, progress_bar

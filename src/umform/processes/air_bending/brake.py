@@ -1,85 +1,125 @@
-"""The press brake: the loading and unloading steps, forces and contact on flanks."""
+"""A sheet that is loaded once and unloaded from several strokes: branches of one run."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.analysis.newton.options import NewtonOptions
-from umform.analysis.steps.release import Release
-from umform.model.contact import ContactPoints
+from umform.analysis.run.open_run import Mark, OpenRun
+from umform.analysis.steps import Move
+from umform.model import Model
 from umform.model.terms.control import Control
+from umform.processes.air_bending.bend import AirBend, Loaded
+from umform.processes.air_bending.loading import (
+    INCREMENTS,
+    OPTIONS,
+    against_flank,
+    force_per_width,
+    loading,
+    part_end,
+    unloading,
+)
+from umform.processes.air_bending.measures import Measures
+from umform.processes.air_bending.problem import build
+from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.spec import AirBending
+from umform.processes.air_bending.stack import edges_of
+from umform.progress import Tick, silent
 
-#: Near zero force the sheet rests on single rows of contact points, and plain Newton jumps between two rows. Tight
-#: tolerances give angles to 1e-6 degrees. The quadratic predictor saves a fourth of the evaluations.
-OPTIONS = NewtonOptions(residual=1e-6, increment=1e-4, line_search=True, extrapolate=2)
-#: Increments of one step of the loading.
-INCREMENTS = 5
-#: Increments of the pressing of bottoming, where most of the work is done, for one of the bend in the air; where it
-#: begins, in thicknesses before the bottom.
-_FINER, _PRESSED = 4, 0.5
-#: Force that counts as zero, relative to the force before unloading: an error of the angle of about 0.002 degrees; and
-#: where the sheet was pressed with many times the force of a bend.
-_ZERO_FORCE, _ZERO_PRESSED = 2e-3, 2e-5
-#: First increment of unloading in thicknesses.
-_FIRST_BACK = 0.02
+Floats = NDArray[np.float64]
+
+#: About how many states of a bend are kept for pictures.
+FRAMES = 60
 
 
-def loading(case: AirBending, stroke: float) -> list[tuple[float, int]]:
-    """Strokes at the ends of the loading steps, and the increments of each: steps of equal increments, then the rest.
+class Brake:
+    """A sheet between die and punch that keeps its states under load.
 
-    The steps are the same for all strokes, so that a search and a table follow the path of a single bend.
+    Parameters
+    ----------
+    case : AirBending
+        The parameters; the stroke is not used.
+    solver : str
+        Sparse solver.
+    frames : int
+        Approximate number of states kept for pictures on the largest stroke; 0 also drops the ends of steps.
+
+    Attributes
+    ----------
+    run : OpenRun
+        The run: loaded, or loaded and unloaded.
     """
-    part = INCREMENTS * case.way
-    whole = max(0, math.ceil(stroke / part - 1e-9) - 1)
-    ends = [(part_end(case, number), INCREMENTS) for number in range(1, whole + 1)]
-    steps = [*ends, (stroke, increments(case, stroke - whole * part))]
-    return [(end, _FINER * count if _presses(case, end) else count) for end, count in steps]
 
+    def __init__(self, case: AirBending, solver: str = "auto", frames: int = 0) -> None:
+        self.case = case
+        self.model, self.punch = self.build()
+        share = frames * INCREMENTS * case.way / case.largest_stroke
+        self.run = OpenRun(self.model, solver=solver, options=OPTIONS, frames=min(frames, max(1, round(share))))
+        self._parts: list[Mark] = [self.run.mark()]
+        self._done: int | None = 0  # completed steps of the run, if it is at the end of one
+        self._loaded: Loaded | None = None
 
-def _presses(case: AirBending, stroke: float) -> bool:
-    """Whether the sheet is pressed onto the flanks at a stroke, or nearly."""
-    return case.bottoming and stroke > case.bottom_stroke - _PRESSED * case.thickness
+    def build(self) -> tuple[Model, Control]:
+        """Model of the sheet in the tools, and the control that moves the punch down."""
+        return build(self.case)
 
+    def section(self) -> Section:
+        """Section of the first sheet as it is now."""
+        return Section.of(self.model.mesh, self.model.u, edges_of(self.case))
 
-def part_end(case: AirBending, number: int) -> float:
-    """Stroke at the end of a loading step, counted from 1."""
-    return number * (INCREMENTS * case.way)
+    def forces(self) -> Floats:
+        """Force of the punch per length of bend in kN/m, all increments up to now."""
+        return force_per_width(self.case, self.run.result["stroke_force"])
 
+    def load(self, stroke: float, tick: Tick = silent) -> Loaded:
+        """Load to a stroke, from the nearest kept state below it.
 
-def increments(case: AirBending, way: float) -> int:
-    """Number of increments for a travel of the punch."""
-    return max(1, math.ceil(way / case.way - 1e-9))
+        Raises
+        ------
+        NoConvergence
+            If the sheet cannot be bent to the stroke.
+        """
+        parts = loading(self.case, stroke)
+        rest = [] if parts[-1][0] == part_end(self.case, len(parts)) else [parts.pop()]
+        known = min(len(parts), len(self._parts) - 1)
+        if self._done != known:
+            self.run.go_back(self._parts[known])
+        for number in range(known, len(parts)):
+            self._down(*parts[number], tick)
+            self._parts.append(self.run.mark())
+        self._done = len(parts)
+        for end, count in rest:
+            self._down(end, count, tick)
+        found = {pair.name: self.run.evaluation.found[pair].points() for pair in self.model.contacts}
+        forces, against = self.forces(), against_flank(self.case, found)
+        self._loaded = Loaded(stroke, float(forces[-1]), float(forces.max()), self.section(), against)
+        return self._loaded
 
+    def _down(self, stroke: float, count: int, tick: Tick) -> None:
+        self._done = None
+        self.run.take(Move(self.punch, to=stroke, steps=count))
+        tick("loading", stroke / self.case.largest_stroke, f"stroke {stroke:.4g}")
 
-def unloading(case: AirBending, punch: Control) -> Release:
-    """Step that takes the punch back until its force is zero."""
-    return Release(punch, **unloading_keys(case))
+    def unload(self) -> Measures:
+        """Measures after unloading from the state that `load` has reached.
 
+        Raises
+        ------
+        NoConvergence
+            If unloading does not converge.
+        """
+        assert self._loaded is not None
+        self._done = None
+        self.run.take(unloading(self.case, self.punch))
+        return self._loaded.measured(self.section(), self.case.height)
 
-def unloading_keys(case: AirBending, tolerance: float | None = None) -> dict[str, Any]:
-    """First increment and tolerance of unloading."""
-    usual = _ZERO_PRESSED if case.bottoming else _ZERO_FORCE
-    return {"increment": _FIRST_BACK * case.thickest, "tolerance": tolerance or usual}
+    def bend(self, stroke: float, tick: Tick = silent) -> AirBend:
+        """Load to a stroke and unload; the run ends there."""
+        loaded = self.load(stroke, tick)
+        return self.end(loaded, self.unload())
 
-
-def force_per_width(case: AirBending, force: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Force per length of bend on the whole sheet, from the force on the modelled part."""
-    modelled = case.thickest if case.width is None else 0.5 * case.width
-    return 2.0 / modelled * force
-
-
-def against_flank(case: AirBending, contacts: Mapping[str, ContactPoints]) -> str:
-    """Tool, "die" or "punch", whose flank the sheet touches, a quarter of a thickness beyond the radius."""
-    beyond = 0.25 * case.thickest
-    die, punch = (0.5 * math.radians(180.0 - angle) for angle in (case.die_angle, case.punch_angle))
-    x_die = np.abs(contacts["die"].x[contacts["die"].gap <= 0.0, 0])
-    if (x_die < case.shoulder - case.die_radius * math.sin(die) - beyond * math.cos(die)).any():
-        return "die"
-    x_punch = np.abs(contacts["punch"].x[contacts["punch"].gap <= 0.0, 0])
-    return "punch" if (x_punch > case.punch_radius * math.sin(punch) + beyond * math.cos(punch)).any() else ""
+    def end(self, loaded: Loaded, measures: Measures) -> AirBend:
+        """The last bend that was loaded and unloaded; the run ends there."""
+        return AirBend.of(replace(self.case, stroke=loaded.stroke), self.run.close(), loaded, measures)

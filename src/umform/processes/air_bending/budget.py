@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from umform.elements import element
 from umform.pool import run_all
-from umform.processes.air_bending.branches import Brake
+from umform.processes.air_bending.brake import Brake
 from umform.processes.air_bending.goal import needed_stroke
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.problem import touching

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from umform.processes.air_bending.bend import AirBend
-from umform.processes.air_bending.branches import FRAMES, Brake
+from umform.processes.air_bending.brake import FRAMES, Brake
 from umform.processes.air_bending.goal import needed_stroke
 from umform.processes.air_bending.spec import AirBending
 from umform.progress import progress_bar

@@ -40,7 +40,7 @@ class DrawnPunch:
 
     @property
     def words(self) -> str:
-        """What it is, in a few words."""
+        """Description in a few words."""
         return f"drawn, {len(self.profile.segments)} lines and arcs"
 
     @classmethod
@@ -94,7 +94,7 @@ class DrawnDie:
 
     @property
     def words(self) -> str:
-        """What it is, in a few words."""
+        """Description in a few words."""
         return f"drawn, {len(self.profile.segments)} lines and arcs"
 
     @classmethod

@@ -6,8 +6,8 @@ import numpy as np
 
 from umform.analysis.run import Result
 from umform.processes.air_bending.bend import AirBend, Loaded
-from umform.processes.air_bending.brake import against_flank, force_per_width, loading
 from umform.processes.air_bending.goal import needed_stroke
+from umform.processes.air_bending.loading import against_flank, force_per_width, loading
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.air_bending.stack import edges_of

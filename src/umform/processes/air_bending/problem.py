@@ -13,9 +13,9 @@ from umform.model.terms.control import Control
 from umform.problem.keys import law_keys
 from umform.problem.problem import Problem
 from umform.problem.profiles import profile_table
-from umform.processes.air_bending.brake import OPTIONS, loading, unloading_keys
 from umform.processes.air_bending.foil import refuse_squeezed
 from umform.processes.air_bending.goal import needed_stroke
+from umform.processes.air_bending.loading import OPTIONS, loading, unloading_keys
 from umform.processes.air_bending.sheet import lines_of, lines_through
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.air_bending.stack import between, name_of, of_sheet

@@ -1,4 +1,4 @@
-"""What belongs beside the numbers of a bend: tools in use, coarse mesh, force for the press, extrapolated curve."""
+"""Remarks on the numbers of a bend: tools in use, coarse mesh, force for the press, extrapolated curve."""
 
 from __future__ import annotations
 

@@ -10,9 +10,9 @@ from itertools import accumulate
 from umform.errors import InvalidValue, SolveError
 from umform.notebook import Display, InNotebook
 from umform.processes.air_bending.bend import AirBend, Loaded
-from umform.processes.air_bending.brake import INCREMENTS
-from umform.processes.air_bending.branches import FRAMES, Brake
+from umform.processes.air_bending.brake import FRAMES, Brake
 from umform.processes.air_bending.goal import Goal, check_angle, unreachable
+from umform.processes.air_bending.loading import INCREMENTS
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.air_bending.stack import bonded_sheets
@@ -55,7 +55,7 @@ class Found(InNotebook):
 
     @property
     def measures(self) -> Measures:
-        """What is measured there."""
+        """Measures of the bend with this stroke."""
         return self.bend.measures
 
 

@@ -11,7 +11,7 @@ from umform.analysis.run import Result
 from umform.elements import element
 from umform.mesh import Mesh
 from umform.model.transfer.rigid_motion import RigidMotion
-from umform.problem.before import Placement
+from umform.problem.previous_operation import Placement
 from umform.problem.problem import Problem
 from umform.processes.air_bending.problem import problem_of as single_bend
 from umform.processes.air_bending.problem import touching

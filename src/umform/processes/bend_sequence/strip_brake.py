@@ -8,7 +8,7 @@ from umform.model import Model
 from umform.model.terms.control import Control
 from umform.problem.problem import Problem
 from umform.processes.air_bending.bend import Loaded
-from umform.processes.air_bending.branches import Brake, Floats
+from umform.processes.air_bending.brake import Brake, Floats
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.section import Section
 from umform.processes.bend_sequence.done import measures_of, placed_problem

@@ -17,7 +17,7 @@ from umform.processes.draw.cup import Cup
 from umform.processes.draw.endings import Ending, tears_from
 from umform.processes.draw.spec import coarse
 from umform.processes.draw.u_bend import UBend
-from umform.processes.limit import Limit
+from umform.processes.extrapolation import Limit
 from umform.report.symmetry import Mirror, with_images
 from umform.results.forming import (
     NUMBER_OF_EARS,

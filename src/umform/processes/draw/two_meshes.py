@@ -8,7 +8,7 @@ from umform.errors import InvalidValue
 from umform.processes.draw.case import FRAMES, draw
 from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.u_bend import UBend
-from umform.processes.limit import Limit
+from umform.processes.extrapolation import Limit
 from umform.progress import Show, parts, progress_bar
 from umform.results.forming import FormingLimit
 from umform.spec import check_arguments

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from umform.errors import InvalidValue
 from umform.processes.draw.spec import Draw, Turn, check_clearance, tight, unusual_pressure
-from umform.processes.limit import allowed_penetration
+from umform.processes.extrapolation import allowed_penetration
 from umform.processes.solution import drawing_options
 from umform.spec import names_its_words
 from umform.spec.types import ContactPoints, Force, Friction, Penalty, Size

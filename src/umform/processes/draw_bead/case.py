@@ -8,11 +8,11 @@ from umform.analysis.run import solve
 from umform.analysis.steps import Step
 from umform.errors import InvalidValue
 from umform.model import Model
-from umform.processes.draw_bead.limits import Limits
+from umform.processes.draw_bead.extrapolated_forces import Limits
 from umform.processes.draw_bead.measures import Drawn
 from umform.processes.draw_bead.problem import problem_of
 from umform.processes.draw_bead.spec import FEWEST, DrawBead
-from umform.processes.limit import FINER, Limit
+from umform.processes.extrapolation import FINER, Limit
 from umform.progress import Show, parts, progress_bar
 from umform.spec import check_arguments
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.analysis.run import Result
-from umform.processes.draw_bead.limits import Limits
+from umform.processes.draw_bead.extrapolated_forces import Limits
 from umform.processes.draw_bead.spec import DrawBead
 from umform.results import fields
 from umform.results.outcome import Outcome

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 from annotated_types import Ge, Le
 
 from umform.errors import InvalidValue
-from umform.processes.limit import allowed_penetration
+from umform.processes.extrapolation import allowed_penetration
 from umform.processes.rules import PLASTIC, check_contact_points, check_rolling
 from umform.processes.solution import drawing_options, usual_pace
 from umform.spec import About, check_fields, names_its_words

@@ -14,9 +14,9 @@ from umform.model.contact.encounter import Layer
 from umform.model.contact.settings import ContactOptions, contact_settings
 from umform.model.transfer.beside import PART
 from umform.model.transfer.rigid_motion import RigidMotion
-from umform.problem.before import Placement
+from umform.problem.previous_operation import Placement
 from umform.problem.problem import Problem
-from umform.processes.air_bending.brake import unloading_keys
+from umform.processes.air_bending.loading import unloading_keys
 from umform.processes.air_bending.problem import touching
 from umform.processes.bend_sequence.part import Part
 from umform.processes.bend_sequence.sides import Strip

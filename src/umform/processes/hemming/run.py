@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from umform.analysis.run.open_run import OpenRun
-from umform.processes.air_bending.brake import OPTIONS
+from umform.processes.air_bending.loading import OPTIONS
 from umform.processes.bend_sequence.run import FRAMES, bend_sequence
 from umform.processes.bend_sequence.sides import Strip
 from umform.processes.hemming.measures import Hem, measured

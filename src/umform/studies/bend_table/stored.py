@@ -13,7 +13,7 @@ from umform.errors import InvalidValue, SolveError, UmformError
 from umform.io.store import Entry, Store, key_of
 from umform.problem.keys import law_keys
 from umform.problem.own_classes import modules_of
-from umform.processes.air_bending.branches import Brake
+from umform.processes.air_bending.brake import Brake
 from umform.processes.air_bending.goal import Goal, check_angle
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.problem import problem_of

@@ -8,8 +8,8 @@ from typing import Any
 
 from umform.materials import J2, FallingModulus, Metal, YieldFunction
 from umform.materials.yield_functions import Function
+from umform.problem.deck_text import toml_line
 from umform.problem.keys import given, keys_of, law_keys
-from umform.problem.written import toml_line
 
 
 def rounded_keys(law: J2 | Metal) -> dict[str, Any]:

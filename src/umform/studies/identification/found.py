@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
-from umform.problem.before import TAKEN
-from umform.problem.written import deck_text
+from umform.problem.deck_text import deck_text
+from umform.problem.previous_operation import TAKEN
 from umform.results.outcome import Annex, Study
 from umform.results.quantity import UNKNOWN
 from umform.sheet_metals import Fit

@@ -11,8 +11,8 @@ from typing import Any
 
 from umform.errors import InvalidValue
 from umform.problem import DeckError, Problem
+from umform.problem.deck_text import toml
 from umform.problem.source import within
-from umform.problem.written import toml
 from umform.studies.sweep.jobs import Job, job, record_of
 from umform.studies.sweep.keys import change, find_key, is_text
 from umform.studies.sweep.measures import Measure, Record, usual

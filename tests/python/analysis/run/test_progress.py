@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from contextlib import contextmanager
 
-from umform.analysis.run import going, solve
+from umform.analysis.run import run_steps, solve
 from umform.analysis.steps import Move, Release
 
 
@@ -15,7 +15,7 @@ def test_the_bar_shows_the_control_its_force_and_the_iterations(build, monkeypat
     def bar(show):
         yield lambda *arguments: shown.append(arguments)
 
-    monkeypatch.setattr(going, "progress_bar", bar)
+    monkeypatch.setattr(run_steps, "progress_bar", bar)
     bent = build.free_bending((8, 1))
     result = solve(bent.model, [Move(bent.punch, -5.0, steps=10), Release(bent.punch)], solver="banded")
     assert len(shown) == len(result) - 1

@@ -121,7 +121,7 @@ def test_other_points_are_refused(bent, other):
 
 def test_decks_keep_it_too(bent, tmp_path):
     """Through the file of a state."""
-    from umform.problem.before import Before, write_state
+    from umform.problem.previous_operation import Before, write_state
 
     model, before = bent
     write_state(model, tmp_path / "state.h5", {})

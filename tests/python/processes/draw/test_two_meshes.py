@@ -17,7 +17,7 @@ from umform.processes.draw.endings import Ending
 from umform.processes.draw.files import record
 from umform.processes.draw.pictures import sections
 from umform.processes.draw.two_meshes import coarser, estimates_of
-from umform.processes.limit import Limit, allowed_penetration
+from umform.processes.extrapolation import Limit, allowed_penetration
 
 STEEL = uf.J2(E=206e3, nu=0.3, hardening=uf.Swift(565.3, 0.0071, 0.259))
 U = UBend(

@@ -13,7 +13,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.analysis.newton.keeping import within_allowed
+from umform.analysis.newton.growing_penalties import within_allowed
 from umform.analysis.newton.newton import Newton
 from umform.analysis.newton.options import IterationMode
 from umform.analysis.newton.system import Evaluation

@@ -34,7 +34,7 @@ TURN = 0.45
 
 @dataclass(frozen=True)
 class Search:
-    """What a search began with.
+    """Start of a search.
 
     Attributes
     ----------
@@ -132,7 +132,7 @@ class SheetPasses(Term):
         return made
 
     def looked(self, u: Floats, deep: float) -> list[dict[str, Any]]:
-        """What passes that look deeper, by so many thicknesses, find at a displacement."""
+        """Results of passes with a deeper search, in thicknesses, at a displacement."""
         found = []
         for one in self._made([self._everything_near(pair) for pair in self._pairs], deep * self.thickness):
             one.search(u, 0.0, TURN)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import umform as uf
-from umform.analysis.newton.carried import Screw
-from umform.analysis.newton.carried import carried as around
+from umform.analysis.newton.rotation_predictor import Screw
+from umform.analysis.newton.rotation_predictor import carried as around
 
 SLIP = 1e-3
 

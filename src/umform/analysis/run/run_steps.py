@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 from umform.analysis.newton.newton import Newton
 from umform.analysis.newton.options import NewtonOptions
-from umform.analysis.run.early import Stopped, ended_early
+from umform.analysis.run.early_end import Stopped, ended_early
 from umform.analysis.run.interrupt import Interrupt, gentle_interrupt
 from umform.analysis.run.loose import note_springs
+from umform.analysis.run.observers import show
 from umform.analysis.run.result import Result
-from umform.analysis.run.watching import show
 from umform.analysis.steps import Step
 from umform.analysis.steps.arc_length.arc import Arc, Following
 from umform.analysis.steps.close import Close, Closing

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from umform.analysis.newton.carried import Screw
+from umform.analysis.newton.rotation_predictor import Screw
 
 
 @pytest.mark.parametrize("angle", [1e-9, 0.3, 2.0])

@@ -1,7 +1,7 @@
 """Somebody who looks at a run between its increments sees all of them, and changes none."""
 
 import umform as uf
-from umform.analysis.run.watching import watching
+from umform.analysis.run.observers import watching
 
 
 def run():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from umform.processes.limit import Limit
+from umform.processes.extrapolation import Limit
 
 
 @dataclass(frozen=True)

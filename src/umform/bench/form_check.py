@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from umform.bench.draws import facts, follow, sketch
+from umform.bench.errors_as_json import problems_of
 from umform.bench.forces import largest, rule_forces
 from umform.bench.library import ROOM, tools_for
 from umform.bench.parts import Parts
-from umform.bench.refusals import problems_of
 from umform.bench.shelf import Shelf
 from umform.bench.values import Mistakes
 from umform.bench.wanted import Wanted
@@ -88,7 +88,7 @@ def look(values: object, shelf: Shelf | None = None, parts: Parts | None = None)
 
 
 def _look_at_part(wanted: Wanted, parts: Parts | None) -> dict[str, Any]:
-    """What is known of a part before it is unfolded."""
+    """Data of a part that are known before it is unfolded."""
     row = (parts or Parts(Path())).row(wanted.values["part"])
     wanted.tooling(row["thickness"])
     return {"problems": [], "warnings": [], "part": row}

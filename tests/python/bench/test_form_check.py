@@ -6,8 +6,8 @@ import pytest
 
 from umform.bench import forces
 from umform.bench.form import MESHES
+from umform.bench.form_check import look
 from umform.bench.library import library, tools
-from umform.bench.look import look
 from umform.bench.wanted import Wanted
 from umform.processes.air_bending import AirBending
 from umform.processes.air_bending.formulas import tensile_strength
