@@ -16,7 +16,7 @@ _LEFT, _RIGHT = "text-align:left;padding:.15em .7em", "text-align:right;padding:
 
 @dataclass(frozen=True)
 class Display:
-    """What is shown of an object.
+    """Title, tables, notes and warnings of an object.
 
     Attributes
     ----------
@@ -53,7 +53,7 @@ class InNotebook:
 
     @abstractmethod
     def _display(self) -> Display:
-        """What is shown."""
+        """Title, tables, notes and warnings."""
 
     def _repr_html_(self) -> str:
         return self._display().html

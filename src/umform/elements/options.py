@@ -13,7 +13,7 @@ from umform.spec import About, check_fields, parameters
 
 @dataclass(frozen=True)
 class ElementOptions:
-    """What the literature leaves open in an element."""
+    """Options of an element that the literature leaves open."""
 
     thickness_modes: Literal[1, 4, 9] | None = None
     """Number of enhanced modes of E_33 linear in t; default 4 (8 nodes) or 9 (18 nodes, there only)."""

@@ -13,7 +13,7 @@ from umform.spec.types import Friction, Length, NotNegative, Rolling
 
 @dataclass(frozen=True)
 class Blank:
-    """What is asked: the sheet and what holds it, in mm, N and MPa.
+    """Input of a one-step estimate: the sheet and what holds it, in mm, N and MPa.
 
     Examples
     --------

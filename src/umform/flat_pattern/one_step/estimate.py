@@ -178,7 +178,7 @@ class BlankEstimate(Outcome):
 
     @property
     def warnings(self) -> list[str]:
-        """What makes it doubtful."""
+        """Warnings."""
         found = []
         if self.found.loads < 1.0:
             found.append(

@@ -111,7 +111,7 @@ def record(found: BlankEstimate) -> dict[str, Any]:
 
 
 def parameters(found: BlankEstimate) -> dict[str, Any]:
-    """What was asked, for people."""
+    """The input as text."""
     from umform.report.materials import material_text
 
     case = found.case

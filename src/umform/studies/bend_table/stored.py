@@ -286,7 +286,7 @@ def plain(case: AirBending) -> dict[str, int | float | str]:
 
 
 def _about(case: AirBending, angle: float, tolerance: float) -> dict[str, Any]:
-    """What a bend was computed from, for people."""
+    """Input of a bend as readable data."""
     rolling = None if case.rolling is None else {"angle": float(case.rolling)}
     return {"angle": angle, "tolerance": tolerance, **plain(case), "material": _words(law_keys(case.material, rolling))}
 

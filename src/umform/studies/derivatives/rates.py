@@ -35,12 +35,12 @@ class Rates(Study):
     @property
     @abstractmethod
     def notes(self) -> list[str]:
-        """What belongs beside the numbers."""
+        """Remarks on the numbers."""
 
     @property
     @abstractmethod
     def warnings(self) -> list[str]:
-        """What makes them doubtful."""
+        """Warnings about the numbers."""
 
     def __iter__(self) -> Iterator[Derivative]:
         """All of them, by response, then by parameter."""

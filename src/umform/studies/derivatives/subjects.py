@@ -133,7 +133,7 @@ class OfProblem:
         return Taken.of(self.problem, built.prepared, results[-1], complete=True).quantities
 
     def main(self, *results: Result) -> Sequence[str]:
-        """None."""
+        """Empty: no quantity is the main one."""
         del results
         return ()
 
@@ -163,12 +163,12 @@ class OfCase:
         return Built.of(problem_of(self.case).build())
 
     def quantities(self, built: Built, *results: Result) -> list[Quantity]:
-        """What the process reports."""
+        """Quantities that the process reports."""
         del built
         return outcome_of(self.case, *results).quantities
 
     def main(self, *results: Result) -> Sequence[str]:
-        """What the process is for."""
+        """Names of the main quantities of the process."""
         return outcome_of(self.case, *results).main
 
 
@@ -222,7 +222,7 @@ class OfFunction:
         return OfFunction(self.function, {**self.values, **changes}, self.options, self.solver)
 
     def build(self) -> Built:
-        """What the function returns."""
+        """The model and the steps that the function returns."""
         made = self.function(**self.values)
         if not isinstance(made, tuple) or len(made) != 2 or not isinstance(made[0], Model):
             raise InvalidValue(
@@ -235,12 +235,12 @@ class OfFunction:
         return Built(model, [steps] if isinstance(steps, Step) else list(steps), self.solver, self.options)
 
     def quantities(self, built: Built, *results: Result) -> list[Quantity]:
-        """None: a function names the columns that it wants."""
+        """Empty: a function names the columns that it wants."""
         del built, results
         return []
 
     def main(self, *results: Result) -> Sequence[str]:
-        """None."""
+        """Empty: no quantity is the main one."""
         del results
         return []
 

@@ -149,7 +149,7 @@ class Compensated(Study):
 
     @property
     def warnings(self) -> list[str]:
-        """What was not reached, and derivatives that did not foretell the results."""
+        """Results that were not reached, and derivatives that did not predict the results."""
         found = []
         if not self.reached:
             runs = f"{len(self.trials)} runs" if len(self.trials) > 1 else "a single run"

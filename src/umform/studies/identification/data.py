@@ -1,4 +1,4 @@
-"""What was measured: curves along a run, and single numbers, with their standard deviations."""
+"""Measurements: curves along a run, and single numbers, with their standard deviations."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _DEVIATION = "deviation"
 
 
 class Measured(Protocol):
-    """What was measured."""
+    """A measurement."""
 
     @property
     def at(self) -> Mapping[str, Any]:
@@ -42,7 +42,7 @@ class Measured(Protocol):
 
     @property
     def of(self) -> list[str | Callable[..., float | Quantity]]:
-        """What a run has to give besides its history."""
+        """Results that a run needs for it besides its history."""
 
     @property
     def numbers(self) -> tuple[Floats, Floats]:

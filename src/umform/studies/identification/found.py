@@ -98,7 +98,7 @@ class Identified(Study):
 
     @property
     def values(self) -> Mapping[str, float]:
-        """What was found, by path."""
+        """Numbers found, by path."""
         return self.fit.constants
 
     @property

@@ -1,4 +1,4 @@
-"""What is looked for: bounds of a number, where to start, and what was known of it before."""
+"""An unknown number: bounds, start, and its standard deviation before the measurements."""
 
 from __future__ import annotations
 

@@ -161,7 +161,7 @@ class Scattered(Study):
 
     @property
     def warnings(self) -> list[str]:
-        """What makes the numbers doubtful."""
+        """Warnings about the numbers."""
         own = [*self.derivatives.warnings, *self.failures, *self.derivatives.run.warnings]
         for run in self.second_runs:
             bent = [one.response.label for one in self._of_run(run) if _is_bent(one, run)]

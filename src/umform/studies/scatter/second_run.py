@@ -46,17 +46,17 @@ class SecondRun:
 
     @property
     def title(self) -> str:
-        """What has been run."""
+        """The run in words."""
         return f"a second run at {self.place}"
 
     @property
     def place(self) -> str:
-        """Where it has been run."""
+        """The parameter and its deviation."""
         return f"{self.path} {'+' if self.step > 0.0 else '-'} {STEPS:g} sigma"
 
     @property
     def note(self) -> str:
-        """What else differs from the first run; empty if nothing does."""
+        """Other difference from the first run; empty without one."""
         one, other = self.elements
         return "" if one == other else f"it has {other} elements in place of {one}, whose error is in the difference"
 

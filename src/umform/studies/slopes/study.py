@@ -188,7 +188,7 @@ def _failed(task: _Task, error: Exception) -> UmformError:
 
 
 def _run(task: _Task) -> Found:
-    """What a run has found."""
+    """Results of a run."""
     if task.process is not None:
         return Found.of(task.process(task.thing.given), task.of)
     built = task.thing.build()
