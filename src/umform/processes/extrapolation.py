@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Self
 
 from umform.results.quantity import Band
@@ -14,7 +15,7 @@ FINER = math.sqrt(2.0)
 #: Two limits may agree by chance: the error is at least this part of the extrapolated difference.
 _LEAST = 0.2
 #: Order of convergence of elements with straight sides, and with mid-side nodes.
-_ORDER, _QUADRATIC = 2.0, 3.0
+ORDER, _QUADRATIC = 2.0, 3.0
 _SOURCE = "extrapolation to zero element size; numbers without an error, and all pictures, are from the finest mesh"
 
 
@@ -38,7 +39,7 @@ class Limit:
     error: float | None = None
 
     @classmethod
-    def of(cls, coarse: float, fine: float, refined: float, order: float = _ORDER) -> Self:
+    def of(cls, coarse: float, fine: float, refined: float, order: float = ORDER) -> Self:
         """From the numbers on two meshes, the ratio of their element sizes, above 1, and the order of convergence."""
         value = fine + (fine - coarse) / (refined**order - 1.0)
         return cls(value, fine / value - 1.0)
@@ -53,9 +54,9 @@ class Limit:
         return cls(last.value, last.off, abs(cls.of(coarse, fine, refined).value - fine))
 
     @classmethod
-    def of_three(cls, numbers: Sequence[float], refined: float) -> Self:
+    def of_three(cls, numbers: Sequence[float], refined: float, order: float = ORDER) -> Self:
         """From the numbers on three meshes with one ratio of element sizes; the coarser two give the error."""
-        before, last = cls.of(numbers[0], numbers[1], refined), cls.of(numbers[1], numbers[2], refined)
+        before, last = (cls.of(*pair, refined, order) for pair in pairwise(numbers))
         return cls(last.value, last.off, max(abs(last.value - before.value), _LEAST * abs(numbers[2] - last.value)))
 
     @property

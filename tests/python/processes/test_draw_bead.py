@@ -15,8 +15,8 @@ from umform.cli import app
 from umform.errors import InvalidValue
 from umform.processes.draw_bead import DrawBead, drawn_through
 from umform.processes.draw_bead import case as case_module
-from umform.processes.draw_bead.case import limits_of
 from umform.processes.draw_bead.equivalent import in_deck, in_python
+from umform.processes.draw_bead.extrapolation import of_two
 from umform.processes.draw_bead.files import FILES, write_files
 from umform.processes.draw_bead.problem import problem_of
 from umform.processes.extrapolation import Limit
@@ -121,9 +121,9 @@ def test_the_limit_of_an_error_that_falls_with_the_square_is_exact():
 
 def test_two_meshes_give_the_forces_of_the_equivalent_bead(drawn, tmp_path):
     coarse = replace(drawn, case=replace(drawn.case, elements=3.5), restraint=drawn.restraint + 2.0, uplift=90.0)
-    both = replace(drawn, limits=limits_of(coarse, drawn))
+    both = replace(drawn, limits=of_two(coarse, drawn))
     limit = drawn.restraint - 2.0 / (1.0 / 0.49 - 1.0)
-    assert both.limits.restraint.value == pytest.approx(limit, rel=1e-9)
+    assert both.limits["restraint"].value == pytest.approx(limit, rel=1e-9)
     assert tomllib.loads(in_deck(both))["beads"]["NAME"]["restraint"] == pytest.approx(limit, rel=1e-3)
     row = ["restraining force", f"{limit:.1f}", "unknown", f"{drawn.restraint:.1f}", "N/mm"]
     assert both.tables["Measures"][:2] == [["quantity", "value", "error", "finest mesh", "unit"], row]
@@ -154,7 +154,7 @@ def test_two_meshes_are_run_and_the_finest_is_kept(drawn, monkeypatch):
     assert [frames for _, frames in meshes] == [0, 0, 7]
     assert found.forces == pytest.approx((60.0, 80.0), rel=1e-12)
     assert found.tables["Measures"][1][2] == "± 0.8"  # a fifth of 100 / 25
-    assert found["restraint"].band.error == pytest.approx(0.8) and found["thinning"].band is None
+    assert found["restraint"].band.error == pytest.approx(0.8) and found["friction_share"].band is None
 
 
 def test_a_mesh_that_is_too_coarse_to_be_coarsened_is_refused(drawn, monkeypatch):

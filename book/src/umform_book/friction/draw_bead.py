@@ -13,8 +13,9 @@ from umform.analysis.steps import Move
 from umform.materials import J2, Linear
 from umform.model import Model
 from umform.processes.draw_bead import DrawBead
-from umform.processes.draw_bead.case import build, limits_of
+from umform.processes.draw_bead.case import build
 from umform.processes.draw_bead.equivalent import width
+from umform.processes.draw_bead.extrapolation import of_two
 from umform.processes.draw_bead.measures import Drawn
 from umform.processes.solution import drawing_options
 from umform.surfaces import Plane
@@ -115,8 +116,8 @@ def run(page: Page) -> None:
     exact = sum_of_arcs(drawn[-1].case)
     found = drawn[-1].restraint
     if len(drawn) > 1:
-        limits = limits_of(drawn[-2], drawn[-1])
-        limit, lift = limits.restraint, limits.uplift
+        limits = of_two(drawn[-2], drawn[-1])
+        limit, lift = limits["restraint"], limits["uplift"]
         page.table(
             "Elements of no length, from the last two",
             ("", "limit", "last mesh over the limit, %"),

@@ -43,7 +43,7 @@ class KeptContact:
     over_cells : bool, optional
         Whether the points are those of cells; None in a state of an older program.
     gaps : ndarray, shape (faces, points), optional
-        Of a contact with a tool: signed distances of the places of the points; None in a state of an older program.
+        Of friction on a tool: signed distances of the places of the points; None in a state of an older program.
     """
 
     faces: Ids
@@ -65,7 +65,7 @@ class KeptContact:
             feet = np.where(facet[..., None] > 0, contact.faces[rows], -1).astype(np.int32)
             return cls(contact.faces, history, history_variables, penalty, feet, over_cells)
         turned = _turned(history, history_variables, contact.pose)
-        gaps = _gaps(turned, history_variables, contact)
+        gaps = _gaps(turned, history_variables, contact) if "place" in history_variables else None
         return cls(contact.faces.copy(), turned, history_variables, penalty, over_cells=over_cells, gaps=gaps)
 
     def left(self, parents: Numbers, same: NDArray[np.bool_]) -> KeptContact:

@@ -8,11 +8,11 @@ from umform.analysis.run import solve
 from umform.analysis.steps import Step
 from umform.errors import InvalidValue
 from umform.model import Model
-from umform.processes.draw_bead.extrapolated_forces import Limits
+from umform.processes.draw_bead.extrapolation import of_three
 from umform.processes.draw_bead.measures import Drawn
 from umform.processes.draw_bead.problem import problem_of
 from umform.processes.draw_bead.spec import FEWEST, DrawBead
-from umform.processes.extrapolation import FINER, Limit
+from umform.processes.extrapolation import FINER
 from umform.progress import Show, parts, progress_bar
 from umform.spec import check_arguments
 
@@ -37,7 +37,7 @@ def extrapolated(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", 
     Returns
     -------
     Drawn
-        Results on the finest mesh, with extrapolated forces and their errors.
+        Results on the finest mesh, with extrapolated numbers and their errors.
 
     Raises
     ------
@@ -59,17 +59,7 @@ def extrapolated(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", 
         for part, tick in zip(shares, parts(bar, "3 meshes", shares, moves=2), strict=True):
             mesh = replace(case, elements=case.elements * part)
             every.append(drawn_through(mesh, frames=frames if part == 1.0 else 0, solver=solver, progress=tick))
-    fine = every[-1]
-    limits = Limits(
-        Limit.of_three([one.restraint for one in every], FINER), Limit.of_three([one.uplift for one in every], FINER)
-    )
-    return replace(fine, limits=limits)
-
-
-def limits_of(coarse: Drawn, fine: Drawn) -> Limits:
-    """Both forces extrapolated to zero element size, from several meshes."""
-    refined = fine.case.elements / coarse.case.elements
-    return Limits(Limit.of(coarse.restraint, fine.restraint, refined), Limit.of(coarse.uplift, fine.uplift, refined))
+    return replace(every[-1], limits=of_three(every))
 
 
 def drawn_through(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", progress: Show = None) -> Drawn:

@@ -69,7 +69,7 @@ def record(drawn: Drawn) -> dict[str, Any]:
     return {
         "parameters": parameters(drawn),
         "measures": drawn.values,
-        "limits": None if drawn.limits is None else asdict(drawn.limits),
+        "limits": {name: asdict(limit) for name, limit in drawn.limits.items()},
         "equivalent": in_python(drawn),
         **drawn.record(),
         "versions": versions(),

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from umform.analysis.run import Result
-from umform.processes.draw_bead.extrapolated_forces import Limits
 from umform.processes.draw_bead.spec import DrawBead
+from umform.processes.extrapolation import Limit
 from umform.results import fields
 from umform.results.outcome import Outcome
 from umform.results.quantity import Quantity, quantities_of
@@ -34,8 +34,8 @@ class Drawn(Outcome):
         Travel of the strip in mm, drawing force, and force that separates the tools, in each increment.
     result : Result
         History, frames and iterations.
-    limits : Limits, optional
-        Both forces extrapolated to zero element size, if several meshes were run.
+    limits : dict of str to Limit
+        Numbers extrapolated to zero element size, by their names, if several meshes were run.
     """
 
     case: DrawBead
@@ -59,7 +59,7 @@ class Drawn(Outcome):
     balance: Annotated[float, Quantity("work less energies, over the work", "%", 2)]
     """Work of the force minus plastic, friction and elastic work, relative to the work of the force."""
     result: Result
-    limits: Limits | None = None
+    limits: dict[str, Limit] = field(default_factory=dict)
 
     @classmethod
     def of(cls, case: DrawBead, result: Result) -> Self:
@@ -88,9 +88,9 @@ class Drawn(Outcome):
     @property
     def forces(self) -> tuple[float, float]:
         """Restraint and uplift, extrapolated to zero element size if several meshes were run."""
-        if self.limits is None:
+        if not self.limits:
             return self.restraint, self.uplift
-        return self.limits.restraint.value, self.limits.uplift.value
+        return self.limits["restraint"].value, self.limits["uplift"].value
 
     @property
     def title(self) -> str:
@@ -100,9 +100,8 @@ class Drawn(Outcome):
 
     @property
     def quantities(self) -> list[Quantity]:
-        """The measures; with several meshes, both forces have a band."""
-        limits = {} if self.limits is None else {"restraint": self.limits.restraint, "uplift": self.limits.uplift}
-        return quantities_of(self, {name: limit.band for name, limit in limits.items()})
+        """The measures; with several meshes, those that are extrapolated have a band."""
+        return quantities_of(self, {name: limit.band for name, limit in self.limits.items()})
 
     @property
     def stages(self) -> dict[str, Result]:
