@@ -37,7 +37,7 @@ single sources.
 | changes of this run by refinements, root of the sum of squares | `umform bend --budget` | several runs |
 | changes of this run by coarser variants, likewise times {safety:g} | `umform run --budget` | {deck} of a run |
 | two meshes, other sources as below | angles, springback, force, draw-in of `umform draw u` | {two} of a run |
-| three meshes | forces of `umform bead` | [see there](draw-beads.md) |
+| three meshes | forces and thinning of `umform bead` | [see there](draw-beads.md) |
 | ripple of the force by the mesh, or the next line if that is more | punch force of `umform draw cup` | none |
 | estimated from studies of other parts; a note below the table says so | all others but decks | none |
 

@@ -143,7 +143,8 @@ def test_two_meshes_are_run_and_the_finest_is_kept(drawn, monkeypatch):
     def instead(case, *, frames, progress, **how):
         meshes.append((case.elements, frames))
         progress("step 2", 0.5, "way 1")
-        return replace(drawn, case=case, restraint=60.0 + 100.0 / case.elements**2, uplift=80.0)
+        of_mesh = {"restraint": 60.0 + 100.0 / case.elements**2, "uplift": 80.0, "thinning": 5.0 - 10.0 / case.elements}
+        return replace(drawn, case=case, **of_mesh)
 
     monkeypatch.setattr(case_module, "drawn_through", instead)
     told = []
@@ -155,6 +156,7 @@ def test_two_meshes_are_run_and_the_finest_is_kept(drawn, monkeypatch):
     assert found.forces == pytest.approx((60.0, 80.0), rel=1e-12)
     assert found.tables["Measures"][1][2] == "± 0.8"  # a fifth of 100 / 25
     assert found["restraint"].band.error == pytest.approx(0.8) and found["friction_share"].band is None
+    assert found["thinning"].band.middle == pytest.approx(5.0)  # falls with the length of the elements
 
 
 def test_a_mesh_that_is_too_coarse_to_be_coarsened_is_refused(drawn, monkeypatch):
