@@ -24,7 +24,7 @@ ACUTE: dict[str, float] = {
     "punch_radius": 0.5,
 }
 #: Mesh and element of a hem: small 8-node elements stay valid in a closed fold, where those with 18 nodes invert.
-FOLDED: dict[str, Any] = {"element": "ANS3DEAS", "elements_per_thickness": 4.0, "layers": 3}
+FOLDED: dict[str, Any] = {"element": "ANS3DEAS", "elements_per_thickness": 4.0}
 #: Forms of a hem, and the gap that each has over the thickness where none is given.
 GAPS: dict[str, float] = {"flat": 0.0, "inner": 1.0, "insert": 1.0, "open": 1.0, "rope": 0.0}
 #: Forms whose results follow changes of sizes of some per cent smoothly (docs/bending-operations.md).
