@@ -11,16 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from umform.cli import bend_correct, bend_table  # noqa: F401  (they add their commands)
-from umform.cli.bend_goals import (
-    check_budgeted,
-    check_flat_only,
-    check_goal,
-    check_length,
-    check_measured,
-    check_no_goal,
-    check_press,
-    strokes_of,
-)
+from umform.cli.bend_goals import BendGoal, check_budgeted, check_flat_only, check_length, check_measured, check_no_goal
 from umform.cli.bends import alone, bends
 from umform.cli.check import Force
 from umform.cli.deflection import deflected, press_brake
@@ -46,15 +37,12 @@ from umform.cli.studies import Studies, with_studies
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
 from umform.errors import UmformError
-from umform.processes.air_bending.goal import Goal, check_angle
+from umform.processes.air_bending.goal import Goal
 from umform.processes.air_bending.spec import AirBending
-from umform.spec import check_value, parameters
 from umform.studies.deflection.press_brake import PressBrake
 
 if TYPE_CHECKING:
     from umform.analysis.run import Result
-    from umform.processes.air_bending.bend import AirBend
-    from umform.processes.air_bending.brake import Brake
     from umform.processes.air_bending.measures import Measures
 
 
@@ -113,25 +101,13 @@ def bend(
     docs/air-bending.md.
     """
     from umform.io.staging import staging
-    from umform.processes.air_bending.bottoming import with_travel
     from umform.processes.air_bending.brake import FRAMES, Brake
     from umform.processes.air_bending.files import FILES, RESULTS, write_files
-    from umform.processes.air_bending.search import angle_table, bending_table
     from umform.timing import Timing, timings
 
     print_warnings_once()
-    angle, force_per_metre, travel, tolerance = (given.pop(name) for name in parameters(Goal))
-    stroke, bottoming = given["stroke"], given["bottoming"]
-    brake_frame = press_brake(given, length, sequence=sequence is not None, bottoming=bottoming)
-    if not bottoming and sequence is None:
-        check_goal(angle, stroke, table, angles, force_per_metre, travel)
-    strokes = [] if table is None else strokes_of(table)
-    if strokes and angle is None and stroke is None and not bottoming:
-        stroke = strokes[-1]
-    others = [] if angles is None else sorted(set(bend_table.values_of(angles, "--angles")), reverse=True)
-    last_row = bool(others) and angle is None and stroke is None and not bottoming
-    angle = others.pop() if last_row else angle
-    check_value(Goal, "tolerance", tolerance)
+    brake_frame = press_brake(given, length, sequence=sequence is not None, bottoming=given["bottoming"])
+    goal = BendGoal.of(given, table, angles, several=sequence is not None)
     check_length(length)
     if processes is not None:
         from umform.pool import check_processes  # the import is slow
@@ -141,10 +117,11 @@ def bend(
     law, note = metal.law(given["thickness"])
     given = named_tools(context, given, punch, die)
     tools = drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer)
-    case = AirBending(**{**given, "stroke": stroke}, **tools, material=law, on_top=tuple(stacked(on_top or ())))
+    case = AirBending(**given, **tools, material=law, on_top=tuple(stacked(on_top or ())))
     if sequence is not None:
-        goals = [angle, stroke, table, angles, force_per_metre, travel, bottoming, budget, deck, bool(find or quantity)]
-        check_no_goal("--sequence", *goals)
+        check_no_goal(
+            "--sequence", *goal.typed, goal.stroke, goal.travel, goal.bottoming, budget, deck, bool(find or quantity)
+        )
         run_sequence(
             sequence,
             case,
@@ -152,7 +129,7 @@ def bend(
             out,
             length,
             studies,
-            tolerance=tolerance,
+            tolerance=goal.tolerance,
             overwrite=overwrite,
             everything=everything,
             flat_only=flat_only,
@@ -162,23 +139,11 @@ def bend(
         return
     check_flat_only(flat_only)
     if find or quantity:
-        others_given = [table, angles, force_per_metre, budget, bool(studies.typed), studies.by]
-        check_measured(angle, *others_given, deck, everything, timing)
-    studies.check_wanted(searched=stroke is None and travel is None)
-    goal = "angle" if angle is not None else "force" if force_per_metre is not None else ""
-    held = {goal: "stroke"} if goal else {}
+        check_measured(*goal.typed, budget, bool(studies.typed), studies.by, deck, everything, timing)
+    studies.check_wanted(searched=goal.searched)
     if studies.typed:  # refuse what is wrong before the run
-        some = replace(case, stroke=stroke or 0.5 * case.largest_stroke)
-        studies.check(some, held)
-    if bottoming:
-        check_press(angle, table, angles, budget, stroke, force_per_metre, travel)
-        case = case if travel is None else with_travel(case, travel)
-        check_value(Goal, "force_per_metre", force_per_metre)
-    if strokes:
-        replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
-    for one in [*others, angle]:
-        if one is not None:
-            check_angle(case, one)
+        studies.check(replace(case, stroke=goal.stroke or 0.5 * case.largest_stroke), goal.held)
+    case = goal.checked(case, budget=budget)
     if find or quantity or studies.want:
         refuse_implausible(case, force=force)
     if find or quantity:
@@ -188,7 +153,7 @@ def bend(
     place = None if deck else results_folder(out, "bend", RESULTS, overwrite=overwrite, say=said.append)
     case = studies.compensated(case)
     if place is None:
-        _print_deck(case, angle, force_per_metre, tolerance)
+        print_deck(goal.with_stroke(case))
         return
     with timings() as spent:
         brake = Brake(case, frames=FRAMES)
@@ -198,17 +163,17 @@ def bend(
         say(text)
     with staging(place, FILES):
         with _what_was_reached(place) as rows:
-            rows += bending_table(case, strokes, brake=brake) if strokes else []
-            rows += angle_table(case, others, tolerance=tolerance, brake=brake) if others else []
-            done = _bent(brake, case, angle, force_per_metre, tolerance)
-            done = replace(done, table=(*rows, *[done.measures] * last_row), bend_length=length)
+            for some in goal.rows(brake):
+                rows += some
+            done = goal.bent(brake)
+            done = replace(done, table=(*rows, *[done.measures] * goal.last_row), bend_length=length)
         more: list[Path] = []
         try:
             if budget:
                 from umform.processes.air_bending.budget import error_budget
 
                 done = replace(done, budget=error_budget(done, processes=processes))
-            for one, written in studies.added_to(done, done.case, place, hold=held, goal=goal):
+            for one, written in studies.added_to(done, done.case, place, hold=goal.held, goal=goal.name):
                 done = one
                 more += written
             done, along = deflected(done, brake_frame, place)
@@ -225,33 +190,6 @@ def bend(
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
     studies.end()
-
-
-def _print_deck(case: AirBending, angle: float | None, force_per_metre: float | None, tolerance: float) -> None:
-    """Print a bend as a deck, with the stroke that its angle or its force needs."""
-    from umform.processes.air_bending.bottoming import press_to_force
-    from umform.processes.air_bending.search import find_stroke
-
-    if force_per_metre is not None:
-        case = press_to_force(case, force_per_metre, frames=1).case
-    elif angle is not None:
-        case = find_stroke(case, angle, tolerance=tolerance, frames=1).case
-    print_deck(case)
-
-
-def _bent(
-    brake: Brake, case: AirBending, angle: float | None, force_per_metre: float | None, tolerance: float
-) -> AirBend:
-    """Bend to a force, to a stroke, or to an angle after springback."""
-    from umform.processes.air_bending.bottoming import press_to_force
-    from umform.processes.air_bending.case import air_bending
-    from umform.processes.air_bending.search import find_stroke
-
-    if force_per_metre is not None:
-        return press_to_force(case, force_per_metre, brake=brake).bend
-    if angle is not None:
-        return find_stroke(case, angle, tolerance=tolerance, brake=brake).bend
-    return air_bending(case, brake=brake)
 
 
 @contextmanager
