@@ -67,61 +67,48 @@ View<double> view(const Vectors& vectors) {
     return View<double>(vectors.empty() ? nullptr : vectors[0].data(), {vectors.size(), 3});
 }
 
+/// Adds a read-only array of the class.
+template <class T>
+void add_array(nb::class_<ContactFound>& found, const char* name, std::vector<T> ContactFound::* values,
+               const char* what) {
+    constexpr const char* kind = std::is_same_v<T, std::uint8_t>   ? "uint8"
+                                 : std::is_same_v<T, std::int32_t> ? "int32"
+                                                                   : "float64";
+    const std::string signature = std::string("def ") + name + "(self) -> NDArray[" + kind + "]";
+    found.def_prop_ro(
+        name, [values](const ContactFound& f) { return view(f.*values); }, nb::rv_policy::reference_internal,
+        nb::sig(signature.c_str()), what);
+}
+
 void bind_found(nb::module_& m) {
-    constexpr auto inside = nb::rv_policy::reference_internal;
-    nb::class_<ContactFound>(
-        m, "ContactFound", "What an evaluation of a contact came across: a copy that later evaluations do not change.")
-        .def_prop_ro(
-            "active", [](const ContactFound& f) { return view(f.active); }, inside,
-            nb::sig("def active(self) -> NDArray[uint8]"),
-            "For each contact point 1 where the tool holds it, 2 where it slips as well, else 0.")
-        .def_prop_ro(
-            "tangential_stiffness", [](const ContactFound& f) { return view(f.tangential_stiffness); }, inside,
-            nb::sig("def tangential_stiffness(self) -> NDArray[float64]"), "Traction per elastic slip, shape (held,).")
-        .def_prop_ro(
-            "elastic_slip", [](const ContactFound& f) { return view(f.elastic_slip); }, inside,
-            nb::sig("def elastic_slip(self) -> NDArray[float64]"),
-            "Elastic slips along the tool (held, 3), zero without friction.")
-        .def_prop_ro(
-            "slip", [](const ContactFound& f) { return view(f.slip); }, inside,
-            nb::sig("def slip(self) -> NDArray[float64]"), "Distances slid so far (held,).")
-        .def_ro("stored", &ContactFound::stored, "Energy of the elastic slip.")
-        .def_ro("friction_work", &ContactFound::friction_work, "Work of friction so far, at all points.")
-        .def_ro("work_above_mean", &ContactFound::work_above_mean,
+    using Found = ContactFound;
+    nb::class_<Found> found(
+        m, "ContactFound", "What an evaluation of a contact came across: a copy that later evaluations do not change.");
+    add_array(found, "active", &Found::active,
+              "For each contact point 1 where the tool holds it, 2 where it slips as well, else 0.");
+    add_array(found, "tangential_stiffness", &Found::tangential_stiffness, "Traction per elastic slip, shape (held,).");
+    add_array(found, "elastic_slip", &Found::elastic_slip,
+              "Elastic slips along the tool (held, 3), zero without friction.");
+    add_array(found, "slip", &Found::slip, "Distances slid so far (held,).");
+    add_array(found, "points", &Found::points,
+              "Numbers of the points that are held, ascending; the arrays that follow are of these points.");
+    add_array(found, "x", &Found::x, "Positions (held, 3).");
+    add_array(found, "normal", &Found::normal, "Unit normals out of the tool (held, 3).");
+    add_array(found, "traction", &Found::traction,
+              "Tractions of the tool on the sheet, on the reference area (held, 3).");
+    add_array(found, "force", &Found::force, "Forces of the sheet on the tool (held, 3).");
+    add_array(found, "gap", &Found::gap, "Signed distances (held,), negative in penetration.");
+    add_array(found, "pressure", &Found::pressure, "Normal parts of the tractions (held,).");
+    add_array(found, "area", &Found::area, "Reference areas (held,).");
+    add_array(found, "share", &Found::share, "Parts of the areas that are held (held,), 1 at points.");
+    found.def_ro("stored", &Found::stored, "Energy of the elastic slip.")
+        .def_ro("friction_work", &Found::friction_work, "Work of friction so far, at all points.")
+        .def_ro("work_above_mean", &Found::work_above_mean,
                 "Part of the work of friction that the mean of the forces at both ends of each increment misses.")
-        .def_prop_ro(
-            "points", [](const ContactFound& f) { return view(f.points); }, inside,
-            nb::sig("def points(self) -> NDArray[int32]"),
-            "Numbers of the points that are held, ascending; the arrays that follow are of these points.")
-        .def_prop_ro(
-            "x", [](const ContactFound& f) { return view(f.x); }, inside, nb::sig("def x(self) -> NDArray[float64]"),
-            "Positions (held, 3).")
-        .def_prop_ro(
-            "normal", [](const ContactFound& f) { return view(f.normal); }, inside,
-            nb::sig("def normal(self) -> NDArray[float64]"), "Unit normals out of the tool (held, 3).")
-        .def_prop_ro(
-            "traction", [](const ContactFound& f) { return view(f.traction); }, inside,
-            nb::sig("def traction(self) -> NDArray[float64]"),
-            "Tractions of the tool on the sheet, on the reference area (held, 3).")
-        .def_prop_ro(
-            "force", [](const ContactFound& f) { return view(f.force); }, inside,
-            nb::sig("def force(self) -> NDArray[float64]"), "Forces of the sheet on the tool (held, 3).")
-        .def_prop_ro(
-            "gap", [](const ContactFound& f) { return view(f.gap); }, inside,
-            nb::sig("def gap(self) -> NDArray[float64]"), "Signed distances (held,), negative in penetration.")
-        .def_prop_ro(
-            "pressure", [](const ContactFound& f) { return view(f.pressure); }, inside,
-            nb::sig("def pressure(self) -> NDArray[float64]"), "Normal parts of the tractions (held,).")
-        .def_prop_ro(
-            "area", [](const ContactFound& f) { return view(f.area); }, inside,
-            nb::sig("def area(self) -> NDArray[float64]"), "Reference areas (held,).")
-        .def_prop_ro(
-            "share", [](const ContactFound& f) { return view(f.share); }, inside,
-            nb::sig("def share(self) -> NDArray[float64]"), "Parts of the areas that are held (held,), 1 at points.")
-        .def_ro("contact_work", &ContactFound::contact_work,
+        .def_ro("contact_work", &Found::contact_work,
                 "Work of the pressure so far, of rules that measure it along the way; zero at points.")
-        .def_ro("penetration", &ContactFound::penetration, "The largest penetration, zero if there is none.")
-        .def_ro("round_off_squared", &ContactFound::round_off_squared,
+        .def_ro("penetration", &Found::penetration, "The largest penetration, zero if there is none.")
+        .def_ro("round_off_squared", &Found::round_off_squared,
                 "Square of what a relative error 1 of all positions makes of the residual.");
 }
 

@@ -568,20 +568,6 @@ class ContactFound:
         """Distances slid so far (held,)."""
 
     @property
-    def stored(self) -> float:
-        """Energy of the elastic slip."""
-
-    @property
-    def friction_work(self) -> float:
-        """Work of friction so far, at all points."""
-
-    @property
-    def work_above_mean(self) -> float:
-        """
-        Part of the work of friction that the mean of the forces at both ends of each increment misses.
-        """
-
-    @property
     def points(self) -> NDArray[int32]:
         """
         Numbers of the points that are held, ascending; the arrays that follow are of these points.
@@ -618,6 +604,20 @@ class ContactFound:
     @property
     def share(self) -> NDArray[float64]:
         """Parts of the areas that are held (held,), 1 at points."""
+
+    @property
+    def stored(self) -> float:
+        """Energy of the elastic slip."""
+
+    @property
+    def friction_work(self) -> float:
+        """Work of friction so far, at all points."""
+
+    @property
+    def work_above_mean(self) -> float:
+        """
+        Part of the work of friction that the mean of the forces at both ends of each increment misses.
+        """
 
     @property
     def contact_work(self) -> float:
