@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import _core
-from umform.errors import ModelError
 from umform.mesh import Mesh
 from umform.mesh.numbers import unique
 from umform.model.contact.face_basis import in_face_basis, mean_at_nodes
@@ -42,10 +41,7 @@ class Contact(PairPoints):
         For the history.
     """
 
-    timed_as = "contact"
     within_bodies = True
-    #: Whether an augmentation failed in the last increment, so that the multipliers kept their values.
-    multipliers_stay = False
 
     # Term ----------------------------------------------------------------------------------------------------
 
@@ -96,10 +92,6 @@ class Contact(PairPoints):
         (rotation, shift), (rotation_then, shift_then) = pose, self.tool.pose(at.values, at.until)
         return (x - shift) @ rotation @ rotation_then.T + shift_then - x
 
-    def stand(self, found: ContactFound) -> None:
-        """Store the results of the converged state."""
-        self._last = found
-
     def commit(self, found: Found) -> None:
         """Accept trial history, multipliers, penalty and results as converged."""
         self._commit()
@@ -148,8 +140,7 @@ class Contact(PairPoints):
         history = np.ascontiguousarray(tree["history"], dtype=float)
         self.block.restore(history.reshape(-1, history.shape[-1]))
         if self.adapts and len(tree.get("penalty", ())):
-            self._standing_penalty = float(tree["penalty"][0])
-            self.use_penalty(self._standing_penalty)
+            self._restore_penalty(float(tree["penalty"][0]))
         if len(tree.get("stiffening work", ())):
             self.stiffening_work = float(tree["stiffening work"].sum())
         self._last = None
@@ -190,26 +181,6 @@ class Contact(PairPoints):
         return Energies(0.0, 0.0, found.energy() + self.stiffening_work, found.friction_work)
 
     # The converged state -------------------------------------------------------------------------------------
-
-    @property
-    def found(self) -> ContactFound:
-        """Results at the converged state.
-
-        Raises
-        ------
-        ModelError
-            If the model has not been solved yet; use ``model.evaluate(u).found[contact]`` then. If it was solved on
-            many ranks, which hold the points of their facets.
-        """
-        if self.elsewhere:
-            raise self._not_here()
-        if self._last is None:
-            raise ModelError(
-                f"nothing is known of contact {self.name} yet",
-                cause="the model has not been solved since it was made or put back",
-                remedy="model.evaluate(model.u).found[contact]",
-            )
-        return self._last
 
     def active(self) -> NDArray[np.bool_]:
         """Mask of the active points in the converged state."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from functools import cached_property, partial
 from typing import Any, ClassVar, Self
@@ -11,43 +10,37 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import _core
-from umform.errors import InvalidValue, ModelError
 from umform.history_variables import history_of, named
 from umform.mesh import Ids, Mesh, Selector
 from umform.mesh.numbers import unique
 from umform.model.contact.found import ContactFound
-from umform.model.contact.friction import AnyFriction, friction_kernel
+from umform.model.contact.friction import friction_kernel
 from umform.model.contact.own_law import AnyContactLaw
+from umform.model.contact.penalised import Penalised
 from umform.model.contact.settings import ContactSettings
 from umform.model.terms.control import Twins
 from umform.model.terms.cut import Cut
-from umform.model.terms.elsewhere import not_here
-from umform.model.terms.term import Term, Tree
+from umform.model.terms.term import Tree
 from umform.model.tools.tool import Pose, Tool
 
 Floats = NDArray[np.float64]
 
 
-class PairPoints(Term):
+class PairPoints(Penalised[ContactFound]):
     """Facets, their points in the kernel, and their geometry; see :class:`umform.model.contact.Contact`."""
 
     fixed: ClassVar[tuple[str, ...]] = ("tool", "name")
 
-    before: Floats
+    _settings: ContactSettings
 
     def __init__(self, mesh: Mesh, faces: Selector, tool: Tool, settings: ContactSettings, name: str) -> None:
-        self.name = name
+        super().__init__(settings, name)
         self.tool = tool
-        self._settings, self._penalty = settings, settings.penalty
         #: Work of growing penalties and of multipliers; a sum over the facets here. eqs. (4.201), (4.240)
         self.stiffening_work = 0.0
         #: Work of points that touched or left in the last increment, beyond the mean of both ends. eq. (5.104)
         self.work_of_touch = 0.0
-        self._standing_penalty = settings.penalty
         self._meet(mesh, mesh.face_set(faces))
-        self.elsewhere = False
-        self.before = np.empty(0)
-        self._last: ContactFound | None = None
 
     def _meet(self, mesh: Mesh, faces: Ids) -> None:
         #: Rows (cell, number of the face), and the nodes of these facets.
@@ -94,16 +87,6 @@ class PairPoints(Term):
         self._settings = replace(self._settings, allowed=value)
 
     @property
-    def augmented(self) -> bool:
-        """Whether multipliers reduce the penetration to the allowed one."""
-        return self._settings.augmented
-
-    @property
-    def adapts(self) -> bool:
-        """Whether the penalty grows in a run, so that no point exceeds the allowed penetration."""
-        return self._settings.largest > 0.0 and self.allowed not in (None, math.inf)
-
-    @property
     def has_potential(self) -> bool:
         """Whether its energy follows from the pressures."""
         return self.cells is None
@@ -113,44 +96,9 @@ class PairPoints(Term):
         """Whether a first evaluation holds open points: no cells, and the travel of the tool is given. eq. (4.230)"""
         return self.cells is None and not self.tool.unknowns and not self.tool.open
 
-    @property
-    def largest_penalty(self) -> float:
-        """Penalty up to which it grows in a run; 0 if it does not."""
-        return self._settings.largest
-
-    @property
-    def initial_penalty(self) -> float:
-        """Penalty at the start, given or estimated."""
-        return self._settings.penalty
-
-    @property
-    def penalty(self) -> float:
-        """Pressure per penetration; what is set here stays as it is in a run."""
-        return self._penalty
-
-    @penalty.setter
-    def penalty(self, value: float) -> None:
-        if self.law is not None:
-            raise InvalidValue(
-                "a contact with a law of its own has no penalty to be set",
-                where=f"contact {self.name}, penalty",
-                value=value,
-                cause="the law has the stiffness of the contact",
-                remedy="another law: model.contact(..., law=...)",
-            )
-        self._settings = replace(self._settings, penalty=value, largest=0.0)
-        self.use_penalty(value)
-        self._standing_penalty = value
-
-    def begin_with(self, penalty: float) -> None:
-        """Begin with the penalty of a stage before, if it is estimated and grows; 0: there was none."""
-        if self.adapts and penalty > 0.0:
-            self._standing_penalty = min(penalty, self.largest_penalty)
-            self.use_penalty(self._standing_penalty)
-
     def use_penalty(self, value: float) -> None:
         """Evaluate with this penalty from now on."""
-        self._penalty = value
+        super().use_penalty(value)
         if "block" in vars(self):
             self.block.penalty = value
 
@@ -163,8 +111,7 @@ class PairPoints(Term):
         ModelError
             If the model was solved on many ranks, which hold the points of their facets.
         """
-        if self.elsewhere:
-            raise self._not_here()
+        self._refuse_elsewhere()
         block = self._new_block()
         block.name, block.open = f"contact {self.name}", self.tool.open
         if self.has_friction:
@@ -200,16 +147,6 @@ class PairPoints(Term):
         return self._settings.law
 
     @property
-    def friction(self) -> AnyFriction | None:
-        """Friction law; None without friction."""
-        return self._settings.friction
-
-    @property
-    def has_friction(self) -> bool:
-        """Whether it has a slip history."""
-        return self.friction is not None
-
-    @property
     def slip(self) -> float:
         """Allowed elastic slip; zero without friction."""
         return self._settings.slip
@@ -234,9 +171,6 @@ class PairPoints(Term):
         state = self.block.state
         named(state, self.block.history_variables)["multiplier"][:] = 0.0
         self.block.restore(state)
-
-    def _not_here(self) -> ModelError:
-        return not_here(f"the state of contact {self.name}")
 
     # Geometry ------------------------------------------------------------------------------------------------------
 

@@ -19,6 +19,7 @@ from umform.model.contact.encounter import Encounter, Layer, sheet_thickness
 from umform.model.contact.friction import AnyFriction, friction_kernel
 from umform.model.contact.own_law import AnyContactLaw
 from umform.model.contact.own_stiffness import measured, refuse_beside
+from umform.model.contact.penalised import PenaltySettings
 from umform.spec import About, check_fields
 from umform.spec.types import ContactPoints, Positive
 from umform.surfaces import Surface
@@ -37,7 +38,7 @@ _STIFFEST = 10.0
 #: expected force, as late in air bending, the contact is 0.7 times as long and still contains four.
 _WITHIN, _MOST = 6.0, 10
 #: Default of the points per direction.
-_POINTS = 2
+POINTS = 2
 _CELLS = About(cause="a number of cells in all, or a word", remedy="3 on 4-node and 5 on 9-node faces to begin with")
 
 
@@ -112,22 +113,14 @@ class ContactOptions:
         return None if none else friction_kernel(self.friction)  # type: ignore[arg-type]
 
 
-@dataclass(frozen=True)
-class ContactSettings:
-    """Settings of a contact.
+@dataclass(frozen=True, kw_only=True)
+class ContactSettings(PenaltySettings):
+    """Settings of a contact with a tool.
 
     Attributes
     ----------
-    penalty : float
-        Pressure per penetration.
     points : int or "nodes"
         Gauss points per direction and facet, or cells, or the nodes.
-    allowed : float, optional
-        Allowed penetration; None if only a penalty was given.
-    augmented : bool
-        Whether multipliers reduce the penetration to the allowed one, and the elastic slip.
-    friction : float, Friction, FrictionByRegion or callable, optional
-        Friction law; None without friction.
     slip : float
         Allowed elastic slip.
     ratio : float
@@ -139,24 +132,16 @@ class ContactSettings:
         Expected relative ripple of the force with cells; None for points, and if the law gives no estimate.
     width_points : int, optional
         Gauss points across facets of a body in plane strain, where nothing varies; None elsewhere.
-    largest : float
-        Penalty up to which it grows in a run where it leaves more than the allowed penetration. An estimate does; a
-        given penalty, a law of one's own and multipliers do not, and have 0.
     law : ContactLaw or CompiledContactLaw, optional
         Pressure over the gap; ``penalty`` is then a measure of its stiffness. eq. (4.282)
     """
 
-    penalty: float
     points: int | str
-    allowed: float | None = None
-    augmented: bool = False
-    friction: AnyFriction | None = None
     slip: float = 0.0
     ratio: float = 0.0
     cells: int | None = None
     ripple: float | None = None
     width_points: int | None = None
-    largest: float = 0.0
     law: AnyContactLaw | None = None
 
 
@@ -183,7 +168,7 @@ def contact_settings(
     thickness = sheet_thickness(mesh, rows)
     penalty, ripple, augmented, slip = options.penalty, options.ripple, options.augmented, options.slip
     over_cells, law, allowed = options.cells is not None, options.friction_law, options.penetration
-    points: int | str = options.cells or options.points or _POINTS
+    points: int | str = options.cells or options.points or POINTS
     if options.law is not None:
         penalty = measured(options.law, ALLOWED * thickness if allowed is None else allowed, where)
     estimated, given = penalty is None or points == "auto", penalty is not None
@@ -213,10 +198,10 @@ def contact_settings(
         expected = _ripple(met, meet, number, allowed)
     largest = 0.0 if given or augmented or met is None else _largest(met)
     plain = ContactSettings(
-        float(penalty),
-        points,
-        allowed,
-        bool(augmented),
+        penalty=float(penalty),
+        points=points,
+        allowed=allowed,
+        augmented=bool(augmented),
         cells=number,
         ripple=expected,
         largest=largest,

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import _core
-from umform.errors import ModelError
 from umform.mesh.numbers import unique
 from umform.model.contact.face_basis import mean_at_nodes
 from umform.model.contact.sheets.found import SheetsFound, SideFound
@@ -37,23 +36,6 @@ class SheetContact(SheetPasses):
     name : str
         For the history.
     """
-
-    @property
-    def found(self) -> SheetsFound:
-        """Results at the converged state.
-
-        Raises
-        ------
-        ModelError
-            If the model has not been solved yet; use ``model.evaluate(u).found[contact]`` then.
-        """
-        if self._last is None:
-            raise ModelError(
-                f"nothing is known of contact {self.name} yet",
-                cause="the model has not been solved since it was made or put back",
-                remedy="model.evaluate(model.u).found[contact]",
-            )
-        return self._last
 
     # Search ------------------------------------------------------------------------------------------------------
 
@@ -105,7 +87,8 @@ class SheetContact(SheetPasses):
         """Accept the trial history as converged."""
         assert isinstance(found, SheetsFound)
         self._commit()
-        self._last, self._standing = found, self.penalty
+        self._standing_penalty = self.penalty
+        self.stand(found)
 
     def _commit(self) -> None:
         self.before = self._history()
@@ -120,10 +103,6 @@ class SheetContact(SheetPasses):
         """Initialise the history from the last evaluation, if there is none yet: where points lie at the start."""
         if not self._history().any():
             self._commit()
-
-    def stand(self, found: SheetsFound) -> None:
-        """Store the results of the converged state."""
-        self._last = found
 
     def go_back(self, before: Floats) -> None:
         """Restore the history that the evaluation of the converged state used as input."""
@@ -140,7 +119,7 @@ class SheetContact(SheetPasses):
         """History of the points, where and with which feet the last search looked, and the penalty."""
         history = self._history()
         feet = history[:, self._column("facet")].copy() if self._couplings is None else self._feet
-        standing = np.array([self._standing])
+        standing = np.array([self._standing_penalty])
         return {"history": history, "searched": self._at.copy(), "feet": feet, "penalty": standing}
 
     def go_on_with(self, history: Floats) -> None:
@@ -152,8 +131,7 @@ class SheetContact(SheetPasses):
         searched, feet = (np.array(tree[key], dtype=float) for key in ("searched", "feet"))
         self._search_again(Search(searched, feet), tree["history"])
         self._kept = self._searched
-        self._standing = float(tree["penalty"][0])
-        self.use_penalty(self._standing)
+        self._restore_penalty(float(tree["penalty"][0]))
         self._last = None
 
     @property

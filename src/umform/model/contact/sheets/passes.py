@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -15,7 +15,8 @@ from umform.history_variables import columns
 from umform.mesh import Ids, Mesh
 from umform.mesh.part import sheets_of
 from umform.model.contact.face_basis import in_face_basis
-from umform.model.contact.friction import AnyFriction, friction_kernel
+from umform.model.contact.friction import friction_kernel
+from umform.model.contact.penalised import Penalised
 from umform.model.contact.sheets.faces import ARC, cut_edges, depth_of, near_in_the_sheet
 from umform.model.contact.sheets.found import SheetsFound, SideFound
 from umform.model.contact.sheets.settings import SheetContactSettings, longest_side
@@ -48,30 +49,28 @@ class Search:
     feet: Floats
 
 
-class SheetPasses(Term):
+class SheetPasses(Penalised[SheetsFound]):
     """Facets, their points in the kernels, and the penalty; see :class:`umform.model.contact.sheets.SheetContact`."""
 
-    timed_as = "contact"
     by_pattern = True
     symmetric = False
     smooth = False
-    #: No tool, and no law of a user: what loops over all contacts asks for.
+    #: No tool: what loops over all contacts asks for.
     tool = None
-    law = None
-    #: Whether an augmentation failed in the last increment, so that the multipliers kept their values.
-    multipliers_stay = False
     fixed: ClassVar[tuple[str, ...]] = ("name", "sides")
     memory = (
         *Term.memory,
         *("passes", "before", "_at", "_feet", "_couplings", "_declared", "_kept", "_last"),
-        *("_penalty", "_standing", "_nowhere", "_areas", "history_variables", "opposite", "multipliers_stay"),
+        *("_penalty", "_standing_penalty", "_nowhere", "_areas", "history_variables", "opposite", "multipliers_stay"),
     )
 
+    _settings: SheetContactSettings
+
     def __init__(self, mesh: Mesh, sides: Sequence[Ids], settings: SheetContactSettings, name: str) -> None:
-        self.name, self._settings, self.sides = name, settings, tuple(sides)
+        super().__init__(settings, name)
+        self.sides = tuple(sides)
         self.facets = tuple(mesh.facets_of(side) for side in sides)
         self._mesh = mesh
-        self._penalty = self._standing = settings.penalty
         self._size = max(longest_side(mesh, facets) for facets in self.facets)
         self._at: Floats = np.zeros(3 * len(mesh.points))
         self._way = _WAY * self._size
@@ -81,8 +80,6 @@ class SheetPasses(Term):
         self._declared: list[_core.Connectivity] | None = None
         #: The search of the converged state.
         self._kept: Search | None = None
-        self._last: SheetsFound | None = None
-        self.before = np.empty(0)
 
     @property
     def settings(self) -> SheetContactSettings:
@@ -211,38 +208,7 @@ class SheetPasses(Term):
         starts = np.cumsum([0, *map(len, self.sides)])
         return np.concatenate([np.full(len(self.sides[one]), starts[other]) for one, other in self._pairs])
 
-    # Penalty -----------------------------------------------------------------------------------------------------
-
-    @property
-    def penalty(self) -> float:
-        """Pressure per penetration; what is set here stays as it is in a run."""
-        return self._penalty
-
-    @penalty.setter
-    def penalty(self, value: float) -> None:
-        self._settings = replace(self._settings, penalty=value, largest=0.0)
-        self.use_penalty(value)
-        self._standing = value
-
-    @property
-    def initial_penalty(self) -> float:
-        """Penalty at the start, given or estimated."""
-        return self.settings.penalty
-
-    @property
-    def largest_penalty(self) -> float:
-        """Penalty up to which it grows in a run; 0 if it does not."""
-        return self.settings.largest
-
-    @property
-    def adapts(self) -> bool:
-        """Whether the penalty grows in a run, so that no point exceeds the allowed penetration."""
-        return self.settings.largest > 0.0
-
-    @property
-    def augmented(self) -> bool:
-        """Whether multipliers reduce the penetration to the allowed one."""
-        return self.settings.augmented
+    # Settings ----------------------------------------------------------------------------------------------------
 
     @property
     def allowed(self) -> float:
@@ -264,25 +230,11 @@ class SheetPasses(Term):
         """Gauss points, or cells, along and across a facet."""
         return self.points, self.points
 
-    @property
-    def friction(self) -> AnyFriction | None:
-        """Friction law; None without friction."""
-        return self.settings.friction
-
-    @property
-    def has_friction(self) -> bool:
-        """Whether points slip at a bound."""
-        return self.friction is not None
-
-    def begin_with(self, penalty: float) -> None:
-        """Begin with the penalty of a stage before, if it is estimated and grows; 0: there was none."""
-        if self.adapts and penalty > 0.0:
-            self._standing = min(penalty, self.largest_penalty)
-            self.use_penalty(self._standing)
+    # Penalty -----------------------------------------------------------------------------------------------------
 
     def use_penalty(self, value: float) -> None:
         """Evaluate with this penalty from now on."""
-        self._penalty = value
+        super().use_penalty(value)
         for one in self.passes:
             one.penalty = value
 

@@ -15,7 +15,8 @@ from umform.mesh import Ids, Mesh
 from umform.model.contact.cells import MOST, refuse_points_and_cells
 from umform.model.contact.encounter import Layer, bending_stress
 from umform.model.contact.friction import AnyFriction, friction_kernel
-from umform.model.contact.settings import ALLOWED
+from umform.model.contact.penalised import PenaltySettings
+from umform.model.contact.settings import ALLOWED, POINTS
 from umform.model.contact.sheets.faces import Depth, depth_of
 from umform.spec import About, check_fields
 from umform.spec.types import ContactPoints, Positive
@@ -26,8 +27,6 @@ from umform.spec.types import ContactPoints, Positive
 _START, _LEAST, _MULTIPLIED, _SOLID = 50.0, 0.5, 5.0, 0.1
 #: Deepest penetration that is one, in thicknesses of the thinner sheet, or in the reach of a solid body.
 _DEEPEST = 0.5
-#: Default of the points per direction.
-_POINTS = 2
 _CELLS = About(cause="a number of cells in all", remedy="3 on 4-node and 5 on 9-node faces to begin with")
 
 
@@ -67,14 +66,12 @@ class SheetContactOptions:
         refuse_points_and_cells(self.points, self.cells)
 
 
-@dataclass(frozen=True)
-class SheetContactSettings:
+@dataclass(frozen=True, kw_only=True)
+class SheetContactSettings(PenaltySettings):
     """Settings of a contact of sheets.
 
     Attributes
     ----------
-    penalty : float
-        Pressure per penetration.
     allowed : float
         Allowed penetration.
     points : int
@@ -83,26 +80,16 @@ class SheetContactSettings:
         Whether these are cells.
     thickness, reach : float
         Those of the thinner sheet.
-    friction : float, Friction or callable, optional
-        Friction law; None without friction.
     stiffness : float
         Traction per elastic slip; zero without friction.
-    largest : float
-        Penalty up to which it grows in a run; 0 if it was given, or with multipliers.
-    augmented : bool
-        Whether multipliers reduce the penetration to the allowed one.
     """
 
-    penalty: float
     allowed: float
     points: int
     over_cells: bool
     thickness: float
     reach: float
-    friction: AnyFriction | None = None
     stiffness: float = 0.0
-    largest: float = 0.0
-    augmented: bool = False
 
     @property
     def deepest(self) -> float:
@@ -154,7 +141,7 @@ def sheet_contact_settings(
         )
         largest = 0.0 if options.augmented else largest
     over_cells = options.cells is not None
-    points = options.cells or options.points or _POINTS
+    points = options.cells or options.points or POINTS
     stiffness, friction = 0.0, options.friction
     if isinstance(friction, int | float) and friction == 0:
         friction = None
@@ -164,16 +151,16 @@ def sheet_contact_settings(
         bound = friction_kernel(friction).bound(pressure)[0]
         stiffness = (bound if bound > 0.0 else pressure) / slip
     return SheetContactSettings(
-        float(penalty),
-        allowed,
-        int(points),
-        over_cells,
-        thinner,
-        reach,
-        friction,
-        float(stiffness),
-        float(largest),
-        bool(options.augmented),
+        penalty=float(penalty),
+        allowed=allowed,
+        points=int(points),
+        over_cells=over_cells,
+        thickness=thinner,
+        reach=reach,
+        friction=friction,
+        stiffness=float(stiffness),
+        largest=float(largest),
+        augmented=bool(options.augmented),
     )
 
 
