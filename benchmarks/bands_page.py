@@ -51,8 +51,8 @@ the amplitude from which they count; the angle of the first bend of a hem whose 
 
 ## Decks
 
-`umform run --budget deck.toml` repeats a deck with each of these changes, and prints what each measure, control and
-force at the end of a step changes by, and with `forming` thinning, strains and forming limits. The runs go in parallel.
+`umform run --budget deck.toml` repeats a deck with each of these changes, in parallel, and prints the changes of all
+measures, controls and forces at step ends, and with `forming` those of thinning, strains and forming limits.
 The error is the root of the sum of squares, times {safety:g}. If a number converges at least linearly with element
 size, increment and penetration, its true error is below that, unless a coarser mesh agrees by chance. The factor is the
 smallest of 1, 1.25, 1.5 and 2 that puts 90 % of the answers of the decks below into their bands: it is chosen and
@@ -90,10 +90,10 @@ number are so to the thickness.
 
 **Hems.** Flat, open and rope hems have a study each, those over an inner sheet or an insert have one together
 (*filled*), and hems of all forms by a force another, of flat ones and one over an insert: there the force is given,
-height and gap follow. Softness has no part. The finest mesh has eight elements on a thickness and four layers. On it
-the fold itself has not converged: largest gap, creep, roll-in and inner strain have the wide bands that the studies
-show. Studies of three parts are small: their factor is 3.2, and the check by two others, with a factor of 4.3, is a
-weak one.
+height and gap follow. Their bands do not depend on the softness of the next paragraph. The finest mesh has eight
+elements on a thickness and four layers. On it the fold itself has not converged: largest gap, creep, roll-in and inner
+strain have the wide bands that the studies show. Studies of three parts are small: their factor is 3.2, and the check
+by two others, with a factor of 4.3, is a weak one.
 
 **Sharp bends.** The errors of bends depend less on thickness over inside radius than on the hardening that is left at
 the outer face. They are taken as proportional to a power of {exponent}, the likeliest one, of the *softness*: the yield
@@ -121,7 +121,7 @@ all answers together; where a row below has less, the bands of that process are 
 
 Root mean squares of the errors of the default mesh, without the factor, and of what one refinement alone changes: the
 finer mesh and the layers on the default mesh, the others on the coarse one; `all but the mesh` is what all others
-change together on the fine mesh, and what an extrapolation over meshes lacks. Those of bends and hems are for a
+change together on the fine mesh, and what an extrapolation over meshes lacks. Those of bends are for a
 softness of 1, those of hems, cups and U-bends in mm for a thickness of 1 mm.
 
 {errors}
