@@ -24,7 +24,7 @@ import umform as uf
 from umform.analysis.newton import newton
 from umform.analysis.newton.newton import Newton
 from umform.analysis.newton.strategies import Increment
-from umform.analysis.steps.loop import Run
+from umform.analysis.steps.run_state import Run
 from umform.attempts import Attempts
 from umform.model.equations.evaluated import Evaluated
 from umform.problem import load

@@ -244,7 +244,7 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from umform.analysis.steps.increment import take_increment
-from umform.analysis.steps.loop import Run, Take
+from umform.analysis.steps.run_state import Run, Take
 from umform.model.terms.control import Control
 from umform.spec import check_fields
 from umform.spec.types import Increments, Share

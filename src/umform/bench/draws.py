@@ -18,7 +18,7 @@ from umform.processes.draw.files import FILES, record, write_files
 from umform.processes.draw.u_bend import UBend
 
 if TYPE_CHECKING:
-    from umform.analysis.steps.loop import Run
+    from umform.analysis.steps.run_state import Run
 
 #: Entries of a record that the page shows.
 _SHOWN = ("ending", "about_errors", "quantities", "checks", "warnings", "increments", "seconds")

@@ -19,7 +19,7 @@ from umform.errors import UmformError
 from umform.processes.air_bending.formulas import INNER_RADIUS, shop_forces, strength
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence.collisions import die_body, punch_body
-from umform.processes.bend_sequence.foreseen import foreseen_collisions
+from umform.processes.bend_sequence.foreseen_collisions import foreseen_collisions
 from umform.processes.bend_sequence.spec import Bodies
 
 #: Openings over the thickness that are usual on a press brake.

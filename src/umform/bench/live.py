@@ -23,7 +23,7 @@ from umform.report.words import column_text
 from umform.results.quantity import FORCE_PER_LENGTH
 
 if TYPE_CHECKING:
-    from umform.analysis.steps.loop import Run
+    from umform.analysis.steps.run_state import Run
     from umform.results.history import History
 
 #: Least number of seconds between two files.

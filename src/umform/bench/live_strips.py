@@ -13,7 +13,7 @@ from umform.processes.hemming import Hemming
 from umform.processes.hemming.problem import FORCE, STROKE, edge_of, way_column
 
 if TYPE_CHECKING:
-    from umform.analysis.steps.loop import Run
+    from umform.analysis.steps.run_state import Run
     from umform.model import Model
     from umform.results.history import History
 

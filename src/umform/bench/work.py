@@ -158,7 +158,7 @@ def _other(folder: Path, order: dict[str, Any], wanted: Wanted) -> dict[str, Any
 def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     """A deck, by the calls of `umform run`, or of `umform resume` if there is a checkpoint."""
     from umform.problem import running
-    from umform.problem.kept import Kept
+    from umform.problem.deck_in_checkpoint import Kept
     from umform.problem.problem import Problem
     from umform.problem.results import CHECKPOINT
 

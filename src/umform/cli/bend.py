@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from umform.cli import bend_correct, bend_table  # noqa: F401  (they add their commands)
+from umform.cli.bend_commands import alone, bends
 from umform.cli.bend_goals import BendGoal, check_budgeted, check_flat_only, check_length, check_measured, check_no_goal
-from umform.cli.bends import alone, bends
 from umform.cli.check import Force
 from umform.cli.deflection import deflected, press_brake
 from umform.cli.drawn_tools import drawn_tools, named_tools

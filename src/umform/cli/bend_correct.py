@@ -7,8 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
+from umform.cli.bend_commands import bends
 from umform.cli.bend_table import StoreFolder, check_jobs, checked_formats, files_of, issue
-from umform.cli.bends import bends
 from umform.cli.folders import results_folder
 from umform.cli.metal import by_name
 from umform.cli.options import SHEET, SOLUTION, option

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from umform.cli.bends import bends
+from umform.cli.bend_commands import bends
 from umform.cli.folders import results_folder, say_written
 from umform.cli.metal import by_name
 from umform.cli.options import SHEET, SOLUTION, option

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from umform.cli.folders import out_option, results_folder, say_written
+from umform.cli.option_names import as_typed, options_of
 from umform.cli.options import SOLUTION, PrintDeck, option, print_deck
 from umform.cli.outcome_screen import print_table
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing, say
 from umform.cli.spec_options import Given, given_by
 from umform.cli.timing import Timed, show_timing
-from umform.cli.typed import as_typed, options_of
 from umform.processes.bending.spec import RECONSTRUCTION, FreeBending
 
 if TYPE_CHECKING:

@@ -35,7 +35,7 @@ def resume(
     continues on any number of ranks.
     """
     from umform.problem import running
-    from umform.problem.kept import Kept
+    from umform.problem.deck_in_checkpoint import Kept
 
     let_the_first_talk()
     print_warnings_once()

@@ -16,7 +16,7 @@ from typer.core import TyperGroup
 
 import umform
 from umform.cli import INTERRUPTED
-from umform.cli.typed import message, options_of
+from umform.cli.option_names import message, options_of
 from umform.cli.usage import is_usage_error, usage_problem
 from umform.errors import FileProblem, InvalidValue, UmformError
 from umform.io.atomic import write_problem

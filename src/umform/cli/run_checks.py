@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 def show_checks(screen: Console, stages: Mapping[str, History], *, everything: bool = True) -> None:
     """Print a line for each contact and one for the balance, of each run by its name; or only of limits not kept."""
-    from umform.results.balanced import balanced
+    from umform.results.balance_summary import balanced
     from umform.results.penetration import stage_penetrations
 
     def show(text: str, kept: bool) -> None:

@@ -42,7 +42,7 @@ def run_sequence(
     from umform.io.staging import staging
     from umform.processes.bend_sequence import bend_sequence
     from umform.processes.bend_sequence.files import FILES, RESULTS, write_files
-    from umform.processes.bend_sequence.foreseen import foreseen_collisions, foreseen_text
+    from umform.processes.bend_sequence.foreseen_collisions import foreseen_collisions, foreseen_text
     from umform.timing import Timing, timings
 
     made = sequence_of(file, sheet, flat_only=flat_only)

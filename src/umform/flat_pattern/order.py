@@ -16,7 +16,7 @@ from umform.flat_pattern.checks import crossings
 from umform.flat_pattern.pattern import FlatBend, FlatPattern
 from umform.flat_pattern.tooling import Tooling
 from umform.processes.air_bending.spec import AirBending
-from umform.processes.bend_sequence.foreseen import foreseen_at, foreseen_text
+from umform.processes.bend_sequence.foreseen_collisions import foreseen_at, foreseen_text
 from umform.processes.bend_sequence.spec import TOOLS, Bend, BendSequence, Bodies
 
 Floats = NDArray[np.float64]

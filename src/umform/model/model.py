@@ -26,7 +26,7 @@ from umform.model.contact.tools import Tools
 from umform.model.equations.assembled import Parts
 from umform.model.equations.evaluation import Evaluation
 from umform.model.equations.gauge import gauge_dofs
-from umform.model.equations.rest import Rest
+from umform.model.equations.rest_springs import Rest
 from umform.model.equations.sparse_tangent import warn_of_pending
 from umform.model.moved_names import MOVED, moved
 from umform.model.sheets import SheetContacts

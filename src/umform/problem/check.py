@@ -16,9 +16,8 @@ from umform.model.contact.encounter import sheet_thickness
 from umform.problem.clearance import away, clearances
 from umform.problem.contents import Contents
 from umform.problem.controls import ControlPart, Displacement, Drive, MidLine, Moment, Press, Spring, Turn
+from umform.problem.deck_in_checkpoint import Kept
 from umform.problem.findings import Finding, error, ok, warning
-from umform.problem.floating import changed_thickness
-from umform.problem.kept import Kept
 from umform.problem.material import FromLibrary
 from umform.problem.placement import out_of_the_sheet
 from umform.problem.planes import planes
@@ -29,6 +28,7 @@ from umform.problem.problem import Problem, load
 from umform.problem.references import references
 from umform.problem.resolution import resolution
 from umform.problem.steps import Arc, Move
+from umform.problem.tools_that_stay import changed_thickness
 from umform.sheet_metals import get
 from umform.surfaces import CadTool, Offset, OffsetByField, Placed, Triangulated
 

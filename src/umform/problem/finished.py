@@ -9,7 +9,7 @@ from umform.analysis.run.checkpoint import CHECKPOINT_KIND, read_checkpoint
 from umform.errors import FileProblem, InvalidValue
 from umform.io.trees import kind_of
 from umform.model import Model
-from umform.problem.kept import Kept
+from umform.problem.deck_in_checkpoint import Kept
 from umform.problem.previous_operation import STATE_KIND, Before
 from umform.problem.results import CHECKPOINT, FILES, STATE
 

@@ -18,7 +18,7 @@ from umform.errors import FileProblem, InvalidValue
 from umform.io.trees import read_tree, write_tree
 from umform.model import Model, Snapshot
 from umform.model.contact import Contact
-from umform.model.contact.kept import KeptContact
+from umform.model.contact.kept_history import KeptContact
 from umform.model.contact.sheets import SheetContact
 from umform.model.transfer.rigid_motion import RigidMotion
 from umform.problem.errors import DeckError, DeckKey

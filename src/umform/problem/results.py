@@ -14,9 +14,9 @@ from umform.analysis.run import Result
 from umform.errors import UmformError
 from umform.io.atomic import write_problem
 from umform.io.staging import Staging
+from umform.problem.deck_in_checkpoint import Kept
 from umform.problem.deck_text import toml
 from umform.problem.forming import Forming
-from umform.problem.kept import Kept
 from umform.problem.measured import TABLE, Taken, data_files, picture_files
 from umform.problem.prepared import Prepared
 from umform.problem.previous_operation import write_state

@@ -18,8 +18,8 @@ from umform.io.atomic import remove_left_behind
 from umform.io.folders import chosen_folder, folder_for
 from umform.io.staging import staging
 from umform.problem.check import before_run
+from umform.problem.deck_in_checkpoint import Kept
 from umform.problem.findings import accept
-from umform.problem.kept import Kept
 from umform.problem.measured import Taken
 from umform.problem.prepared import Prepared, Solving
 from umform.problem.problem import Problem

@@ -15,7 +15,7 @@ from umform.materials import Material
 from umform.mesh import Mesh
 from umform.model import Model
 from umform.model.bodies.body import Body
-from umform.model.contact.kept import KeptContact
+from umform.model.contact.kept_history import KeptContact
 from umform.model.transfer.beside import laid_beside
 from umform.problem.contents import Contents
 from umform.problem.errors import DeckError

@@ -15,7 +15,7 @@ from umform.report.materials import material_text
 from umform.report.repeats import counted
 from umform.report.versions import versions
 from umform.report.words import column_text, text_of
-from umform.results.balanced import LIMIT, Balanced, balanced
+from umform.results.balance_summary import LIMIT, Balanced, balanced
 from umform.results.outcome import MEASURES
 from umform.results.penetration import stage_penetrations
 from umform.results.quantity import Quantity

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from umform.model import Model
-from umform.results.balanced import LIMIT, balanced
+from umform.results.balance_summary import LIMIT, balanced
 from umform.results.history import History
 
 

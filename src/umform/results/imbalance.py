@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from umform.results.balanced import balanced
+from umform.results.balance_summary import balanced
 from umform.results.history import History
 
 #: Largest resultant of all external forces, relative to their magnitudes, and largest tolerance that need no warning:

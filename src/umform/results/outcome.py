@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Self
 from umform.errors import InvalidValue
 from umform.io.tables import write_csv
 from umform.notebook import Display, InNotebook
-from umform.results.balanced import balanced
+from umform.results.balance_summary import balanced
 from umform.results.history import History
 from umform.results.penetration import stage_penetrations
 from umform.results.quantity import GIVEN, Band, Quantity, list_columns, prefixed, table, values

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from umform.results.balanced import balanced
+from umform.results.balance_summary import balanced
 from umform.results.history import History
 from umform.results.penetration import contact_record
 

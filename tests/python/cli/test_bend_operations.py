@@ -72,8 +72,8 @@ def test_a_part_that_collides_is_not_done(tmp_path, monkeypatch):
     typed = ["bend", "--sequence", str(tmp_path / "part.toml"), *coarse, "--out", str(tmp_path / "out"), "--overwrite"]
     assert CliRunner().invoke(app, typed).exit_code == 0
     hits = [Collision("punch", 0.3, 9.0)]
-    monkeypatch.setattr("umform.processes.bend_sequence.done.collisions", lambda *given: hits)
-    monkeypatch.setattr("umform.processes.bend_sequence.foreseen.collisions", lambda *given: hits)
+    monkeypatch.setattr("umform.processes.bend_sequence.one_bend.collisions", lambda *given: hits)
+    monkeypatch.setattr("umform.processes.bend_sequence.foreseen_collisions.collisions", lambda *given: hits)
     done = CliRunner().invoke(app, typed)
     assert done.exit_code == 1
     assert "bend 1: by its geometry the part will collide with the body of the punch" in done.stderr

@@ -11,7 +11,7 @@ from umform.errors import InvalidValue
 from umform.flat_pattern import AllowanceTable, KFactor, Orders, Tooling, flat
 from umform.flat_pattern.operator_sheet import steps_of, write_sheet
 from umform.processes.bend_sequence import Bodies
-from umform.processes.bend_sequence.foreseen import foreseen_collisions
+from umform.processes.bend_sequence.foreseen_collisions import foreseen_collisions
 
 UNFOLDED = [name for name, bracket in BRACKETS.items() if not bracket.refused]
 #: Offsets and lips shorter than the die needs.

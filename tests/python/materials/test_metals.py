@@ -130,7 +130,7 @@ def test_return_maps_in_stages_are_counted(rng):
 def test_a_run_tells_of_return_maps_in_stages(monkeypatch, caplog):
     """With each increment in the log, once as a warning, in all in the attempts."""
     numbers = iter([10, 10, 13, 13, 15, 15])  # as the run begins, and behind each of five increments
-    monkeypatch.setattr("umform.analysis.steps.loop.Run._staged", lambda run: next(numbers))
+    monkeypatch.setattr("umform.analysis.steps.run_state.Run._staged", lambda run: next(numbers))
     metal = mt.Metal(E=210e3, nu=0.3, hardening=mt.Voce(100.0, 300.0, 12.0), yield_function=mt.Hosford(8))
     with caplog.at_level("INFO", logger="umform.analysis.steps"):
         _, result = pulled(metal)

@@ -11,7 +11,7 @@ from umform.analysis.newton.strategies import Increment
 from umform.analysis.newton.strategy_statistics import StrategyStatistics
 from umform.analysis.run import resume, solve
 from umform.analysis.steps import Move, Release
-from umform.analysis.steps.loop import Run
+from umform.analysis.steps.run_state import Run
 from umform.mesh import strip
 from umform.model import Model
 from umform.surfaces import Cylinder, Punch, VDie

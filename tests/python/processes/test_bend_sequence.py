@@ -16,7 +16,7 @@ from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.bend_sequence import Bend, BendSequence, Bodies, bend_sequence
 from umform.processes.bend_sequence.collisions import Collision, collisions, die_body, punch_body
 from umform.processes.bend_sequence.files import FILES, record, write_files
-from umform.processes.bend_sequence.foreseen import foreseen_collisions, foreseen_text
+from umform.processes.bend_sequence.foreseen_collisions import foreseen_collisions, foreseen_text
 from umform.processes.bend_sequence.form import read_sequence, sequence_form
 from umform.processes.bend_sequence.page import curves
 from umform.processes.bend_sequence.sides import Strip

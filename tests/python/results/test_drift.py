@@ -10,7 +10,7 @@ import pytest
 import umform as uf
 from umform.analysis.run.open_run import OpenRun
 from umform.report.page import write_report
-from umform.results.balanced import balanced
+from umform.results.balance_summary import balanced
 
 
 def about(result):

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from umform.analysis.newton.strategy_statistics import StrategyStatistics
-from umform.analysis.steps.loop import Run
+from umform.analysis.steps.run_state import Run
 from umform.analysis.steps.trail import Trail
 from umform.errors import FileProblem, InvalidValue
 from umform.io.atomic import PendingFile

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from umform.analysis.steps.loop import Run
+from umform.analysis.steps.run_state import Run
 from umform.errors import NoConvergence
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from umform.analysis.run.loose import carry_loose_sheet
 from umform.analysis.run.result import Result
 from umform.analysis.run.run_steps import checkpoints_of, go_on, loop_for, ready
 from umform.analysis.steps import Step
-from umform.analysis.steps.loop import Follower, Run
+from umform.analysis.steps.run_state import Follower, Run
 from umform.errors import InvalidValue
 from umform.model import Model
 from umform.progress import Show

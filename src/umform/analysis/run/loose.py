@@ -13,7 +13,7 @@ from umform.analysis.steps import Close, Move, Release, Step
 from umform.errors import ModelError
 from umform.model import Model
 from umform.model.equations.checks import free_in_touch, free_now
-from umform.model.equations.rest import Rest
+from umform.model.equations.rest_springs import Rest
 from umform.model.terms.control import OnDofs
 from umform.model.tools.tool_controls import ToolForce, ToolWay
 from umform.results.history import History

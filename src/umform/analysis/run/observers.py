@@ -8,7 +8,7 @@ from contextvars import ContextVar
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from umform.analysis.steps.loop import Run
+    from umform.analysis.steps.run_state import Run
 
 #: Called with the run, which it must not change.
 Watcher = Callable[["Run"], None]

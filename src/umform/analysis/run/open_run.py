@@ -19,7 +19,6 @@ from umform.errors import InvalidValue
 from umform.model import Evaluation, Model
 from umform.model.terms.state import Snapshot
 from umform.progress import Tick, silent
-from umform.results.coarse import warn_of_volume
 from umform.results.drift import warn_of_drift
 from umform.results.history import FRAMES
 from umform.results.history import Mark as HistoryMark
@@ -27,6 +26,7 @@ from umform.results.imbalance import warn_of_imbalance
 from umform.results.penetration import warn_of_contact
 from umform.results.records import Iteration
 from umform.results.untouched import warn_of_untouched
+from umform.results.volume_warning import warn_of_volume
 from umform.solvers.protocol import Remembering
 from umform.timing import new_timing
 

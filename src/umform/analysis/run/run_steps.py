@@ -18,20 +18,20 @@ from umform.analysis.steps import Step
 from umform.analysis.steps.arc_length.arc import Arc, Following
 from umform.analysis.steps.close import Close, Closing
 from umform.analysis.steps.free import Free, Freeing
-from umform.analysis.steps.loop import Run
 from umform.analysis.steps.move import Move
 from umform.analysis.steps.moving import loop_of
 from umform.analysis.steps.release import Release, Releasing
+from umform.analysis.steps.run_state import Run
 from umform.errors import InvalidValue, NoConvergence
 from umform.progress import Show, Tick, progress_bar
 from umform.results.bottoming import warn_of_bottoming
-from umform.results.coarse import warn_of_volume
 from umform.results.drift import warn_of_drift
 from umform.results.imbalance import warn_of_imbalance
 from umform.results.penetration import warn_of_contact
-from umform.results.rest import tell_of_rest
+from umform.results.rest_springs import tell_of_rest
 from umform.results.shared_faces import warn_of_shared_faces
 from umform.results.untouched import warn_of_untouched
+from umform.results.volume_warning import warn_of_volume
 from umform.solvers.one_thread import one_thread
 from umform.spec import check_value
 from umform.spec.types import Frames

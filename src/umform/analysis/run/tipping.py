@@ -13,7 +13,7 @@ from umform.analysis.steps import Move, Step
 from umform.model import Model
 from umform.model.contact import Contact
 from umform.model.equations.checks import free_now, left_free, middle, motion_along, sprung
-from umform.model.equations.rest import Rest
+from umform.model.equations.rest_springs import Rest
 from umform.model.terms.control import Control
 from umform.model.terms.dead_load import Load
 from umform.model.terms.forces import rigid_body_modes

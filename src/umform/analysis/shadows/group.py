@@ -18,7 +18,7 @@ from umform.analysis.run.run_steps import ready
 from umform.analysis.shadows.shadow import Factors, Guess, Kept, Shadow, factored, forces_of, reason
 from umform.analysis.shadows.structure import other_structure
 from umform.analysis.steps import Step
-from umform.analysis.steps.loop import Run
+from umform.analysis.steps.run_state import Run
 from umform.errors import InvalidValue, UmformError
 from umform.model import Model
 from umform.model.terms.control import Control

@@ -16,7 +16,7 @@ from umform.analysis.newton.shift import Shift
 from umform.analysis.run.checkpoint import memory_of, recall
 from umform.analysis.run.run_steps import loop_for
 from umform.analysis.steps import Step
-from umform.analysis.steps.loop import Run
+from umform.analysis.steps.run_state import Run
 from umform.errors import NotFinite, SingularMatrix, UmformError
 from umform.model import Evaluation, Model, State
 from umform.model.terms.control import Control, OnDofs

@@ -9,7 +9,7 @@ from typing import Any, Self
 import numpy as np
 
 from umform.analysis.steps.increment import no_convergence, take_increment
-from umform.analysis.steps.loop import Run, Take
+from umform.analysis.steps.run_state import Run, Take
 from umform.analysis.steps.saved_state import Saved, tightened
 from umform.errors import InvalidValue, NoConvergence
 from umform.model import Model

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from umform.analysis.steps.loop import Run
+from umform.analysis.steps.run_state import Run
 from umform.materials.j2 import Plastic
 from umform.model.contact import Contact, ContactFound
 from umform.model.contact.encounter import sheet_thickness

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Self
 
 from umform.analysis.newton.newton import Newton
-from umform.analysis.steps.loop import Run, Take
 from umform.analysis.steps.move import Move
 from umform.analysis.steps.moving import Marching
+from umform.analysis.steps.run_state import Run, Take
 from umform.errors import InvalidValue
 from umform.model import Model, Tool
 from umform.model.changes.opening import fading_tool, open_tool

@@ -16,8 +16,8 @@ from umform.analysis.newton.newton import Newton
 from umform.analysis.newton.strategies import Increment, equilibrium
 from umform.analysis.steps.crushed import crushed
 from umform.analysis.steps.limit_load import limit_load
-from umform.analysis.steps.loop import Run
 from umform.analysis.steps.own_parts import own_parts
+from umform.analysis.steps.run_state import Run
 from umform.analysis.steps.thinned import thinned
 from umform.analysis.steps.trail import Trail, changes
 from umform.errors import NoConvergence

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from umform.analysis.steps.loop import Run
+from umform.analysis.steps.run_state import Run
 from umform.model.terms.control import Control
 from umform.model.terms.dead_load import Load
 from umform.model.terms.pressure import Pressure

@@ -13,9 +13,9 @@ import numpy as np
 
 from umform.analysis.newton.newton import Newton
 from umform.analysis.steps.increment import no_convergence, take_increment
-from umform.analysis.steps.loop import Run, Take
 from umform.analysis.steps.move import Move
 from umform.analysis.steps.pace import Happened
+from umform.analysis.steps.run_state import Run, Take
 from umform.analysis.steps.saved_state import Saved
 from umform.analysis.steps.trail import changes
 from umform.model.terms.control import OnDofs

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from umform.analysis.steps.increment import no_convergence, take_increment
-from umform.analysis.steps.loop import Run, Take
+from umform.analysis.steps.run_state import Run, Take
 from umform.analysis.steps.saved_state import Saved, tightened
 from umform.errors import InvalidValue
 from umform.model import Evaluation

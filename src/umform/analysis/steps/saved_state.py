@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.analysis.newton.newton import Newton
-from umform.analysis.steps.loop import Run
+from umform.analysis.steps.run_state import Run
 from umform.model import Evaluation, Model, Snapshot
 from umform.model.terms.term import Term
 

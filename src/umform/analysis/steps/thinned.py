@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from umform.analysis.steps.loop import Run
+from umform.analysis.steps.run_state import Run
 from umform.results.fields import thickness_change
 
 #: Loss of thickness above which a sheet has necked, and burst.

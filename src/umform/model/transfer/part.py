@@ -14,7 +14,7 @@ from umform.mesh.fitted.sheet import Sheet
 from umform.mesh.part import MeshPart
 from umform.model.bodies.body import Body
 from umform.model.contact import Contact
-from umform.model.contact.kept import KeptContact
+from umform.model.contact.kept_history import KeptContact
 from umform.model.contact.sheets import SheetContact
 from umform.model.model import Model
 from umform.model.terms.state import Snapshot

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from umform.processes.air_bending.goal import needed_stroke
-from umform.processes.bend_sequence.done import placed_problem
+from umform.processes.bend_sequence.one_bend import placed_problem
 from umform.processes.bend_sequence.problem import flat_strip
 from umform.processes.bend_sequence.spec import BendSequence
 from umform.processes.problems import Operation

@@ -5,7 +5,7 @@ from __future__ import annotations
 from umform.analysis.run import Result
 from umform.processes.air_bending.goal import needed_stroke
 from umform.processes.air_bending.loading import against_flank, loading
-from umform.processes.bend_sequence.done import bend_done, measures_of, placed_problem
+from umform.processes.bend_sequence.one_bend import bend_done, measures_of, placed_problem
 from umform.processes.bend_sequence.part import BendDone, Part
 from umform.processes.bend_sequence.problem import flat_strip
 from umform.processes.bend_sequence.sides import Sides, Strip

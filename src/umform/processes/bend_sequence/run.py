@@ -6,7 +6,7 @@ from umform.analysis.run import Result
 from umform.mesh import Mesh
 from umform.processes.air_bending.goal import Goal
 from umform.processes.air_bending.search import bent_to_angle
-from umform.processes.bend_sequence.done import bend_done
+from umform.processes.bend_sequence.one_bend import bend_done
 from umform.processes.bend_sequence.part import BendDone, Part
 from umform.processes.bend_sequence.problem import flat_strip
 from umform.processes.bend_sequence.spec import BendSequence

@@ -11,7 +11,7 @@ from umform.processes.air_bending.bend import Loaded
 from umform.processes.air_bending.brake import Brake, Floats
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.section import Section
-from umform.processes.bend_sequence.done import measures_of, placed_problem
+from umform.processes.bend_sequence.one_bend import measures_of, placed_problem
 from umform.processes.bend_sequence.sides import Sides, Strip
 from umform.processes.bend_sequence.spec import Bend, BendSequence
 from umform.progress import Tick, silent

@@ -21,7 +21,7 @@ from umform.processes.bending.measures import at_marks, jump, roughness
 from umform.processes.bending.problem import problem_of
 from umform.processes.bending.spec import FreeBending
 from umform.report.repeats import counted
-from umform.results.balanced import Balanced, balanced
+from umform.results.balance_summary import Balanced, balanced
 from umform.results.quantity import Quantity, values
 from umform.results.run_record import run_record
 from umform.results.shape import Shape

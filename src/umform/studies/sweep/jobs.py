@@ -17,7 +17,7 @@ from umform.digest import floats
 from umform.errors import FileProblem, UmformError
 from umform.io.tables import write_json
 from umform.problem import Problem, running
-from umform.problem.kept import Kept
+from umform.problem.deck_in_checkpoint import Kept
 from umform.problem.own_classes import modules_of, texts
 from umform.problem.results import CHECKPOINT
 from umform.problem.unloading import UNLOADING

@@ -220,7 +220,7 @@ def sweep(
 
 def _tools_stay(plan: Plan) -> str:
     """A warning if tools do not follow the thickness that is varied; or nothing."""
-    from umform.problem.floating import tools_stay
+    from umform.problem.tools_that_stay import tools_stay
 
     name = next((name for name in plan.varied if name.split(".")[-1] == "thickness"), "")
     decks = {plan.values[number].get(name): job.deck for number, job in plan.jobs.items()}

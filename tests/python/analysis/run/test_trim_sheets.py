@@ -9,7 +9,7 @@ import umform as uf
 from umform.analysis.run import solve
 from umform.errors import InvalidValue
 from umform.history_variables import named
-from umform.model.contact.kept import KeptContact
+from umform.model.contact.kept_history import KeptContact
 
 
 def contact_of(model, **options):

@@ -17,7 +17,7 @@ from umform.analysis.steps.arc_length.critical import CriticalPoints
 from umform.analysis.steps.arc_length.equation import Line
 from umform.analysis.steps.arc_length.path import Path
 from umform.analysis.steps.increment import last_residuals
-from umform.analysis.steps.loop import Run, Take
+from umform.analysis.steps.run_state import Run, Take
 from umform.analysis.steps.thinned import thinned
 from umform.errors import InvalidValue, NoConvergence
 from umform.model import Model

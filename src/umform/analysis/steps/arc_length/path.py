@@ -19,7 +19,7 @@ from umform.analysis.newton.options import IterationMode
 from umform.analysis.newton.system import Evaluation
 from umform.analysis.steps.arc_length.critical import PathState
 from umform.analysis.steps.arc_length.equation import ArcLength, Line
-from umform.analysis.steps.loop import Run
+from umform.analysis.steps.run_state import Run
 from umform.errors import InvalidValue
 from umform.model import Model
 from umform.model.terms.state import State

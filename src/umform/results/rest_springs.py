@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from umform.model import Model
-from umform.model.equations.rest import Rest
+from umform.model.equations.rest_springs import Rest
 from umform.results.history import History
 
 #: Energy of the springs over the external work that is no matter.

@@ -6,7 +6,7 @@ import pytest
 from typer.testing import CliRunner
 
 from umform.cli import app
-from umform.cli.typed import as_typed
+from umform.cli.option_names import as_typed
 from umform.problem.templates import template
 
 TYPED = [
