@@ -14,7 +14,7 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response
 from starlette.routing import Route
 
-from umform.bench.decks import checked_deck, known_templates, schema_text, template_text, title_of
+from umform.bench.decks import checked_deck, known_templates, schema_text, title_of
 from umform.bench.errors_as_json import error_record, problems_of
 from umform.bench.folders import METAL, RESULTS, SCENE, SHAPE, TABLE
 from umform.bench.form_check import look
@@ -31,6 +31,7 @@ from umform.flat_pattern import FILES as FLAT_FILES
 from umform.io.tables import CSV_STYLES
 from umform.problem.measured import OF_ONE
 from umform.problem.results import FILES as DECK_FILES
+from umform.problem.templates import template
 from umform.processes.air_bending.files import RESULTS as BEND_FILES
 from umform.processes.draw.files import FILES as DRAW_FILES
 
@@ -59,7 +60,7 @@ def routes(queue: Queue) -> list[Route]:
         "/api/parts": lambda request: {"parts": api.parts.rows()},
         "/api/decks": lambda request: {"templates": known_templates()},
         "/api/decks/schema": lambda request: Response(schema_text(), media_type="application/json"),
-        "/api/decks/template/{name}": lambda request: {"text": template_text(request.path_params["name"])},
+        "/api/decks/template/{name}": lambda request: {"text": template(request.path_params["name"])},
         "/files/{name}/{file}": api.file,
     }
     post: dict[str, Callable[[Any, Request], _Json]] = {

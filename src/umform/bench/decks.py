@@ -22,11 +22,6 @@ def known_templates() -> list[dict[str, str]]:
     return [{"name": name, "title": title} for name, title in templates.templates().items()]
 
 
-def template_text(name: str) -> str:
-    """Text of a template."""
-    return templates.template(name)
-
-
 @cache
 def schema_text() -> str:
     """The JSON schema of decks."""

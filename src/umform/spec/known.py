@@ -17,6 +17,13 @@ class Known(Mapping[str, type]):
     """Classes by name, in the order of the files and of their lines; abstract ones are left out.
 
     To look one up imports its file only.
+
+    Parameters
+    ----------
+    package : str
+        Such as umform.materials.
+    interface : type
+        Such as Hardening.
     """
 
     def __init__(self, package: str, interface: type) -> None:
@@ -47,15 +54,5 @@ class Known(Mapping[str, type]):
         }
 
 
-@cache
-def known(package: str, interface: type) -> Mapping[str, type]:
-    """The known classes by name.
-
-    Parameters
-    ----------
-    package : str
-        Such as umform.materials.
-    interface : type
-        Such as Hardening.
-    """
-    return Known(package, interface)
+#: Known classes, made once for each kind.
+known = cache(Known)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import bisect
 import itertools
 import math
 import re
+from bisect import bisect_left
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -120,7 +120,7 @@ class Tabled:
         if angle in known:
             one = self.bends[known.index(angle)]
             return Between(angle, one.radius, one.k_factor, one.allowance, one.deduction, 0.0)
-        checks = [one for one in self.checks if _interval(known, one.wanted) == _interval(known, angle)]
+        checks = [one for one in self.checks if bisect_left(known, one.wanted) == bisect_left(known, angle)]
         if not checks:
             raise InvalidValue(
                 "the error between the angles of the table is not known",
@@ -170,14 +170,10 @@ def _listed(bends: Sequence[StoredBend]) -> str:
     return ", ".join(f"{one.wanted:g}" for one in bends)
 
 
-def _interval(known: Sequence[float], angle: float) -> int:
-    return bisect.bisect_left(known, angle)
-
-
 def _between(part: Tabled, angle: float) -> Between:
     """Radius and K by the polynomial through the four nearest bends on both sides, the rest by its definition."""
     known = [one.wanted for one in part.bends]
-    first = min(max(_interval(known, angle) - 2, 0), max(len(known) - 4, 0))
+    first = min(max(bisect_left(known, angle) - 2, 0), max(len(known) - 4, 0))
     near = part.bends[first : first + 4]
     weights = [
         math.prod((angle - other.wanted) / (one.wanted - other.wanted) for other in near if other is not one)

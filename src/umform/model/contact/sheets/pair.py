@@ -104,10 +104,6 @@ class SheetContact(SheetPasses):
         if not self._history().any():
             self._commit()
 
-    def go_back(self, before: Floats) -> None:
-        """Restore the history that the evaluation of the converged state used as input."""
-        self._restore(before)
-
     def revert(self) -> None:
         """Return to the converged history, and to the search from which its run would go on."""
         for one in self.passes:
@@ -143,16 +139,17 @@ class SheetContact(SheetPasses):
         """Make an earlier search again, for a history."""
         then = np.array(history, dtype=float)
         then[:, self._column("facet")] = search.feet
-        self._restore(then)
+        self.go_back(then)
         self._at = search.at
         self._declared = self._declared or self._couplings
         self._search()
-        self._restore(history)
+        self.go_back(history)
 
-    def _restore(self, history: Floats) -> None:
+    def go_back(self, before: Floats) -> None:
+        """Restore the history that the evaluation of the converged state used as input."""
         first = 0
         for one in self.passes:
-            one.restore(np.ascontiguousarray(history[first : first + one.points], dtype=float))
+            one.restore(np.ascontiguousarray(before[first : first + one.points], dtype=float))
             first += one.points
 
     def columns(self, found: Found, ranks: Ranks) -> dict[str, float]:
