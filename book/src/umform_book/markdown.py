@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from html import escape
 
 #: A table with more rows than this is folded.
 LONG = 8
@@ -17,7 +18,7 @@ def markdown_table(columns: Sequence[str], rows: Sequence[Sequence[str]], *, num
 def folded(title: str, content: str, rows: int = LONG + 1) -> str:
     """Content under its title, folded if it has many rows."""
     if rows > LONG:
-        return f"<details>\n<summary>{_plain(title) or 'Table'}</summary>\n\n{content}\n\n</details>"
+        return f"<details>\n<summary>{escape(title, quote=False) or 'Table'}</summary>\n\n{content}\n\n</details>"
     return f"**{title}**\n\n{content}" if title else content
 
 
@@ -26,8 +27,3 @@ def unfolded(markdown: str) -> str:
     for tag in ("<details>\n", "</details>\n\n", "</details>"):
         markdown = markdown.replace(tag, "")
     return markdown.replace("<summary>", "**").replace("</summary>", "**")
-
-
-def _plain(title: str) -> str:
-    """A title inside of HTML."""
-    return title.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
