@@ -232,7 +232,7 @@ def _check_alone(
     """Refuse a bend without a goal, with both stroke and angle, or with two tables."""
     if force is not None or travel is not None:
         raise InvalidValue(
-            "a force or a way beyond the bottom is one of bottoming",
+            "a force or a travel beyond the bottom needs bottoming",
             where="--force-per-metre, --travel",
             remedy="--bottoming beside it",
         )

@@ -118,7 +118,7 @@ def check_wanted(want: Sequence[str] | None, by: Sequence[str] | None, searched:
         )
     if searched:
         raise InvalidValue(
-            "a wanted result starts from a stroke",
+            "a search for wanted results begins with a stroke",
             where="--want",
             value=", ".join(want),
             cause="--angle, --angles or a force beside it, which look for a stroke of their own",

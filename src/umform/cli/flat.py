@@ -140,7 +140,7 @@ def _refuse_idle(context: typer.Context, source: str) -> None:
         solves = getattr(one, "rich_help_panel", None) == SOLUTION or one.name in _COMPUTED
         if solves and one.name is not None and is_typed(context, one.name):
             raise InvalidValue(
-                "this option says nothing without computed bends",
+                "this option has no effect without computed bends",
                 where=one.opts[0],
                 value=context.params[one.name],
                 cause=f"the flat lengths are those of {source}, and --bend is not given",

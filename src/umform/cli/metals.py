@@ -235,7 +235,7 @@ def _refuse_idle(context: typer.Context, given: Sequence[str]) -> None:
     for name, measured in _USED_BY.items():
         if is_typed(context, name) and not set(measured) & set(given):
             raise InvalidValue(
-                "this option says nothing without its measurements",
+                "this option has no effect without its measurements",
                 where=f"--{name.replace('_', '-')}",
                 value=context.params[name],
                 cause=f"{' or '.join(f'--{one}' for one in measured)} is missing",

@@ -92,7 +92,7 @@ class Studies:
                 where="--extrapolate",
                 value=", ".join(self.typed),
                 cause="these studies are those of one mesh, and its numbers are others",
-                remedy="leave --extrapolate away, or the study",
+                remedy="leave out --extrapolate, or the study",
             )
         return (usual and not self.typed) if given is None else given
 

@@ -136,6 +136,6 @@ def initial_state(where: str, state: int | Mapping[str, int], initial: Sequence[
             where=where,
             value=f"{size} state variables, {len(values)} initial values",
             cause="a part is missing, or a symmetric tensor was counted as nine numbers",
-            remedy="one number for each, or leave initial away for zeros",
+            remedy="one number for each, or leave initial out for zeros",
         )
     return values or (0.0,) * size

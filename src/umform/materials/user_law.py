@@ -128,7 +128,7 @@ class UserLaw:
                 where=self.name,
                 value=f"{state}, {len(initial)} initial values",
                 cause="a part is missing, or a symmetric tensor was counted as nine numbers",
-                remedy="six numbers for a symmetric tensor, one for a scalar; or leave initial away for zeros",
+                remedy="six numbers for a symmetric tensor, one for a scalar; or leave initial out for zeros",
             )
         object.__setattr__(self, "initial", initial or (0.0,) * size)
         object.__setattr__(self, "state", state)

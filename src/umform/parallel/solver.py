@@ -159,7 +159,7 @@ class Petsc:
                 "the linear solver of PETSc did not converge",
                 value=f"reason {reason} after {self._ksp.getIterationNumber()} iterations",
                 cause="multigrid and other preconditioners are weak for thin sheets",
-                remedy="leave -umform_ksp_type and -umform_pc_type away: MUMPS; or -umform_ksp_max_it",
+                remedy="leave out -umform_ksp_type and -umform_pc_type: MUMPS; or -umform_ksp_max_it",
             )
         if self._direct:
             self._refine(b, x)

@@ -224,7 +224,7 @@ def run(
     if path.is_file():
         if (problem_of_file := other_file(path)) is not None:
             raise problem_of_file
-        log.warning("a run was stopped here, and %s will be written over; umform resume would go on with it", path)
+        log.warning("a run was stopped here, and %s will be overwritten; umform resume would continue it", path)
 
     def solve() -> Result:
         note = kept.note(path)

@@ -88,7 +88,7 @@ GPA = ["--young", "210", "--poisson", "0.3", "--curve", "Swift,520,0.004,0.22"]
         (["--stroke", "4", "--want", "angle=120+-1", "--want", "angle=110+-1", "--by", "stroke"], "wanted twice"),
         (["--stroke", "4", "--want", "angle=120+-1", "--by", "stroke", "--by", "stroke=2:3"], "follows twice"),
         (["--stroke", "4", "--want", "angle=120+-1", "--by", "stroke=5:3"], "the two exchanged"),
-        (["--angle", "120", "--want", "radius=3+-1", "--by", "punch_radius"], "starts from a stroke"),
+        (["--angle", "120", "--want", "radius=3+-1", "--by", "punch_radius"], "begins with a stroke"),
         (["--stroke", "4", "--want", "angle=120", "--by", "stroke"], "as springback=2+-0.05"),
         (["--stroke", "4", "--want", "angle=120+-1", "--by", "stroke", "--table", "3:9:1"], "beyond air bending"),
         (["--stroke", "4", "--find", "E", "--scatter", "thickness=1%"], "--scatter"),

@@ -19,7 +19,7 @@ PRESS = ["--bottoming", "--die-angle", "88", "--punch-angle", "88"]
 @pytest.mark.parametrize(
     ("typed", "message"),
     [
-        (["bend", "--angle", "90", "--force-per-metre", "400"], "one of bottoming"),
+        (["bend", "--angle", "90", "--force-per-metre", "400"], "needs bottoming"),
         (["bend", *PRESS], "one of them"),
         (["bend", *PRESS, "--force-per-metre", "400", "--travel", "0"], "one of them"),
         (["bend", *PRESS, "--force-per-metre", "400", "--angle", "90"], "no search for an angle"),

@@ -155,7 +155,7 @@ def test_a_run_that_begins_anew_writes_over_a_checkpoint_only_if_that_is_asked_f
     assert stopped.exists()
     answer = umform(*words, "--overwrite")
     assert answer.exit_code == 0, answer.output
-    assert f"{stopped} will be written over; umform resume would go on with it" in caplog.text
+    assert f"{stopped} will be overwritten; umform resume would continue it" in caplog.text
     assert not stopped.exists()
 
 

@@ -86,7 +86,7 @@ def test_what_does_not_bottom_is_refused():
     assert refused.value.where == "punch_angle"
     with pytest.raises(InvalidValue, match="half of its thickness"):
         with_travel(COARSE, 1.5)
-    with pytest.raises(InvalidValue, match="bend in the air"):
+    with pytest.raises(InvalidValue, match="are for air bending"):
         press_to_force(replace(COARSE, bottoming=False), 400.0, progress=False)
     with pytest.raises(InvalidValue, match="must be a number of more than 0"):
         press_to_force(COARSE, -400.0, progress=False)

@@ -68,7 +68,7 @@ def solve_stages_with_shadows(
         last = number == len(stages) - 1
         if before.missing and not last:
             raise NoConvergence(
-                "the stages go on without derivatives",
+                "the derivatives end in this stage",
                 where=f"stage {stage.name}",
                 value=before.missing,
                 cause="the run has no solution to round-off there",

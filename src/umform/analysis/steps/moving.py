@@ -121,9 +121,9 @@ class Moving:
             above = f"{MISSED} {converged.missed:.2g} of the forces is above the tolerance {tolerance:.2g}"
             run.result.warn(
                 f"step {run.number}, time {time:.4f}: "
-                f"{above if converged.missed > tolerance else 'the last correction is above its tolerance'}: Newton's "
-                "method comes no nearer under these tools, nor do smaller increments; more contact points, or a softer "
-                "penalty"
+                f"{above if converged.missed > tolerance else 'the last correction is above its tolerance'}: neither "
+                "Newton's method nor smaller increments come nearer under these tools; more contact points, or a "
+                "softer penalty"
             )
         before, self.last_size, self.fraction = self.fraction, target - self.fraction, target
         self.count, self.tried, self.leaps = self.count + 1, 0.0, False

@@ -76,7 +76,7 @@ class Release:
                 where="Release",
                 value=f"increment {self.increment:g}, steps {self.steps}",
                 cause="both set the first increment",
-                remedy="leave one of them away",
+                remedy="leave one of them out",
             )
 
     def first(self, value: float) -> float:

@@ -43,5 +43,5 @@ def refuse_points_and_cells(points: object, cells: object) -> None:
             where="cells",
             value=f"points {points}, cells {cells}",
             cause="cells take the place of points",
-            remedy="leave one of them away",
+            remedy="leave one of them out",
         )

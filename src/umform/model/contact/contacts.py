@@ -72,7 +72,7 @@ class Contacts(list[Contact]):
                 "two contacts have the same name",
                 where=f"contact {name}",
                 value=name,
-                cause="the columns of the history and the fields go by it",
+                cause="columns of the history and fields have its name",
                 remedy="contact(..., name=...) with another one",
             )
         if isinstance(tool, Tool) and tool not in self.tools:

@@ -66,7 +66,7 @@ Coefficient = Annotated[
     Le(2.0),
     About(
         cause="a sign, a percentage (12 instead of 0.12), or a missing value",
-        remedy="0.05 to 0.2 for lubricated steel; no friction at all by leaving it away",
+        remedy="0.05 to 0.2 for lubricated steel; leave it out for none",
         error=InvalidFriction,
     ),
 ]

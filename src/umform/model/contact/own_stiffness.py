@@ -46,7 +46,7 @@ def refuse_beside(
             where="penalty",
             value=f"penalty {penalty:g}, law {law.name}",
             cause="the law has the stiffness of the contact",
-            remedy="leave the penalty away",
+            remedy="leave the penalty out",
         )
     if augmented:
         raise InvalidValue(
@@ -54,7 +54,7 @@ def refuse_beside(
             where="augmented",
             value=f"law {law.name}",
             cause="multipliers remove the penetration, from which the law gives the pressure",
-            remedy="leave augmented away; a stiffer law enters less",
+            remedy="leave out augmented; a stiffer law enters less",
         )
     if "auto" in (points, cells):
         raise InvalidValue(

@@ -93,7 +93,7 @@ class ContactOptions:
                 where="penetration",
                 value=f"penalty {self.penalty:g}, penetration {self.penetration:g}",
                 cause="the penalty follows from the penetration",
-                remedy="leave one of them away; with augmented=True both may be given",
+                remedy="leave one of them out; with augmented=True both may be given",
             )
         refuse_points_and_cells(self.points, self.cells)
         if self.ripple is not None and self.cells != "auto":

@@ -66,7 +66,7 @@ def press_to_force(
     check_value(Goal, "force_per_metre", force)
     if not case.bottoming:
         raise InvalidValue(
-            "these tools are to bend in the air",
+            "these tools are for air bending",
             where="bottoming",
             value=case.bottoming,
             cause="bottoming=False",

@@ -118,7 +118,7 @@ class Runs:
         both = [path for path in self.paths if path in setting]
         if both:
             raise InvalidValue(
-                "a number is looked for, and given with a measurement",
+                "a number is sought, and given with a measurement",
                 where="at",
                 value=", ".join(both),
                 remedy="look for others",

@@ -84,7 +84,7 @@ class Sought:
 
 def _wrong(path: str, value: Any, cause: str) -> InvalidValue:
     return InvalidValue(
-        "what is looked for needs bounds or a first value",
+        "an unknown number needs bounds or a first value",
         where=path,
         value=value,
         cause=cause,

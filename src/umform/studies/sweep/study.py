@@ -274,7 +274,7 @@ def _run(
 def _check_executor(executor: Executor | None, processes: int | None) -> None:
     if executor is not None and processes is not None:
         raise InvalidValue(
-            "an executor says itself how many jobs run at a time",
+            "an executor has its own number of jobs at a time",
             where="processes",
             value=processes,
             cause="a number of processes beside an executor",
