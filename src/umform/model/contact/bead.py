@@ -129,7 +129,7 @@ class Bead(Contact):
     """
 
     fixed = ("tool", "name", "line")
-    memory = ("elsewhere", "rows", "before", "block", "_areas", "_no_multipliers", "_last")
+    memory = (*Contact.memory, "before", "block", "_areas", "_no_multipliers", "_last")
 
     def __init__(self, mesh: Mesh, faces: Selector, tool: Tool, line: BeadLine, points: int | None, name: str) -> None:
         self.line = line
