@@ -70,6 +70,17 @@ def test_bend_with_drawn_tools_is_that_of_their_numbers():
     assert again["stroke_force"].tolist() == bend.result["stroke_force"].tolist()
 
 
+@pytest.mark.parametrize(("right", "end"), [(-1e-14, 0.0), (-1e-4, 0.0), (1e-4, 0.0), (0.0, -1e-3)])
+def test_sheet_lies_on_a_die_that_is_not_quite_level(right, end):
+    """By round-off, at the right shoulder, or towards the right end of its top."""
+    corners = [(-16, -40), (16, -40), (16, right + end), (8, right), (0, -8 / math.tan(math.radians(42.5))), (-8, 0)]
+    askew = Profile.from_corners([*corners, (-16, 0)], [0, 0, 0, 2, 0, 2, 0])
+    case = replace(COARSE, stroke=1.0, die_section=DrawnDie.of(askew), punch_section=DrawnPunch.of(blade()))
+    level = replace(case, die_section=DrawnDie.of(block()))
+    force, known = (air_bending(one, progress=False).result["stroke_force"].max() for one in (case, level))
+    assert force == pytest.approx(known, rel=2e-3)
+
+
 def test_seams_of_a_mirrored_half_are_no_corners():
     whole = blade().segments
     tip = next(one for one in whole if one.points(1.0)[0][1] < 1.0 and hasattr(one, "centre"))

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.analysis.run.loose import carry_loose_sheet
 from umform.analysis.run.open_run import Mark, OpenRun
 from umform.analysis.steps import Move
 from umform.model import Model
@@ -55,6 +56,7 @@ class Brake:
     def __init__(self, case: AirBending, solver: str = "auto", frames: int = 0) -> None:
         self.case = case
         self.model, self.punch = self.build()
+        carry_loose_sheet(self.model, [Move(self.punch, case.way)])  # a drawn die may be a hair off level
         share = frames * INCREMENTS * case.way / case.largest_stroke
         self.run = OpenRun(self.model, solver=solver, options=OPTIONS, frames=min(frames, max(1, round(share))))
         self._parts: list[Mark] = [self.run.mark()]

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from umform.errors import InvalidValue, OpenSection
-from umform.processes.air_bending.outline import corners_of, merged, moved
+from umform.processes.air_bending.outline import corners_of, levelled, merged, moved
 from umform.surfaces.profile import Profile
 from umform.surfaces.segments import Segment
 from umform.surfaces.swept import Extruded
@@ -123,7 +123,8 @@ class DrawnDie:
         _level(where, "the flanks of the die", one.steepness, other.steepness, _ASKEW, "degrees from the vertical")
         opening = other.meeting(top) - one.meeting(top)
         _level(where, "the shoulder radii", one.arc.radius, other.arc.radius, _UNEVEN * opening, "mm")
-        placed = moved(profile, (-0.5 * (one.meeting(top) + other.meeting(top)), -top))
+        middle = 0.5 * (one.meeting(top) + other.meeting(top))
+        placed = levelled(moved(profile, (-middle, -other.level.end[1])))  # half of the sheet is modelled: on the right
         radius = 0.5 * (one.arc.radius + other.arc.radius)
         return cls(placed, opening, one.steepness + other.steepness, radius, _depth(placed))
 

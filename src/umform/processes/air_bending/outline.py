@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -49,15 +49,19 @@ class Corner:
         return self.after if self.goes_down else self.before
 
     @property
+    def level(self) -> Line:
+        """The other line, the top of a shoulder."""
+        return self.before if self.goes_down else self.after
+
+    @property
     def steepness(self) -> float:
         """Degrees of the flank from the vertical."""
         return _steepness(self.flank)
 
     def is_shoulder(self, top: float) -> bool:
         """Whether it lies between a level line at a height and a flank below it."""
-        level = self.before if self.goes_down else self.after
-        dx, dz = _direction(level)
-        near = abs(0.5 * (level.start[1] + level.end[1]) - top) <= 1e-3 * self.arc.radius + 1e-9
+        dx, dz = _direction(self.level)
+        near = abs(0.5 * (self.level.start[1] + self.level.end[1]) - top) <= 1e-3 * self.arc.radius + 1e-9
         return near and dx < 0.0 and abs(math.degrees(dz)) <= _TILTED and abs(_direction(self.flank)[1]) > 0.05
 
     def meeting(self, height: float) -> float:
@@ -99,6 +103,17 @@ def merged(profile: Profile) -> list[Segment]:
 def moved(profile: Profile, by: Point2) -> Profile:
     """The section at another place."""
     return Profile([segment.shifted(by) for segment in profile.segments], profile.closed)
+
+
+def levelled(profile: Profile) -> Profile:
+    """The section with ends at the height zero that were there but for round-off: a sheet lies on them."""
+    near = 1e-9 * profile.size
+
+    def at(p: Point2) -> Point2:
+        return (p[0], 0.0) if abs(p[1]) <= near else p
+
+    segments = [replace(segment, start=at(segment.start), end=at(segment.end)) for segment in profile.segments]
+    return Profile(segments, profile.closed)
 
 
 def _joined(one: Segment, other: Segment, near: float) -> Segment | None:
