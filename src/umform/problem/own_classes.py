@@ -39,11 +39,12 @@ def own_class(key: str, word: str, context: Mapping[str, Any]) -> type:
             remedy="if you trust the author: umform run --trust, check --trust, or load(path, trust=True)",
         )
     module, _, name = word.partition(":")
-    folder = str(Path(context.get("folder", ".")).resolve())
-    if folder not in sys.path:
-        sys.path.append(folder)
+    folder = Path(context.get("folder", ".")).resolve()
+    if str(folder) not in sys.path:
+        sys.path.append(str(folder))
     try:
-        found = getattr(importlib.import_module(module), name)
+        imported = importlib.import_module(module)
+        found = getattr(imported, name)
     except Exception as error:  # whatever a module of the user raises
         raise InvalidValue(
             f"the class of this {key} cannot be imported",
@@ -52,6 +53,15 @@ def own_class(key: str, word: str, context: Mapping[str, Any]) -> type:
             cause=f"{type(error).__name__}: {error}",
             remedy=f"{module}.py in the folder of the deck, or installed, with the class {name}",
         ) from error
+    beside, file = folder.joinpath(*module.split(".")).with_suffix(".py"), getattr(imported, "__file__", None)
+    if beside.is_file() and (file is None or not beside.samefile(file)):
+        raise InvalidValue(
+            f"the class of this {key} would be that of another module of this name",
+            where=key,
+            value=word,
+            cause=f"{file or 'a module of Python'} was found before {beside}",
+            remedy=f"another name for {beside.name}; of decks in several folders, each in a process of its own",
+        )
     if not isinstance(found, type) or not is_dataclass(found):
         raise InvalidValue(
             f"the class of this {key} must be a dataclass",

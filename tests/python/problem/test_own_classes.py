@@ -84,6 +84,16 @@ def test_without_trust_no_code_runs(deck):
     assert "own_laws" not in sys.modules
 
 
+def test_another_module_of_the_name_is_not_taken(deck, tmp_path):
+    path = deck(CURVE)
+    assert load(path, trust=True).contents.material.law.hardening.exponent == 0.3
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "own_laws.py").write_text(LAWS.replace("= 0.3", "= 0.2"), encoding="utf-8")
+    other = path.rename(tmp_path / "other" / "deck.toml")
+    with pytest.raises(DeckError, match=r"another module of this name(.*\n)*.*was found before .*other.own_laws.py"):
+        load(other, trust=True)
+
+
 RAMP = '''
 from dataclasses import dataclass
 
