@@ -90,14 +90,7 @@ class History(InNotebook):
             self._add(evaluation, iterations, step, frame)
 
     def _add(self, evaluation: Evaluation, iterations: list[Iteration], step: int, frame: bool) -> None:
-        model = self.model
-        row: dict[str, float] = {"step": step, "time": model.system.time}
-        for control in model.controls:
-            row[control.name] = control.value
-            row[f"{control.name}_force"] = control.force(evaluation, model.system.ranks)
-        row |= self._term_columns(evaluation)
-        row |= self._energy_columns(evaluation)
-        row["iterations"] = len(iterations)
+        model, row = self.model, self.row(evaluation, step, len(iterations))
         self.rows.append(row)
         self.iterations.append(iterations)
         log.info(
@@ -109,6 +102,17 @@ class History(InNotebook):
         )
         if frame:
             self.add_frame(evaluation)
+
+    def row(self, evaluation: Evaluation, step: int = 0, iterations: int = 0) -> dict[str, float]:
+        """The columns of the next converged state of the model, which the evaluation was made at."""
+        model = self.model
+        row: dict[str, float] = {"step": step, "time": model.system.time}
+        for control in model.controls:
+            row[control.name] = control.value
+            row[f"{control.name}_force"] = control.force(evaluation, model.system.ranks)
+        row |= self._term_columns(evaluation)
+        row |= self._energy_columns(evaluation)
+        return row | {"iterations": iterations}
 
     def add_frame(self, evaluation: Evaluation) -> None:
         """Keep the state of the last row as a frame."""

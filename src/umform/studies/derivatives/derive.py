@@ -119,6 +119,9 @@ def derivatives(
         refuse_followers(parameters, held, "by")
     of = each(of)
     lead = thing.build()
+    thing.refuse_unknown(lead, of or ())
+    functions = {one.__name__ for one in of or () if not isinstance(one, str)}
+    thing.refuse_unknown(lead, [name for name in held if name not in functions], "hold")
     shadows, sizes = {}, {}
     for one in parameters:
         shadows[one.path], sizes[one.path] = _shadow(thing, one, lead)

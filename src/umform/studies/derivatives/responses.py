@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from umform.analysis.run import Result
+from umform.analysis.run.loose import carried
+from umform.analysis.steps import Free, Step
 from umform.errors import InvalidValue
+from umform.model import Model
 from umform.problem.errors import slip
 from umform.results.quantity import Quantity
-from umform.studies.sweep.measures import Function, column_number
+from umform.studies.sweep.measures import Function, Measure, column_number
 
 
 @dataclass(frozen=True)
@@ -70,6 +73,37 @@ def responses(
     return found
 
 
+def refuse_unknown(
+    wanted: Sequence[str | Function], measures: Collection[str], model: Model, steps: Sequence[Step], where: str = "of"
+) -> None:
+    """Refuse, before a run, what its history will not have, and what belongs to no measure.
+
+    Parameters
+    ----------
+    wanted : sequence of str or callable
+        Wanted numbers.
+    measures : collection of str
+        Names of measures, with which those of their quantities begin.
+    model, steps
+        The model of the run at its beginning, and its steps.
+    where : str
+        Argument with the wanted numbers.
+
+    Raises
+    ------
+    InvalidValue
+    """
+    unknown = [one for one in wanted if isinstance(one, str) and one.partition(".")[0] not in measures]
+    if not unknown or any(isinstance(step, Free) for step in steps):  # a step that frees adds columns
+        return
+    with carried(model, steps):
+        columns = list(Result(model).row(model.system.evaluate(model.state, tangent=False)))
+        model.system.revert()
+    for name in unknown:
+        if Measure.of(name).column not in columns:
+            raise _no_such(name, [*(f"{measure}. ..." for measure in measures), *columns], where)
+
+
 def _response(wanted: str | Function, known: Mapping[str, Quantity], result: Result, where: str) -> Response:
     if not isinstance(wanted, str):
         return Response(_number(wanted, result), function=wanted)
@@ -77,9 +111,12 @@ def _response(wanted: str | Function, known: Mapping[str, Quantity], result: Res
         return Response(known[wanted])
     if wanted.partition(":")[0] in result.columns():
         return Response(Quantity(wanted, value=column_number(result, wanted), digits=6), column=wanted)
-    names = [*known, *result.columns()]
+    raise _no_such(wanted, [*known, *result.columns()], where)
+
+
+def _no_such(wanted: str, names: Sequence[str], where: str) -> InvalidValue:
     between = "; " if any("," in name for name in names) else ", "
-    raise InvalidValue(
+    return InvalidValue(
         "the run has no such quantity or column",
         where=where,
         value=wanted,

@@ -21,6 +21,8 @@ from umform.processes.problems import Operation, operations_of, outcome_of, prob
 from umform.progress import Show
 from umform.results.quantity import Quantity
 from umform.spec import Scalar, changed, scalars
+from umform.studies.derivatives.responses import refuse_unknown
+from umform.studies.sweep.measures import Function
 
 
 @dataclass(frozen=True)
@@ -96,6 +98,9 @@ class Subject(Protocol):
     def build(self) -> Built:
         """The model and its steps."""
 
+    def refuse_unknown(self, built: Built, wanted: Sequence[str | Function], where: str = "of") -> None:
+        """Refuse names of results that its run cannot have, as far as they are known before."""
+
     def quantities(self, built: Built, *results: Result) -> list[Quantity]:
         """Its numbers after a run of each operation."""
 
@@ -126,6 +131,10 @@ class OfProblem:
     def build(self) -> Built:
         """Its model."""
         return Built.of(self.problem.build())
+
+    def refuse_unknown(self, built: Built, wanted: Sequence[str | Function], where: str = "of") -> None:
+        """Refuse what is neither of its measures nor of its history."""
+        refuse_unknown(wanted, self.problem.contents.measures, built.model, built.steps, where)
 
     def quantities(self, built: Built, *results: Result) -> list[Quantity]:
         """Its measures."""
@@ -161,6 +170,10 @@ class OfCase:
     def build(self) -> Built:
         """The model of its problem."""
         return Built.of(problem_of(self.case).build())
+
+    def refuse_unknown(self, built: Built, wanted: Sequence[str | Function], where: str = "of") -> None:
+        """Nothing: a process names its numbers after its run."""
+        del built, wanted, where
 
     def quantities(self, built: Built, *results: Result) -> list[Quantity]:
         """Quantities that the process reports."""
@@ -233,6 +246,10 @@ class OfFunction:
             )
         model, steps = made
         return Built(model, [steps] if isinstance(steps, Step) else list(steps), self.solver, self.options)
+
+    def refuse_unknown(self, built: Built, wanted: Sequence[str | Function], where: str = "of") -> None:
+        """Refuse what is not of its history."""
+        refuse_unknown(wanted, (), built.model, built.steps, where)
 
     def quantities(self, built: Built, *results: Result) -> list[Quantity]:
         """Empty: a function names the columns that it wants."""

@@ -92,6 +92,8 @@ def slopes(
     """
     thing, wanted, of = subject_of(subject, by), SlopeOptions(**options), each(of)
     planned = planned_runs(subject, by, **options)
+    if process is None:
+        thing.refuse_unknown(thing.build(), of or ())
     if base is not None:
         refuse_other_case(base, thing.given, "base")
     here = isinstance(thing, OfFunction)

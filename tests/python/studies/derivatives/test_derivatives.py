@@ -16,6 +16,7 @@ from umform.errors import FileProblem, InvalidValue
 from umform.problem import Problem
 from umform.processes.air_bending import AirBending
 from umform.processes.draw.u_bend import NUMISHEET, UBend
+from umform.studies.derivatives import derive
 
 EXAMPLES = Path(__file__).resolve().parents[4] / "examples" / "umat"
 COMPILER = shutil.which("gcc") or shutil.which("cc")
@@ -92,7 +93,8 @@ def test_a_held_response(beam):
 
 
 @pytest.mark.parametrize("of", [["tip_strength"], ["tip_force:mean"]])
-def test_unknown_responses_are_refused(of):
+def test_unknown_responses_are_refused_before_the_run(of, monkeypatch):
+    monkeypatch.setattr(derive, "_run", None)
     with pytest.raises(InvalidValue) as caught:
         uf.derivatives(cantilever, by=BEAM, of=of, progress=False)
     assert of[0].partition(":")[0] in str(caught.value) or "mean" in str(caught.value)
