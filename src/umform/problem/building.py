@@ -13,6 +13,7 @@ from umform.analysis.run import Result
 from umform.analysis.run.checked import check_step
 from umform.analysis.steps import Step
 from umform.model import Model
+from umform.model.changes.removal import refuse_elsewhere
 from umform.model.contact import Contact
 from umform.model.supports.support import Support
 from umform.model.terms.control import Control
@@ -85,6 +86,9 @@ class _Builder(SheetBuilder):
         controls = self._controls(model, contacts)
         supports |= self._supports(model, rigid=True)
         controls |= self._missing_forces(model, supports, contacts)
+        if self.is_deformed and not self.errors:
+            with self.at("placement" if self.before is None and self.start is None else "before"):
+                refuse_elsewhere(model.system, "supports, controls")
         self._rest(model)
         options = self._options(model)
         self._raise()

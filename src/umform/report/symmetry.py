@@ -66,7 +66,7 @@ def mirrors(model: Model) -> list[Mirror]:
         for at in (float(x.min()), float(x.max())):
             inside = np.abs(x - at) <= hair
             if fixed[inside, axis].all() and not held[inside].all() and _through_the_thickness(model, inside):
-                found.append(Mirror(axis, at + 0.0))
+                found.append(Mirror(axis, float((points + model.u.reshape(-1, 3))[inside, axis][0]) + 0.0))
                 break
     return found
 

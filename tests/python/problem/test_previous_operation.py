@@ -15,6 +15,7 @@ from umform.errors import UmformError
 from umform.problem import load
 from umform.problem.check import before_run
 from umform.problem.findings import Level
+from umform.report.symmetry import mirrors
 
 FIXED = """
 [[supports]]
@@ -127,6 +128,73 @@ motion = { time = [0, 1], translation = [[0, 0, 0], [0, 0, 2]] }
         problem.model.system.time = 1.0 + start
         heights[start] = problem.contacts["floor"].pose[1][2]
     assert heights == {0.0: 0.0, 0.5: 1.0, 1.0: 2.0}
+
+
+def test_pressed_tools_are_there_with_the_unbalanced_forces(drawn):
+    pad = """
+[tools.pad]
+shape = "Plane"
+point = [0.0, 0.0, 0.5]
+normal = [0.0, 0.0, -1.0]
+[contacts.pad]
+tool = "pad"
+faces = "upper"
+[controls.held]
+kind = "spring"
+contact = "pad"
+direction = "z"
+stiffness = 10.0
+"""
+    (drawn / "held.toml").write_text(SECOND + pad + OUTPUT)
+    problem, alone = load(drawn / "held.toml").build(), load(drawn / "trim.toml").build()
+    np.testing.assert_array_equal(problem.controls["cut"].vector, alone.controls["cut"].vector)
+
+
+PLACED = """
+[before]
+deck = "draw.toml"
+state = "draw/state.h5"
+
+[placement]
+rotation = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+shift = [7.0, -2.0, 0.5]
+
+[controls.pull]
+kind = "traction"
+faces = "x1"
+traction = [1.0, 0.0, 0.0]
+
+[[steps]]
+kind = "move"
+to = { pull = 1.0 }
+increments = 1
+"""
+
+
+def test_planes_of_symmetry_go_with_a_part_that_is_placed(drawn):
+    (drawn / "placed.toml").write_text(PLACED + SLIDING + OUTPUT)
+    problem = load(drawn / "placed.toml").build()
+    model = problem.model
+    before = model.u.copy()
+    problem.solve(progress=False)
+    for name, k in (("x0", 0), ("y0", 1), ("lower", 2)):
+        at = 3 * model.mesh.nodes(name) + k
+        np.testing.assert_array_equal(model.u[at], before[at])
+    assert [(plane.axis, plane.at) for plane in mirrors(model)] == [(0, 7.0), (1, -2.0)]
+
+
+def test_supports_of_a_formed_part_do_not_move_it_back(drawn):
+    """They would be where the nodes were in the blank, in the first increment."""
+    control = '[controls.aside]\nkind = "displacement"\nnodes = "x1"\ndirection = "x"\n'
+    step = '[[steps]]\nkind = "move"\nto = { aside = 0.1 }\nincrements = 2\n'
+    turned = PLACED.replace("[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]", "[[0.8, -0.6, 0.0], [0.6, 0.8, 0.0]")
+    for text, message in (
+        (PLACED + control + step + SLIDING, r"holds a node elsewhere than it is(.*\n)*.*before"),
+        (turned + SLIDING, r"are in one plane(.*\n)*.*supports\[0\](.*\n)*.*x from"),
+    ):
+        (drawn / "moved.toml").write_text(text + OUTPUT)
+        with pytest.raises(UmformError, match=message):
+            load(drawn / "moved.toml").build()
 
 
 def test_a_trimmed_part_is_measured_before_and_after_its_forces_have_gone(drawn):

@@ -181,21 +181,32 @@ def balancing(model: Evaluated, name: str) -> Load:
     InvalidValue
         If supports hold nodes away from their present positions, or the name is taken.
     """
-    prescribed = model.supports.prescribed() - model.u
-    away = prescribed - model.extend(model.coefficients(prescribed))
-    if np.abs(away).max() > _AT_REST * model.extent:
-        node = int(np.abs(away).argmax()) // 3
-        raise InvalidValue(
-            "a support holds a node elsewhere than it is",
-            where=f"unbalanced(), node {node}",
-            value=f"{np.linalg.norm(away.reshape(-1, 3)[node]):.4g} away",
-            cause="a support that holds nodes where they were in the undeformed mesh",
-            remedy="here=True in fix(), hinge() or hold_director(); tools or loads where nodes are to be moved",
-        )
+    refuse_elsewhere(model, "unbalanced()")
     load = model.controls.add(Load(name, vector=np.zeros_like(model.u)))
     load.vector = unbalanced(model)
     load.value = 1.0
     return load
+
+
+def refuse_elsewhere(model: Evaluated, where: str) -> None:
+    """Refuse supports and prescribed displacements that hold nodes away from their present positions.
+
+    Raises
+    ------
+    InvalidValue
+    """
+    prescribed = np.concatenate([model.supports.prescribed() - model.u, np.zeros(len(model.unknowns))])
+    away = (prescribed - model.extend(model.coefficients(prescribed)))[: model.u.size]
+    if np.abs(away).max() > _AT_REST * model.extent:
+        node = int(np.abs(away).argmax()) // 3
+        raise InvalidValue(
+            "a support holds a node elsewhere than it is",
+            where=f"{where}, node {node}",
+            value=f"{np.linalg.norm(away.reshape(-1, 3)[node]):.4g} away",
+            cause="a support or a displacement that begins where nodes were in the undeformed mesh",
+            remedy="tools or loads where nodes are to be moved; in Python here=True in fix(), symmetry(), hinge() or "
+            "hold_director()",
+        )
 
 
 def unbalanced(model: Evaluated) -> NDArray[np.float64]:
