@@ -75,7 +75,8 @@ class Taken:
         tools: dict[str, str] = {}
         for name, contact in contents.contacts.items():
             tools.setdefault(contact.tool, name)
-        part = Formed.of(result, problem, loading_steps(contents), complete, units=contents.units, tools=tools)
+        names = {"units": contents.units, "tools": tools, "placed": deck.placed}
+        part = Formed.of(result, problem, loading_steps(contents), complete, **names)
         measures = {}
         for name, wanted in contents.measures.items():
             try:

@@ -161,11 +161,15 @@ class Placement(Part):
         if not np.allclose(Q @ Q.T, np.eye(3), atol=1e-9) or np.linalg.det(Q) < 0.0:
             raise Refusal("rotation", "the rows of a rotation are orthogonal unit vectors, right-handed")
 
+    @property
+    def motion(self) -> RigidMotion:
+        """The motion."""
+        return RigidMotion(np.array(self.rotation), np.array(self.shift))
+
     def apply(self, model: Model) -> None:
         """Move a model that has no tools and supports yet."""
         state = model.system.snapshot()
-        motion = RigidMotion(np.array(self.rotation), np.array(self.shift))
-        model.system.restore(replace(state, u=motion.displacement(model.mesh.points, state.u)))
+        model.system.restore(replace(state, u=self.motion.displacement(model.mesh.points, state.u)))
 
 
 class Cut(Part):

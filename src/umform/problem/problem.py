@@ -15,6 +15,7 @@ from umform.errors import InvalidValue, UmformError
 from umform.mesh import Mesh
 from umform.model import Model
 from umform.model.model import sent_as
+from umform.model.transfer.rigid_motion import RigidMotion
 from umform.problem.building import build, sheet
 from umform.problem.contents import Contents
 from umform.problem.deck_text import deck_text, plain
@@ -176,6 +177,13 @@ class Problem:
     def _array(self, path: str) -> list[Any] | None:
         """The numbers of an array; None if there are none at a path."""
         return [one.value for one in self.paths() if one.path.rpartition(".")[0] == path] or None
+
+    @property
+    def placed(self) -> RigidMotion | None:
+        """Motion of the part from the place of its blank, by the placements of this deck and of those before."""
+        first = None if self.before is None else self.before.placed
+        own = None if self.contents.placement is None else self.contents.placement.motion
+        return own.after(first) if own and first else own or first
 
     def toml(self, before: Mapping[str, str] | None = None) -> str:
         """Text of the deck.

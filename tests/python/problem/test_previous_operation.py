@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import shutil
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,6 +16,8 @@ from umform.errors import UmformError
 from umform.problem import load
 from umform.problem.check import before_run
 from umform.problem.findings import Level
+from umform.problem.measured import Taken
+from umform.problem.measures.base import FORMED, Formed
 from umform.report.symmetry import mirrors
 
 FIXED = """
@@ -181,6 +184,27 @@ def test_planes_of_symmetry_go_with_a_part_that_is_placed(drawn):
         at = 3 * model.mesh.nodes(name) + k
         np.testing.assert_array_equal(model.u[at], before[at])
     assert [(plane.axis, plane.at) for plane in mirrors(model)] == [(0, 7.0), (1, -2.0)]
+
+
+def test_draw_in_is_measured_from_the_blank_wherever_the_part_is_placed(drawn):
+    placed = PLACED + '[measures.edge]\nkind = "draw_in"\nedge = "x1"\n' + SLIDING + OUTPUT
+    turned = placed.replace("[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]", "[[0.8, -0.6, 0.0], [0.6, 0.8, 0.0]")
+    there = placed[: placed.index("[placement]")] + placed[placed.index("[controls") :]
+    found, values = [], []
+    for text in (there, placed, turned):
+        (drawn / "edge.toml").write_text(text)
+        deck = load(drawn / "edge.toml")
+        model = deck.sheet()
+        formed = {FORMED: model.u.reshape(-1, 3)}
+        part = Formed(SimpleNamespace(model=model), None, formed, 0, deck.contents.units, placed=deck.placed)
+        found.append(part.from_blank(FORMED))
+        if text is not turned:
+            problem = deck.build()
+            taken = Taken.of(deck, problem, problem.solve(progress=False), complete=True)
+            values.append(next(one.value for one in taken.quantities if one.name == "edge.draw-in, mean.formed"))
+    np.testing.assert_allclose(found[1:], [found[0]] * 2, atol=1e-12)
+    assert values[0] < -0.03
+    assert values[1] == pytest.approx(values[0], rel=1e-9)
 
 
 def test_supports_of_a_formed_part_do_not_move_it_back(drawn):

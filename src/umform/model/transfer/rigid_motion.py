@@ -38,6 +38,15 @@ class RigidMotion:
         x, z = np.asarray(end) - rotation[::2, ::2] @ np.asarray(start)
         return cls(rotation, np.array([x, 0.0, z]))
 
+    @property
+    def back(self) -> RigidMotion:
+        """The motion that undoes it."""
+        return RigidMotion(self.rotation.T, -self.shift @ self.rotation)
+
+    def after(self, first: RigidMotion) -> RigidMotion:
+        """Another motion, then this one."""
+        return RigidMotion(self.rotation @ first.rotation, self.rotation @ first.shift + self.shift)
+
     def of(self, x: Floats) -> Floats:
         """Positions (n, 3) after the motion."""
         moved: Floats = x @ self.rotation.T + self.shift

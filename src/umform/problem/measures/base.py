@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from umform.analysis.run import Result
 from umform.model import Model, Tool
+from umform.model.transfer.beside import PART
+from umform.model.transfer.rigid_motion import RigidMotion
 from umform.problem.parts import Part
 from umform.report.symmetry import Mirror, mirrors, whole
 from umform.results.forming import Laid
@@ -81,6 +83,8 @@ class Formed:
         Names of the units.
     tools : dict of str to str
         The first contact of each tool that has one.
+    placed : RigidMotion, optional
+        Motion of the part into other tools, from the place of its blank.
     """
 
     result: Result
@@ -89,6 +93,7 @@ class Formed:
     row: int
     units: Units
     tools: dict[str, str] = field(default_factory=dict)
+    placed: RigidMotion | None = None
 
     @classmethod
     def of(cls, result: Result, problem: Prepared, loading: int, complete: bool, **names: Any) -> Formed:
@@ -134,6 +139,15 @@ class Formed:
         """Positions of the nodes in a state, shape (n, 3)."""
         places: Floats = self.model.mesh.points + self.states[state]
         return places
+
+    def from_blank(self, state: str) -> Floats:
+        """Displacements (n, 3) of the part in a state from its blank, without its motion into other tools."""
+        if self.placed is None:
+            return self.states[state]
+        u, mesh = self.states[state].copy(), self.model.mesh
+        own = mesh.nodes(PART) if PART in mesh.sets else np.arange(len(u))  # not sheets that were laid beside it
+        u[own] = self.placed.back.displacement(mesh.points[own], u[own]).reshape(-1, 3)
+        return u
 
     def tool(self, name: str) -> Tool | None:
         """The tool of a model, by its name in the deck; None if nothing touches it."""

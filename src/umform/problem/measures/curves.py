@@ -132,7 +132,7 @@ class DrawIn(MeasurePart):
         from umform.report.part_pictures import outline_picture
 
         mesh, unit = part.model.mesh, part.units.length
-        edge = draw_in(mesh, part.states[FORMED], self._nodes(mesh))
+        edge = draw_in(mesh, part.from_blank(FORMED), self._nodes(mesh))
         named = {"mean": edge.draw_in.mean(), "largest": edge.draw_in.max(), "least": edge.draw_in.min()}
         if np.ptp(edge.draw_in) < 1e-6 * np.abs(edge.draw_in).max():
             named = {"mean": edge.draw_in.mean()}  # it says all
@@ -176,7 +176,7 @@ class Ears(MeasurePart):
 
         mesh, unit = part.model.mesh, part.units.length
         ids = nodes_of(mesh, self.rim)
-        profiles = {state: ear_profile(mesh, u, ids) for state, u in part.states.items()}
+        profiles = {state: ear_profile(mesh, part.from_blank(state), ids) for state in part.states}
         numbers = {state: one.heights() | one.waves() for state, one in profiles.items()}
         rows = [in_states(what, unit, **{s: row[what] for s, row in numbers.items()}) for what in numbers[part.last]]
         if any(getattr(body.material, "directional", False) for body in part.model.bodies):
