@@ -183,7 +183,7 @@ def test_planes_of_symmetry_go_with_a_part_that_is_placed(drawn):
     for name, k in (("x0", 0), ("y0", 1), ("lower", 2)):
         at = 3 * model.mesh.nodes(name) + k
         np.testing.assert_array_equal(model.u[at], before[at])
-    assert [(plane.axis, plane.at) for plane in mirrors(model)] == [(0, 7.0), (1, -2.0)]
+    assert mirrors(model) == []  # images of the part and of its blank have no common plane
 
 
 def test_draw_in_is_measured_from_the_blank_wherever_the_part_is_placed(drawn):
