@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -14,6 +16,7 @@ from umform.errors import InvalidValue, RigidBodyMotion
 from umform.mesh import strip
 from umform.model import Model
 from umform.model.supports.ties import node_pairs
+from umform.model.transfer.rigid_motion import RigidMotion
 
 ELASTIC = mt.SVK(E=1e4, nu=0.3)
 TIGHT = NewtonOptions(residual=1e-12)
@@ -217,6 +220,24 @@ def test_a_sector_held_around_its_axis_may_slide_along_it():
     assert "translation y" in str(caught.value)
     model.hinge("x0", "a", axes=AROUND)
     model.system.check()
+
+
+def test_axes_of_a_part_that_has_turned_are_those_at_its_present_place():
+    model = quarter()
+    turn = RigidMotion.in_section(0.5 * np.pi, np.zeros(2), np.zeros(2))
+    state = model.system.snapshot()
+    model.system.restore(replace(state, u=turn.displacement(model.mesh.points, state.u)))
+    made = (
+        (model.fix("x0", "r", axes=AROUND, here=True), model.mesh.points[model.mesh.nodes("x0")]),
+        (model.hinge("x1", "r", axes=AROUND, here=True), model.mesh.points[node_pairs(model.mesh, "x1")].mean(axis=1)),
+    )
+    for support, blank in made:
+        [rows] = support.rows
+        radial = turn.of(blank) * (1.0, 0.0, 1.0)
+        radial /= np.linalg.norm(radial, axis=1, keepdims=True)
+        motion = radial.repeat(rows.weights.shape[1] // 3, axis=0).reshape(rows.weights.shape)
+        sums = (rows.weights * motion).sum(axis=1)
+        np.testing.assert_allclose(sums, np.linalg.norm(rows.weights, axis=1) * np.linalg.norm(motion, axis=1))
 
 
 def test_supports_that_contradict_each_other_are_refused_and_leave_nothing():

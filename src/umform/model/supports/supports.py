@@ -54,7 +54,7 @@ class Supports(Held):
             Hold the displacement along these vectors instead, one for all nodes or one for each in the order of their
             numbers.
         here : bool
-            Hold the nodes in their present instead of their undeformed positions.
+            Hold the nodes in their present instead of their undeformed positions, along the axes there.
         name : str, optional
             Name of the support.
 
@@ -83,7 +83,7 @@ class Supports(Held):
             dofs = [3 * ids + number for number in numbers]
             support.held = np.concatenate([support.held, *dofs]).astype(np.int32)
         else:
-            support.directions, vectors = directions_of(axes or GLOBAL, directions, normals, self.mesh.points[ids])
+            support.directions, vectors = directions_of(axes or GLOBAL, directions, normals, self._places(here)[ids])
             support.rows = [rows_of_nodes(ids, vector, support.name, None, support.base) for vector in vectors]
         return self._hold(support)
 
@@ -106,9 +106,8 @@ class Supports(Held):
         """
         k = direction_number(normal)  # refuses what is none
         if here:
-            X, ids = self.mesh.points, self.mesh.nodes(nodes)
-            x = X[ids, k] + self.now.u.reshape(-1, 3)[ids, k]
-            if np.ptp(x) > _FLAT * float(np.ptp(X, axis=0).max()):
+            x = self._places(here)[self.mesh.nodes(nodes), k]
+            if np.ptp(x) > _FLAT * float(np.ptp(self.mesh.points, axis=0).max()):
                 raise InvalidValue(
                     "nodes of a plane of symmetry are in one plane",
                     where="symmetry",
@@ -117,6 +116,10 @@ class Supports(Held):
                     remedy="the normal of the plane in which they are, or fix() for nodes that stay where they are",
                 )
         return self.fix(nodes, normal, here=here)
+
+    def _places(self, here: bool) -> Floats:
+        """Undeformed or present positions of all nodes."""
+        return self.mesh.points + self.now.u.reshape(-1, 3) if here else self.mesh.points
 
     def hinge(
         self,
@@ -165,7 +168,7 @@ class Supports(Held):
             support.directions, numbers = numbers_of(directions)
             support.ties = [tie_of(pairs, number, None, support.base) for number in numbers]
         else:
-            middle = self.mesh.points[pairs].mean(axis=1)
+            middle = self._places(here)[pairs].mean(axis=1)
             support.directions, vectors = directions_of(axes, directions, None, middle)
             support.rows = [rows_of_pairs(pairs, vector, "hinge", None, support.base) for vector in vectors]
         return self._hold(support)
@@ -213,7 +216,7 @@ class Supports(Held):
         """
         pairs = node_pairs(self.mesh, nodes)
         support = self._new("director", directions, unique(pairs), here, name)
-        middle = self.mesh.points[pairs].mean(axis=1)
+        middle = self._places(here)[pairs].mean(axis=1)
         support.directions, vectors = directions_of(axes or GLOBAL, directions, None, middle)
         support.rows = [rows_of_pairs(pairs, v, support.name, None, support.base, turn=True) for v in vectors]
         return self._hold(support)
