@@ -19,6 +19,7 @@ from umform.problem.controls import ControlPart, Displacement, Drive, MidLine, M
 from umform.problem.deck_in_checkpoint import Kept
 from umform.problem.findings import Finding, error, ok, warning
 from umform.problem.material import FromLibrary
+from umform.problem.named_units import named_units
 from umform.problem.placement import out_of_the_sheet
 from umform.problem.planes import planes
 from umform.problem.plausible import of_model
@@ -69,6 +70,7 @@ def before_run(deck: Problem, problem: Prepared) -> Iterator[Finding]:
         place = partial(out_of_the_sheet, deck.contents)
         millimetres = isinstance(deck.contents.material, FromLibrary)
         yield from of_model(problem.model, problem.steps, millimetres=millimetres, place=place)
+        yield from named_units(deck)
         yield from metal_of_thickness(deck, problem)
         yield from resolution(deck, problem)
         yield from clearances(deck, problem)

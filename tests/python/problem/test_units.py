@@ -5,11 +5,13 @@ from dataclasses import replace
 import pytest
 
 from umform.materials import J2, Perfect, Voce
-from umform.problem import DeckError
+from umform.problem import DeckError, Problem
 from umform.problem.findings import Level, accept, error, ok, warning
+from umform.problem.named_units import named_units
 from umform.problem.plausible import of_model
 from umform.processes.air_bending import AirBending, StackedSheet
 from umform.processes.air_bending.problem import build
+from umform.surfaces import UDie, write_tool
 
 OK, WARNING, ERROR = [Level.OK], [Level.WARNING], [Level.ERROR]
 
@@ -83,6 +85,34 @@ def test_the_modulus_of_a_bend_is_in_MPa():
         assert Level.ERROR in levels(of_model(model, millimetres=True))
     model, _ = build(AirBending(stroke=6.0))
     assert set(levels(of_model(model, millimetres=True))) == {Level.OK}
+
+
+@pytest.mark.parametrize(
+    ("keys", "unit", "about", "remedy"),
+    [
+        ('shape = "Extruded"\nprofile = "die.dxf"', "m", "tools.it.profile", 'unit = "m"'),
+        ('shape = "Extruded"\nprofile = { file = "die.dxf", unit = "m" }', "m", None, ""),
+        ('shape = "Extruded"\nprofile = { file = "die.dxf", unit = "m" }', "mm", "tools.it.profile", 'unit = "mm"'),
+        ('shape = "Extruded"\nprofile = "die.dxf"', "furlong", None, ""),
+        ('shape = "Drawing"\nfile = "die.step"', "m", "tool it", "scale = 0.001"),
+        ('shape = "Drawing"\nfile = "die.step"\nscale = 0.001', "m", None, ""),
+        ('shape = "Drawing"\nfile = "die.stl"', "m", None, ""),
+    ],
+)
+def test_drawings_in_another_unit_than_that_of_the_deck(keys, unit, about, remedy, strip, tmp_path):
+    pytest.importorskip("ezdxf")
+    write_tool(UDie(20, 18, 2, 2), tmp_path / "die.dxf")
+    deck = Problem.read(f'{strip}[tools.it]\n{keys}\n[units]\nlength = "{unit}"\n', folder=tmp_path)
+    found = list(named_units(deck))
+    assert [(one.about, one.level) for one in found] == ([] if about is None else [(about, Level.WARNING)])
+    assert all(remedy in one.remedy for one in found)
+
+
+def test_a_metal_of_the_library_in_metres(strip):
+    text = strip.replace('law = "SVK"\nE = 210e3\nnu = 0.3', 'library = "DC04"')
+    for unit, said in (("m", [("units", Level.WARNING)]), ("mm", [])):
+        deck = Problem.read(f'{text}[units]\nlength = "{unit}"\n')
+        assert [(one.about, one.level) for one in named_units(deck)] == said
 
 
 def test_a_stiff_penalty(texts, found):

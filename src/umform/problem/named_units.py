@@ -1,0 +1,49 @@
+"""Check that drawings and metals of the library are in the unit of length that a deck names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from umform.problem.findings import Finding, warning
+from umform.problem.lines import Path
+from umform.problem.material import FromLibrary
+from umform.problem.problem import Problem
+from umform.surfaces import Drawing
+
+#: Names of units of length, and a millimetre in each of them.
+_MILLIMETRE = {"mm": 1.0, "cm": 0.1, "m": 1e-3, "um": 1e3, "in": 1.0 / 25.4, "ft": 1.0 / 304.8}
+#: Keys of profiles, and of a list of them.
+_PROFILES, _LIST = ("profile", "outline", "line"), "holes"
+
+
+def named_units(deck: Problem) -> Iterator[Finding]:
+    """Warn of drawings, and of a metal of the library, that are read in another unit than that of `[units]`."""
+    length = deck.contents.units.length
+    if length not in _MILLIMETRE:
+        return
+    if isinstance(deck.contents.material, FromLibrary) and length != "mm":
+        text = f"the library has MPa, and [units] names {length}: lengths would be in mm"
+        yield warning("units", text, 'length = "mm", or the law with its numbers in other units')
+    for name, part in deck.contents.tools.items():
+        if isinstance(part.tool, Drawing) and not part.tool.file.lower().endswith(".stl"):
+            scale = _MILLIMETRE[length]
+            if abs(part.tool.scale / scale - 1.0) > 1e-3:
+                text = f"its drawing is read in mm times {part.tool.scale:g}, and [units] names {length}"
+                yield warning(f"tool {name}", text, f"scale = {scale:.6g}")
+    for path, unit in _drawn(deck.source.data):
+        if unit != length:
+            text = f"its drawing is converted to {unit}, and [units] names {length}"
+            yield warning(".".join(map(str, path)), text, f'unit = "{length}" beside file')
+
+
+def _drawn(data: Any, path: Path = ()) -> Iterator[tuple[Path, str]]:
+    """Places of profiles from DXF drawings, and the unit that each is converted to."""
+    if len(path) > 1 and (path[-1] in _PROFILES or path[-2] == _LIST):
+        if isinstance(data, str):
+            yield path, "mm"
+        elif isinstance(data, dict) and isinstance(data.get("file"), str):
+            yield path, data.get("unit", "mm")
+    entries = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()
+    for key, entry in entries:
+        yield from _drawn(entry, (*path, key))
