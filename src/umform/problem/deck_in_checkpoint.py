@@ -24,11 +24,14 @@ class Kept:
         Folder of the results.
     solver : str or None
         Another sparse solver than that of the deck.
+    budget : bool
+        Whether the run ends with an error budget.
     """
 
     deck: Problem
     out: Path
     solver: str | None = None
+    budget: bool = False
 
     @property
     def chosen_solver(self) -> str:
@@ -46,6 +49,7 @@ class Kept:
             "folder_from_here": os.path.relpath(source.folder, here),
             "out_from_here": os.path.relpath(self.out, here),
             "solver": self.solver,
+            "budget": self.budget,
         }
 
     @classmethod
@@ -71,4 +75,5 @@ class Kept:
         if not folder.is_dir():
             folder = here / note["folder_from_here"]
         deck = Problem.read(note["deck"], note["name"], folder, note["changes"], trust)
-        return cls(deck, Path(os.path.normpath(here / note["out_from_here"])), note["solver"])
+        out = Path(os.path.normpath(here / note["out_from_here"]))
+        return cls(deck, out, note["solver"], note.get("budget", False))

@@ -219,7 +219,7 @@ def run(
     default = folder_of(deck)
     choose = partial(folder_for, out, default, RESULTS, overwrite=overwrite, say=log.warning)
     place = _on_first(solver or problem.solver, choose) or default
-    kept = Kept(deck, place, solver)
+    kept = Kept(deck, place, solver, budget)
     path = Path(checkpoint) if checkpoint is not None else kept.out / CHECKPOINT
     if path.is_file():
         if (problem_of_file := other_file(path)) is not None:
@@ -230,7 +230,7 @@ def run(
         note = kept.note(path)
         return problem.solve(solver=solver, progress=progress, checkpoint=path, every=every, note=note)
 
-    return _finish(kept, problem, place, path, solve, solver or problem.solver, budget=budget)
+    return _finish(kept, problem, place, path, solve, solver or problem.solver)
 
 
 def resume(
@@ -286,12 +286,10 @@ def _finish(
     checkpoint: Path,
     solve: Callable[[], Result],
     solver: str,
-    *,
-    budget: bool = False,
 ) -> ProblemOutcome:
     """Solve and write the results; with several ranks the first one writes for all."""
     if solver != "petsc":
-        return _written(kept, problem, out, checkpoint, solve, budget=budget)
+        return _written(kept, problem, out, checkpoint, solve)
     from umform.parallel.mpi_ranks import world
     from umform.parallel.together import together
 
@@ -303,9 +301,7 @@ def _finish(
         return ProblemOutcome(result, [], ended_by)
 
 
-def _written(
-    kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: Callable[[], Result], *, budget: bool = False
-) -> ProblemOutcome:
+def _written(kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: Callable[[], Result]) -> ProblemOutcome:
     """Solve, write the results, and remove the checkpoint unless the user asked for it or it is needed."""
     assert isinstance(problem, Prepared)  # one process, or the first of several
     before = written_at(checkpoint)
@@ -314,7 +310,7 @@ def _written(
     with staging(out, FILES) as stage:
         remove_left_behind(checkpoint)
         result, ended_by = _solved(solve)
-        taken, stop = _taken(kept.deck, problem, result) if budget and ended_by is None else (None, None)
+        taken, stop = _taken(kept.deck, problem, result) if kept.budget and ended_by is None else (None, None)
         with result.timing.files, says_what_is_kept(stage, checkpoint, before):
             if stage.make_again():
                 result.warn(f"the folder {out} was removed during the run; it was made again")

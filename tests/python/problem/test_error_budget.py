@@ -104,15 +104,20 @@ def test_ends_of_steps_are_without_loads_and_round_off(rail):
     assert "stroke_force.step 2" in names and "stroke.step 1" not in names and "hold_force.step 1" not in names
 
 
-def test_the_command_prints_and_writes_the_errors(tmp_path):
+def test_the_command_prints_and_writes_the_errors_also_of_a_run_that_goes_on(tmp_path):
     write_template("own-mesh", tmp_path / "deck.toml")
     keys = ["steps.0.increments=2", "steps.1.increments=2", "output.report=false", "output.pictures=false"]
     given = [word for key in keys for word in ("--set", key)]
-    run = ["run", str(tmp_path / "deck.toml"), "--budget", "--out", str(tmp_path / "out"), *given]
+    kept, again = str(tmp_path / "kept.h5"), str(tmp_path / "again")
+    run = ["run", str(tmp_path / "deck.toml"), "--budget", "--out", str(tmp_path / "out"), "--checkpoint", kept, *given]
     done = CliRunner().invoke(app, run)
     assert done.exit_code == 0, done.output
     assert "of this mesh" in done.output and "t-pts-2" in done.output and "from a file" in done.output
-    assert "down_force.step 1" in (tmp_path / "out" / "quantities.csv").read_text(encoding="utf-8")
+    written = (tmp_path / "out" / "quantities.csv").read_text(encoding="utf-8")
+    assert "down_force.step 1" in written
+    resumed = CliRunner().invoke(app, ["resume", kept, "--out", again])
+    assert resumed.exit_code == 0, resumed.output
+    assert (tmp_path / "again" / "quantities.csv").read_text(encoding="utf-8") == written
 
 
 def test_ranks_have_no_budget(tmp_path):
