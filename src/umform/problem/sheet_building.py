@@ -69,6 +69,8 @@ class SheetBuilder:
         """The model without tools and supports, in its initial state."""
         model = self._formed()
         if model is not None and self.contents.placement is not None:
+            motion = self.contents.placement.motion
+            self.kept = {name: kept.moved((motion.rotation, motion.shift)) for name, kept in self.kept.items()}
             with self.at("placement"):
                 self.contents.placement.apply(model)
         return model if model is None or not self.contents.added else self._with_added(model)

@@ -218,21 +218,28 @@ def test_a_tool_that_keeps_its_friction_stands_where_it_stood(rule, tmp_path):
     sheet = FIRST[FIRST.index("[mesh]") : FIRST.index("[[supports]]")].replace('law = "SVK"', metal)
     tools = ROLLED.replace("points = 5", f"{rule}\npenalty = 200.0")
     after = '[before]\ndeck = "press.toml"\nstate = "state.h5"\nkeep = ["roll"]\n'
+    placed = "[placement]\nrotation = [[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]]\nshift = [0.0, 0.0, 4.0]\n"
     for name, text in {
         "press": sheet + tools.replace("CENTRE", "3.5") + rolled(-1.0),
         "next": after + tools.replace("CENTRE", "2.5") + rolled(-0.5),
         "first": after + tools.replace("CENTRE", "3.5") + rolled(-0.5),
         "lower": after + tools.replace("CENTRE", "2.45") + rolled(-0.5),
+        "left": after + placed + tools.replace("CENTRE", "2.5") + rolled(-0.5),
+        "placed": after + placed + tools.replace("CENTRE", "6.5").replace("[8.25", "[-8.25") + rolled(-0.5),
     }.items():
-        (tmp_path / f"{name}.toml").write_text(text)
+        (tmp_path / f"{name}.toml").write_text(f"{text}[solution]\nresidual = 1e-11\n")
     deck = load(tmp_path / "press.toml")
     problem = deck.build()
     problem.solve(progress=False)
     write_state(problem.model, tmp_path / "state.h5", deck.source.data)
+    one, other = (load(tmp_path / f"{name}.toml").build().solve(progress=False) for name in ("next", "placed"))
+    for column, sign in (("roll_fx", -1.0), ("roll_fz", 1.0), ("roll_friction_work", 1.0)):
+        assert other[column] == pytest.approx(sign * one[column], rel=1e-7)
+    assert abs(one["roll_fx"][0]) > 0.03 * one["roll_fz"][0] > 0.0
     deck = load(tmp_path / "next.toml")
     (found,) = (one for one in before_run(deck, deck.build()) if "overlap" in one.text)
     assert found.level is Level.OK
-    for name, away in (("first", r"0\.9\d*|1"), ("lower", r"0\.0(5|4\d*)")):
+    for name, away in (("first", r"0\.9\d*|1"), ("lower", r"0\.0(5|4\d*)"), ("left", r"[1-9].*")):
         with pytest.raises(UmformError, match=rf"(?s)must stand where it stood.*roll.*up to ({away}) away"):
             load(tmp_path / f"{name}.toml").build()
 

@@ -90,6 +90,12 @@ class KeptContact:
         feet = np.where(there[..., None] >= 0, np.stack([there, feet[..., 1]], axis=-1), -1).astype(np.int32)
         return replace(self, faces=faces, history=self.history[kept], feet=feet)
 
+    def moved(self, pose: Pose) -> KeptContact:
+        """That of a part and a tool that are placed elsewhere, by a rotation and a shift; between sheets as it is."""
+        if self.feet is not None:
+            return self
+        return replace(self, history=_turned(self.history, self.history_variables, pose))
+
     def put(self, contact: Contact | SheetContact) -> int:
         """Give a pair with a history of its own that of its points, and an estimated penalty that of the stage before.
 
