@@ -51,8 +51,8 @@ class Fix(_Supporting):
         return self._hold(model.fix, model, here)
 
 
-class Symmetry(Part, of=Supports.symmetry, leave=("nodes", "here")):
-    """Nodes that stay in a plane, of a part from another deck in that in which they are."""
+class Symmetry(Part, of=Supports.symmetry, leave=("nodes",)):
+    """Nodes that stay in a plane, that in which they are in the blank."""
 
     kind: Literal["symmetry"]
     nodes: Selection
@@ -61,7 +61,7 @@ class Symmetry(Part, of=Supports.symmetry, leave=("nodes", "here")):
 
     def add_to(self, model: Model, *, here: bool = False) -> Held:
         """Hold the nodes in the plane."""
-        return model.symmetry(nodes_of(model.mesh, self.nodes), self.normal, here=here)
+        return model.symmetry(nodes_of(model.mesh, self.nodes), self.normal)
 
 
 class Hinge(_Supporting):

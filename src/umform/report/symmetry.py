@@ -48,8 +48,7 @@ def mirrors(model: Model) -> list[Mirror]:
 
     A plane counts if the sheet ends there through its whole thickness, supports hold all nodes in it across it, and not
     all of them are held in every direction, which is a clamp; an edge that a control moves does not count. Nodes that
-    are all held along an axis, as in plane strain, do not count. Nor does a plane that a part has left for other tools:
-    pictures show the modelled part alone then.
+    are all held along an axis, as in plane strain, do not count.
 
     Parameters
     ----------
@@ -57,7 +56,7 @@ def mirrors(model: Model) -> list[Mirror]:
         The model.
     """
     points, held = model.mesh.points, model.supports.constrained().reshape(-1, 3)
-    fixed, u = model.supports.fixed.reshape(-1, 3), model.u.reshape(-1, 3)
+    fixed = model.supports.fixed.reshape(-1, 3)
     hair = _HAIR * float(np.ptp(points, axis=0).max())
     found: list[Mirror] = []
     for axis in range(3):
@@ -66,8 +65,6 @@ def mirrors(model: Model) -> list[Mirror]:
             continue
         for at in (float(x.min()), float(x.max())):
             inside = np.abs(x - at) <= hair
-            if np.abs(u[inside, axis]).max() > hair:  # the part was placed elsewhere
-                continue
             if fixed[inside, axis].all() and not held[inside].all() and _through_the_thickness(model, inside):
                 found.append(Mirror(axis, at + 0.0))
                 break

@@ -23,8 +23,6 @@ from umform.model.supports.ties import MidLine, node_pairs
 from umform.model.terms.control import Prescribed
 
 Floats = NDArray[np.float64]
-#: Part of the size of a mesh by which nodes of a plane may lie beside it.
-_FLAT = 1e-6
 
 
 class Supports(Held):
@@ -87,7 +85,7 @@ class Supports(Held):
             support.rows = [rows_of_nodes(ids, vector, support.name, None, support.base) for vector in vectors]
         return self._hold(support)
 
-    def symmetry(self, nodes: Selector, normal: str, *, here: bool = False) -> Support:
+    def symmetry(self, nodes: Selector, normal: str) -> Support:
         """Symmetry plane: nodes stay in the plane with the normal x, y or z.
 
         Parameters
@@ -96,26 +94,9 @@ class Supports(Held):
             Name of a set, predicate of x, y, z, node ids or a mask, see :meth:`umform.Mesh.nodes`.
         normal : str
             Normal of the plane: x, y or z.
-        here : bool
-            The plane is that in which the nodes are at present, not that of the undeformed mesh.
-
-        Raises
-        ------
-        InvalidValue
-            As of :meth:`fix`; or the nodes are in no plane at present.
         """
-        k = direction_number(normal)  # refuses what is none
-        if here:
-            x = self._places(here)[self.mesh.nodes(nodes), k]
-            if np.ptp(x) > _FLAT * float(np.ptp(self.mesh.points, axis=0).max()):
-                raise InvalidValue(
-                    "nodes of a plane of symmetry are in one plane",
-                    where="symmetry",
-                    value=f"{normal} from {x.min():.6g} to {x.max():.6g}",
-                    cause="they have left it in the stage before, or the part was turned out of it",
-                    remedy="the normal of the plane in which they are, or fix() for nodes that stay where they are",
-                )
-        return self.fix(nodes, normal, here=here)
+        direction_number(normal)  # refuses what is none
+        return self.fix(nodes, normal)
 
     def _places(self, here: bool) -> Floats:
         """Undeformed or present positions of all nodes."""
