@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from umform.errors import InvalidValue
 from umform.spec import check_fields, takes
 from umform.spec.types import Positive, Sharp, Text
 from umform.surfaces.cad import CadTool
@@ -29,6 +30,18 @@ class Drawing:
 
     def __post_init__(self) -> None:
         check_fields(self)
+        if self.tolerance is not None and self._triangles:
+            raise InvalidValue(
+                "the triangles of an STL file have no free forms that a tolerance is for",
+                where="tolerance",
+                value=self.tolerance,
+                cause="a key of STEP and IGES files",
+                remedy="leave it out; a STEP file in place of the STL file has the true surface",
+            )
+
+    @property
+    def _triangles(self) -> bool:
+        return Path(self.file).suffix.lower() == ".stl"
 
     def read(self, folder: Path = Path()) -> CadTool | Triangulated:
         """The tool.
@@ -47,7 +60,7 @@ class Drawing:
         """
         path = folder / self.file
         sharp = {} if self.sharp is None else {"sharp": self.sharp}
-        if path.suffix.lower() == ".stl":
+        if self._triangles:
             return Triangulated.from_stl(path, open=self.open, scale=self.scale, **sharp)
         return CadTool.read(path, tolerance=self.tolerance, open=self.open, scale=self.scale, **sharp)
 

@@ -73,6 +73,8 @@ def test_files_that_do_not_do(strip, tmp_path):
         read(strip, tmp_path, 'file = "die.dwg"').build()
     with pytest.raises(DeckError, match="corners, segments or file"):
         read(strip, tmp_path, "profile = { layer = '0' }", "Revolved")
+    with pytest.raises(DeckError, match=r"have no free forms(.*\n)*.*tools.it.tolerance"):
+        read(strip, tmp_path, 'file = "ball.stl"\ntolerance = 0.01')
     (tmp_path / "empty.stl").write_text("solid nothing\nendsolid nothing\n")
     with pytest.raises(DeckError, match=r"no triangle|no STL file"):
         read(strip, tmp_path, 'file = "empty.stl"').build()
