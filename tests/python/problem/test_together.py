@@ -54,6 +54,12 @@ increments = 2
 """
 
 
+@pytest.mark.parametrize("kind", ["angle", "section", "springback"])
+def test_measures_of_a_section_are_those_of_one_sheet(kind):
+    with pytest.raises(DeckError, match=r"a section is that of one sheet(.*\n)*.*measures.it(.*\n)*.*2 sheets are cut"):
+        Problem.read(f'{DECK}[measures.it]\nkind = "{kind}"\n').build()
+
+
 @pytest.mark.parametrize(
     ("mesh", "message"),
     [

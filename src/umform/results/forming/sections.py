@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from umform.errors import InvalidValue
 from umform.mesh import Ids, Mesh
+from umform.surfaces.joined import groups
 
 Floats = NDArray[np.float64]
 
@@ -100,7 +101,7 @@ def section(mesh: Mesh, u: Floats, point: ArrayLike = (0.0, 0.0, 0.0), normal: A
     Raises
     ------
     InvalidValue
-        If the plane does not cut the sheet.
+        If the plane does not cut the sheet, or cuts several sheets.
     """
     n = np.asarray(normal, dtype=float)
     n = n / np.abs(n).max()  # the squares of large numbers overflow
@@ -122,12 +123,28 @@ def section(mesh: Mesh, u: Floats, point: ArrayLike = (0.0, 0.0, 0.0), normal: A
             cause="a point beside the sheet",
             remedy="a point of the undeformed sheet, and a normal in its plane",
         )
+    facet = np.tile(np.arange(len(cells)), len(cut) // len(cells))[cut]
+    _refuse_several(cells, np.unique(facet))
     part = np.where(a == b, 0.0, a / np.where(a == b, 1.0, a - b))[cut, None]
     lower, upper, start = (
         (1.0 - part) * y[of[cut, 0]] + part * y[of[cut, 1]] for y, of in ((x, ends[0]), (x, ends[1]), (X, ends[0]))
     )
-    facet = np.tile(np.arange(len(cells)), len(cut) // len(cells))[cut]
     return _in_order(start, lower, upper, np.cross(n, _facing(start, n)), scale, facet)
+
+
+def _refuse_several(cells: NDArray[np.int32], cut: Ids) -> None:
+    """Refuse a cut through cells of sheets that have no nodes in common."""
+    links = cells[:, 1:]
+    _, sheet = groups(np.repeat(cells[:, 0], links.shape[1]), links.ravel(), int(cells.max()) + 1)
+    count = len(np.unique(sheet[cells[cut, 0]]))
+    if count > 1:
+        raise InvalidValue(
+            "a section is that of one sheet",
+            where="section",
+            value=f"{count} sheets are cut",
+            cause="sheets that touch, or lie beside each other, in one mesh",
+            remedy="a point beside the other sheets, or the fields of the run in place of this measure",
+        )
 
 
 def _edges(quads: NDArray[np.int32]) -> NDArray[np.int32]:
