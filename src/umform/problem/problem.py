@@ -167,12 +167,16 @@ class Problem:
         return replace(self, source=replace(self.source, folder=folder))
 
     def paths(self) -> list[Scalar]:
-        """All numbers of the problem that can be changed: path, value, unit, sentence; defaults included."""
+        """All numbers of the problem that can be changed: path, value, unit, sentence; defaults included.
+
+        Those of the sheet of an operation before cannot.
+        """
         material = self.source.data["material"]
         law = written_out(material)
         named = self if law is material else self.with_({"material": law})
         found = as_written(scalars(named.contents), named.source.data)
-        return [one for one in found if not one.path.startswith("output.")]
+        fixed = ("output", *(TAKEN if self.before is not None else ()))
+        return [one for one in found if one.path.partition(".")[0] not in fixed]
 
     def _array(self, path: str) -> list[Any] | None:
         """The numbers of an array; None if there are none at a path."""
@@ -185,22 +189,24 @@ class Problem:
         own = None if self.contents.placement is None else self.contents.placement.motion
         return own.after(first) if own and first else own or first
 
-    def toml(self, before: Mapping[str, str] | None = None) -> str:
-        """Text of the deck.
+    def toml(self, before: Mapping[str, str] | None = None, remarks: Iterable[str] = ()) -> str:
+        """Text of the deck; that of a file as it was read, unless it was changed or has remarks.
 
         Parameters
         ----------
         before : mapping, optional
             Names of the files ``deck`` and ``state`` of the previous operation, for a problem that starts from a run.
+        remarks : iterable of str
+            Paragraphs at its head.
 
         Raises
         ------
         InvalidValue
             A value that was made by a program has no notation in TOML, or the files of the start have no name.
         """
+        source, told = self.source, [*self.source.remarks, *remarks]
         if self.start is None:
-            source = self.source
-            return deck_text(source.data, source.remarks) if source.changes else source.written
+            return deck_text(self._own, told) if source.made or source.changes or told else source.text
         if before is None:
             raise InvalidValue(
                 "a deck names the files of the operation before",
@@ -208,8 +214,13 @@ class Problem:
                 cause="a problem that starts from a run in memory",
                 remedy='before={"deck": "first.toml", "state": "first/state.h5"}',
             )
-        own = {key: value for key, value in self.source.data.items() if key not in TAKEN}
-        return deck_text({"before": dict(before)} | own, self.source.remarks)
+        return deck_text({"before": dict(before)} | self._own, told)
+
+    @property
+    def _own(self) -> dict[str, Any]:
+        """Its data without those of the operation before."""
+        taken = TAKEN if self.before is not None or self.start is not None else ()
+        return {key: value for key, value in self.source.data.items() if key not in taken}
 
     def build(self, solver: str | None = None) -> Prepared:
         """Build the model, its controls and its steps.

@@ -207,6 +207,15 @@ def test_supports_of_a_formed_part_do_not_move_it_back(control, drawn):
             load(drawn / "moved.toml").build()
 
 
+def test_a_changed_deck_and_its_paths_are_without_the_sheet_of_the_one_before(drawn):
+    problem = load(drawn / "trim.toml", {"steps.0.increments": 3})
+    (drawn / "three.toml").write_text(problem.toml(remarks=["in three increments"]))
+    text = (drawn / "three.toml").read_text()
+    assert text.startswith("# in three increments") and "[mesh]" not in text
+    assert load(drawn / "three.toml").build().steps[0].steps == 3
+    assert {one.path.partition(".")[0] for one in problem.paths()} == {"trim", "steps", "solution"}
+
+
 def test_a_trimmed_part_is_measured_before_and_after_its_forces_have_gone(drawn):
     measure = '\n[measures.along]\nkind = "section"\n[measures.fit]\nkind = "gauge"\n'
     (drawn / "measured.toml").write_text(SECOND + measure + OUTPUT)

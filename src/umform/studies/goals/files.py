@@ -8,6 +8,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from umform.errors import InvalidValue
+from umform.io.atomic import write_text
+from umform.problem import Problem
 from umform.studies.goals.shapes import Tools
 from umform.surfaces import Box, write_tool
 from umform.surfaces.tool import Placed, Tool
@@ -41,6 +43,13 @@ def write_tools(folder: Path, found: Tools) -> list[Path]:
         if name not in exact:
             files.append(write_tool(tool, folder / f"compensated-{name}.stl", found.box, chord))
     return files
+
+
+def write_deck(path: Path, problem: Problem, wanted: str) -> Path:
+    """Write the deck of a problem with what was found for a wanted result, complete or not at all."""
+    own = f"{problem.source.name} for {wanted}; files that it names are looked for beside it."
+    text = problem.toml(remarks=[] if problem.source.made else [own])
+    return write_text(path, text)
 
 
 def _is_exact(tool: Tool) -> bool:

@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 
 from umform.errors import InvalidValue
-from umform.io.atomic import write_text
 from umform.io.tables import write_csv
+from umform.problem import Problem
 from umform.processes.rules import number as is_number
 from umform.processes.rules import positive
 from umform.results.outcome import Annex, Study
 from umform.results.quantity import Quantity
-from umform.studies.goals.files import write_tools
+from umform.studies.goals.files import write_deck, write_tools
 from umform.studies.goals.shapes import Shapes, Tools, picture
 
 #: What the picture shows.
@@ -204,8 +204,8 @@ class Compensated(Study):
         names = [*self.parameters, *(one.name for one in self.results)]
         write_csv(folder / TABLE, dict(zip(names, columns.tolist(), strict=True)))
         files = [folder / TABLE]
-        if hasattr(self.subject, "toml"):
-            files.append(write_text(folder / DECK, self.subject.toml()))
+        if isinstance(self.subject, Problem):
+            files.append(write_deck(folder / DECK, self.subject, "wanted results"))
         if self.tools is not None:
             files += write_tools(folder, self.tools)
         if self._pictured is not None:

@@ -14,7 +14,6 @@ from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.run import Result, solve
 from umform.analysis.steps import Free, Release, Step
 from umform.errors import InvalidValue, SolveError
-from umform.io.atomic import write_text
 from umform.io.tables import write_csv
 from umform.mesh import Selector
 from umform.model import Model, Tool
@@ -28,6 +27,7 @@ from umform.results.outcome import Annex, Study
 from umform.spec import check_value, each
 from umform.spec.types import Count, Positive
 from umform.studies.goals.deviation import SmoothFace, deviations
+from umform.studies.goals.files import write_deck
 from umform.studies.goals.found import DECK, TABLE
 from umform.surfaces import OffsetByField, OffsetField, Placed
 from umform.surfaces import Tool as Shape
@@ -169,7 +169,7 @@ class CompensatedShape(Study):
         write_csv(folder / DEVIATIONS, places | ends)
         files = [folder / TABLE, folder / DEVIATIONS]
         if isinstance(self.subject, Problem):
-            files.append(write_text(folder / DECK, self.subject.toml()))
+            files.append(write_deck(folder / DECK, self.subject, "a wanted shape"))
         return files
 
 

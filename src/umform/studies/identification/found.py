@@ -13,8 +13,6 @@ from numpy.typing import NDArray
 
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
-from umform.problem.deck_text import deck_text
-from umform.problem.previous_operation import TAKEN
 from umform.results.outcome import Annex, Study
 from umform.results.quantity import UNKNOWN
 from umform.sheet_metals import Fit
@@ -220,12 +218,11 @@ class Identified(Study):
         source = made.problem.source
         if source.made:
             return made.problem.toml()
-        own = {key: value for key, value in source.data.items() if made.problem.before is None or key not in TAKEN}
         remark = f"{source.name} with numbers from measurements; files that it names are looked for beside it."
         numbers = (
             f"{path} = {value:.7g}, standard error {self.deviations[path]:.2g}" for path, value in self.values.items()
         )
-        return deck_text(own, [*source.remarks, remark, *numbers])
+        return made.problem.toml(remarks=[remark, *numbers])
 
     def write(self, folder: str | Path) -> list[Path]:
         """Write numbers, residuals, a record, the deck and a picture; the files appear together."""

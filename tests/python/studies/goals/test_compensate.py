@@ -212,5 +212,6 @@ def test_a_deck_is_compensated_and_written(tmp_path):
     assert found.reached
     found.write(tmp_path)
     deck = tmp_path / "compensated.toml"
+    assert "looked for beside it" in deck.read_text().splitlines()[0]
     again = load(deck).build().solve()
     assert abs(again["stroke_force"]).max() == pytest.approx(45.0, abs=0.01)
