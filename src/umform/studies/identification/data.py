@@ -288,6 +288,16 @@ class MeasuredCurve:
                 cause="a step that is missing in the run, rows that are not in the order of time, or noise",
                 remedy="rows in the order of time, of the part that is simulated",
             )
+        ends, of_run_ends = ([values[row] for row in branches(values)[0]] for values in (x, X))
+        if np.diff(ends) * np.diff(of_run_ends) < 0.0:
+            raise InvalidValue(
+                "the curve begins the other way than the run",
+                where=f"curve {self.x},{self.y}",
+                value=f"{self.x} {ends[0]:.6g} to {ends[1]:.6g}; in the run {of_run_ends[0]:.6g} to "
+                f"{of_run_ends[1]:.6g}",
+                cause="rows that are not in the order of time, a curve of a later step, or another sign",
+                remedy=f"rows in the order of time; {self.x},{self.y}@2 for a curve of the second step",
+            )
         found = list(at_abscissae(x, (X, Y), (dX, dY)))
         worst = max(range(len(x)), key=lambda row: found[row][2])
         if found[worst][2] > NOISE * float(np.ptp(X)):

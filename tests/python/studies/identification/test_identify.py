@@ -182,6 +182,7 @@ def test_what_cannot_be_found_is_refused_by_name(tension, find, said, names):
         ({"step": 3}, "no such step"),
         ({"points": ([0.0, 0.02], [1.0, 2.0])}, "goes beyond the run"),
         ({"points": ([0.0, 0.01, 0.002], [1.0, 2.0, 1.0])}, "turns more often"),
+        ({"points": ([0.01, 0.002], [2.0, 1.0])}, "begins the other way"),
     ],
 )
 def test_a_curve_that_the_run_does_not_have_is_refused(tension, change, said):
