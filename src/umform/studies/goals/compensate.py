@@ -90,7 +90,8 @@ def compensate(
     Returns
     -------
     Compensated
-        The parameters, and all runs. ``reached`` is false if the results cannot be met within the bounds or the runs.
+        The parameters, and all runs. ``reached`` is false if the results cannot be met within the bounds or the runs,
+        or the next run fails.
 
     Raises
     ------
@@ -174,6 +175,7 @@ class _Search:
         self.tick: Tick = silent
         self.longest = _STEP
         self.missed = 0.0
+        self.stopped = ""
         self.tools: Tools | None = None
 
     def at(self, x: Floats) -> Subject:
@@ -190,7 +192,11 @@ class _Search:
             step = self._step(x, y, slopes)
             if np.abs(step / self.scale).max() < 1e-12:
                 break  # at a bound
-            x_new, y_new = self._next(x, step, most)
+            try:
+                x_new, y_new = self._next(x, step, most)
+            except (SolveError, InvalidValue) as error:
+                self.stopped = " ".join(str(error).split())
+                break
             moved, found = (x_new - x) / self.scale, y_new - y
             if not found.any():
                 raise InvalidValue(
@@ -353,7 +359,16 @@ class _Search:
         reached = self._error(y) <= 1.0
         best = max(n for n, one in enumerate(self.trials) if one.parameters == tuple(x.tolist()))
         return Compensated(
-            self.at(x).given, parameters, results, self.want, tuple(self.trials), reached, best, self.tools, self.missed
+            self.at(x).given,
+            parameters,
+            results,
+            self.want,
+            tuple(self.trials),
+            reached,
+            best,
+            self.tools,
+            self.missed,
+            self.stopped,
         )
 
 

@@ -104,6 +104,8 @@ class Compensated(Study):
         Its tools.
     missed : float
         By how much a run missed what the derivatives foretold of it, relative to what changed; 0 if they were right.
+    stopped : str
+        Why there are no more runs, if the next one failed.
 
     Examples
     --------
@@ -126,6 +128,7 @@ class Compensated(Study):
     best: int = 0
     tools: Tools | None = None
     missed: float = 0.0
+    stopped: str = ""
 
     @property
     def table(self) -> list[list[str]]:
@@ -156,6 +159,8 @@ class Compensated(Study):
             found.append(
                 f"the wanted results are not reached in {runs}: wider bounds, another start or other parameters"
             )
+        if self.stopped:
+            found.append(f"the next run failed: {self.stopped}")
         if self.missed:
             found.append(
                 "a step changed the results otherwise than their derivatives say, by "

@@ -116,6 +116,18 @@ def test_an_unknown_derivative_is_a_secant_of_one_run_more(monkeypatch):
     assert found.trials[1].parameters[0] == pytest.approx(0.5 * 1.09)
 
 
+def test_a_search_that_ends_at_a_run_that_fails_keeps_its_runs():
+    def short(way):
+        if way > 1.0:
+            raise InvalidValue("the way ends in a stop", where="way")
+        return cantilever(way, 210e3)
+
+    found = uf.compensate(short, {"tip_force": uf.Wanted(-4.0, 1e-3)}, {"way": 0.8})
+    assert not found.reached and found.parameters["way"].value <= 1.0
+    assert found.warnings[0].startswith(f"the wanted results are not reached in {len(found.trials)} runs")
+    assert "the next run failed: the way ends in a stop" in found.warnings[1]
+
+
 def test_more_parameters_than_results_are_refused():
     by = {"way": 0.5, "E": 210e3}
     with pytest.raises(InvalidValue, match="more parameters follow than results are wanted"):
