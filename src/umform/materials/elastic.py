@@ -47,12 +47,14 @@ class Elastic(ParametersInNotebook):
 
     def __post_init__(self) -> None:
         check_fields(self)
-        kappa, mu = self.kappa, self.mu
-        given = {name for name in ("E", "nu", "kappa", "mu") if getattr(self, name) is not None}
-        if given == {"E", "nu"}:
-            kappa, mu = self.E / (3 * (1 - 2 * self.nu)), self.E / (2 * (1 + self.nu))
-        elif not {"kappa", "mu"} <= given or any(
-            getattr(self, name) not in (None, value) for name, value in _young_and_poisson(kappa, mu).items()
+        E, nu, kappa, mu = self.E, self.nu, self.kappa, self.mu
+        by_young = E is not None and nu is not None and (kappa, mu) in ((None, None), _moduli(E, nu))
+        if by_young:
+            kappa, mu = _moduli(E, nu)
+        elif (
+            kappa is None
+            or mu is None
+            or any(getattr(self, name) not in (None, value) for name, value in _young_and_poisson(kappa, mu).items())
         ):
             raise InvalidValue(
                 "give E and nu, or kappa and mu, and no others",
@@ -60,9 +62,10 @@ class Elastic(ParametersInNotebook):
                 cause="one of a pair is missing, or both pairs are given",
                 remedy="two constants: J2(E=210e3, nu=0.3, ...) for one",
             )
-        kappa, mu = float(kappa), float(mu)
-        for name, value in {"kappa": kappa, "mu": mu, **_young_and_poisson(kappa, mu)}.items():
-            object.__setattr__(self, name, value)
+        own = {"E": E, "nu": nu} if by_young else _young_and_poisson(kappa, mu)
+        for name, value in {**own, "kappa": kappa, "mu": mu}.items():
+            object.__setattr__(self, name, float(value))
+        object.__setattr__(self, "_by_young", by_young)
 
     @property
     def lambda_(self) -> float:
@@ -70,11 +73,18 @@ class Elastic(ParametersInNotebook):
         return self.kappa - 2.0 / 3.0 * self.mu
 
     def written(self) -> Mapping[str, float | None]:
-        """The pair of constants that gives these to the last bit, E and nu if they do; None for the others."""
+        """The pair of constants that gives these to the last bit, E and nu if given or if they do; None for others."""
         E, nu = float(f"{self.E:.12g}"), float(f"{self.nu:.12g}")
-        if Elastic(E, nu) == Elastic(kappa=self.kappa, mu=self.mu):
+        if _moduli(E, nu) != (self.kappa, self.mu) and vars(self)["_by_young"]:
+            E, nu = self.E, self.nu
+        if _moduli(E, nu) == (self.kappa, self.mu):
             return {"E": E, "nu": nu, "kappa": None, "mu": None}
         return {"E": None, "nu": None}
+
+
+def _moduli(E: float, nu: float) -> tuple[float, float]:
+    """Bulk and shear modulus of Young's modulus and Poisson's ratio."""
+    return float(E / (3 * (1 - 2 * nu))), float(E / (2 * (1 + nu)))
 
 
 def _young_and_poisson(kappa: float, mu: float) -> dict[str, float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from umform.analysis.steps import Move
 from umform.errors import HardeningNotMonotone, InvalidValue, NotFinite
 from umform.history_variables import history_of, named
 from umform.model import Model
+from umform.spec import scalars
 
 
 def respond(law, E, state):
@@ -129,6 +131,18 @@ def test_elastic_constants_come_in_two_pairs():
     second = mt.J2(kappa=one.kappa, mu=one.mu, hardening=HARDENING["linear"]).law()
     E = np.array([0.02, -0.01, 0.005, 0.01, -0.02, 0.003])
     np.testing.assert_allclose(stress(first, E, first.initial()), stress(second, E, second.initial()), rtol=1e-11)
+
+
+@pytest.mark.parametrize("E", [210e3, 206e3 / 3.0, 210e3 * 1.0123456789012345, 0.1 + 0.2])
+def test_constants_stay_those_that_were_given_to_the_last_bit(E):
+    """They are what a deck writes, and the numbers of a problem: E is a parameter whatever its digits."""
+    law = mt.J2(E=E, nu=0.3, hardening=HARDENING["linear"])
+    assert (law.E, law.nu) == (E, 0.3)
+    assert law.written()["E"] == E and [one.path for one in scalars(law)][:2] == ["E", "nu"]
+    other = replace(law, hardening=HARDENING["voce"])
+    assert (other.E, other.kappa) == (E, law.kappa)
+    moduli = mt.J2(kappa=law.kappa / 3.0, mu=law.mu / 3.1, hardening=HARDENING["linear"])
+    assert [one.path for one in scalars(moduli)][:2] == ["kappa", "mu"]
 
 
 @pytest.mark.parametrize(
