@@ -13,7 +13,7 @@ from umform.materials import Metal, Perfect, Swift, Table, Voce
 from umform.problem.metal_file import metal_of, write_metal
 from umform.processes.air_bending import AirBending, air_bending
 from umform.studies.bend_table import correct
-from umform.studies.bend_table.correct import _scaled, _shape
+from umform.studies.bend_table.correct import _notes, _scaled, _shape
 
 #: The measured bend, and others: angles and tools.
 CARD = AirBending(stroke=6.1, elements_per_thickness=1, layers=1, thickness_points=5, increment=0.0125)
@@ -65,7 +65,9 @@ def test_the_angle_alone_gives_one_factor_and_says_so(coil, bend):
     assert list(found.found.values) == ["flow_stress"]
     assert _measures(found.case).angle == pytest.approx(bend.angle, abs=0.01)
     assert np.abs(_angles(found.case) - _angles(coil)).max() < 0.3
-    assert "the angle alone does not tell" in " ".join(found.notes)
+    text = " ".join(found.notes)
+    assert "the angle alone does not tell" in text and "and no friction" in text
+    assert "a friction of 0.1" in " ".join(_notes(replace(CARD, friction=0.1), found.found, [], "the card"))
 
 
 def test_a_card_of_a_file_is_the_law_to_the_last_bit(tmp_path):
