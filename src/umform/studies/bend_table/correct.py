@@ -183,8 +183,11 @@ def _notes(case: AirBending, found: Identified, data: Sequence[MeasuredNumber], 
     )
     for path, value in found.values.items():
         yield f"{path.replace('_', ' ')} times {value:.4f} +- {found.deviations[path]:.2g}"
-    friction = f"a friction of {case.friction:g}" if case.friction else "no friction"
-    yield f"assumed: thickness, tools, elastic constants, back stresses, the rest of the law, and {friction}"
+    if case.friction:
+        friction = f"{case.friction:g}"
+        yield f"assumed: thickness, tools, elastic constants, back stresses, the rest of the law, a friction of {friction}"
+    else:
+        yield "assumed: thickness, tools, elastic constants, back stresses, the rest of the law, and no friction"
     yield from coarse_mesh(case)
     if len(data) == 1:
         yield "the angle alone does not tell stress from hardening: the forces of this card are wrong"

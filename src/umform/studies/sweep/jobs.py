@@ -20,7 +20,7 @@ from umform.problem import Problem, running
 from umform.problem.deck_in_checkpoint import Kept
 from umform.problem.own_classes import modules_of, texts
 from umform.problem.results import CHECKPOINT
-from umform.problem.unloading import UNLOADING
+from umform.problem.unloading import loading_steps
 from umform.studies.sweep.measures import Function, Record, number_of, springback, stats
 
 #: Record of a job in its folder.
@@ -162,14 +162,14 @@ def _outcome(job: Job) -> running.ProblemOutcome:
 def _numbers(job: Job, outcome: running.ProblemOutcome) -> dict[str, Any]:
     """All numbers of a finished job that may become measures."""
     result = outcome.result
-    steps = [step.kind for step in job.deck.contents.steps]
-    unloading = next((number for number, kind in enumerate(steps, 1) if kind in UNLOADING), None)
+    contents = job.deck.contents
+    loading = loading_steps(contents)
     return {
         "controls": [control.name for control in result.model.controls],
         "history": stats(result),
         "quantities": [one.record() for one in outcome.quantities],
         "checks": [one.record() for one in outcome.checks],
-        "springback": None if unloading is None else springback(result, unloading),
+        "springback": None if loading == len(contents.steps) else springback(result, loading),
         "functions": {function.__name__: number_of(function, result) for function in job.functions},
     }
 

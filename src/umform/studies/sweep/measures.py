@@ -136,8 +136,8 @@ class Measure:
                 "a sweep without unloading has no springback",
                 where="measure",
                 value=self.name,
-                cause="no step of the kind release or free after another step",
-                remedy="add such a step to the deck, or leave the measure out",
+                cause="no step of the kind release or free at the end, after another step",
+                remedy="such a step at the end of the deck, or leave the measure out",
             )
         number: float | None = record[_SPRINGBACK] if self.name == _SPRINGBACK else record["functions"][self.name]
         return number
@@ -189,15 +189,15 @@ def column_number(result: Result, wanted: str) -> float | None:
     return _finite(_STATS[one.stat](result[one.column]))
 
 
-def springback(result: Result, unloading: int) -> float | None:
+def springback(result: Result, loading: int) -> float | None:
     """Largest displacement of a node by unloading, after the best fit of the part into its loaded shape. eq. (5.67)
 
     Parameters
     ----------
     result : Result
         A run with a frame at the end of each step.
-    unloading : int
-        The first step that unloads, counted from 1.
+    loading : int
+        Number of steps before those that unload the part at the end.
 
     Returns
     -------
@@ -206,7 +206,7 @@ def springback(result: Result, unloading: int) -> float | None:
         before.
     """
     steps = [int(result.rows[frame.number]["step"]) for frame in result.frames]
-    before = [number for number, step in enumerate(steps) if 0 < step < unloading]
+    before = [number for number, step in enumerate(steps) if 0 < step <= loading]
     if not before:
         return None
     X = result.model.mesh.points

@@ -73,7 +73,11 @@ def test_springback_is_that_of_the_whole_part_without_its_rigid_motion(deck):
     """Half of the strip is 0.1 longer when loaded; laid into its middle, each end of the whole is off by 0.1."""
     found = sweep(deck, {"pull": [0.1, 0.2]}, measures=["springback"])
     assert found["springback"] == pytest.approx([0.1, 0.2], rel=1e-6)
-    without = {"steps": [{"kind": "move", "to": {"pull": 0.1}, "increments": 1}]}
+    move = {"kind": "move", "to": {"pull": 0.1}, "increments": 1}
+    twice = {"steps": [move, {"kind": "release", "control": "pull"}] * 2, "steps.0.to.pull": 0.3}
+    found = sweep(deck, {"E": [1e5]}, changes=twice, measures="springback")
+    assert found["springback"] == pytest.approx([0.1], rel=1e-6)
+    without = {"steps": [move, {"kind": "release", "control": "pull"}, move]}
     with pytest.raises(InvalidValue, match="no springback"):
         sweep(deck, {"E": [1e5]}, changes=without, measures=["springback"])
 
