@@ -184,8 +184,10 @@ def _notes(case: AirBending, found: Identified, data: Sequence[MeasuredNumber], 
     for path, value in found.values.items():
         yield f"{path.replace('_', ' ')} times {value:.4f} +- {found.deviations[path]:.2g}"
     if case.friction:
-        friction = f"{case.friction:g}"
-        yield f"assumed: thickness, tools, elastic constants, back stresses, the rest of the law, a friction of {friction}"
+        yield (
+            "assumed: thickness, tools, elastic constants, back stresses, the rest of the law, "
+            f"a friction of {case.friction:g}"
+        )
     else:
         yield "assumed: thickness, tools, elastic constants, back stresses, the rest of the law, and no friction"
     yield from coarse_mesh(case)
