@@ -242,7 +242,11 @@ def _is_bent(spread: Spread, run: SecondRun) -> bool:
 
 
 def _with_error(quantity: Quantity, deviation: float | None) -> str:
-    """A number with its error, if that shows and is more than a twentieth of the standard deviation."""
+    """A number with its error, if that shows and is more than a twentieth of the standard deviation.
+
+    The error is that of the first order: whether the number is that of its mesh only is said beside the number itself.
+    """
+    quantity = replace(quantity, of_mesh=False)
     shown = (
         quantity.band is not None
         and quantity.band.error > 0.05 * (deviation or 0.0)

@@ -14,6 +14,7 @@ from umform.processes.air_bending import AirBending
 from umform.results.quantity import Quantity
 from umform.studies.derivatives.subjects import OfFunction
 from umform.studies.scatter import Limits
+from umform.studies.scatter.found import RESULTS
 
 VALUES = {"E": 210e3, "deflection": 0.1}
 
@@ -126,6 +127,8 @@ def test_a_second_run_shows_that_the_first_order_does_not_hold():
     curvature = second.found["steep"] - second.predicted["steep"]
     assert found["steep"].mean.band.error == pytest.approx(curvature / 4.0)
     assert found["steep"].deviation.band.error == pytest.approx(curvature / 2.0, rel=1e-3)
+    of_mesh = [replace(one, mean=replace(one.mean, of_mesh=True)) for one in found]
+    assert replace(found, spreads=tuple(of_mesh)).tables[RESULTS] == found.tables[RESULTS]
 
 
 def test_a_second_run_goes_down_where_a_larger_value_is_refused_or_changes_the_mesh():
