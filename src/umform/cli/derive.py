@@ -73,7 +73,7 @@ def derive(
     with deck_errors(*(name for name, values in typed.items() if values)):
         problem = read(deck, changes or (), trust)
         table = problem.contents.derivatives
-        paths, held = by or (table.by if table else []), dict(_pair(text) for text in hold or ())
+        paths, held = by or (table.by if table else []), _pairs(hold or ())
         wanted = of or (table.results or None if table else None)
         _refuse_none(paths)
         _refuse_both(held, width)
@@ -118,14 +118,18 @@ def _refuse_both(held: Mapping[str, str], width: float | None) -> None:
         )
 
 
-def _pair(text: str) -> tuple[str, str]:
-    name, sign, path = text.partition("=")
-    if not (sign and name.strip() and path.strip()):
-        raise InvalidValue(
-            "this holds no result",
-            where="--hold",
-            value=text,
-            cause="the sign = is missing, or nothing stands beside it",
-            remedy="write NAME=PATH, as angle=stroke",
-        )
-    return name.strip(), path.strip()
+def _pairs(texts: Sequence[str]) -> dict[str, str]:
+    """Paths by the results that they keep constant."""
+    held: dict[str, str] = {}
+    for text in texts:
+        name, sign, path = (part.strip() for part in text.partition("="))
+        if not (sign and name and path) or name in held:
+            raise InvalidValue(
+                "a result is held twice" if name in held else "this holds no result",
+                where="--hold",
+                value=text,
+                cause="" if name in held else "the sign = is missing, or nothing stands beside it",
+                remedy="write NAME=PATH once for each result, as angle=stroke",
+            )
+        held[name] = path
+    return held

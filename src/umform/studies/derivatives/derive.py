@@ -112,7 +112,7 @@ def derivatives(
     check_value(derivatives, "frames", frames)
     thing = subject_of(subject, by, options, solver)
     known = {one.path: one for one in thing.parameters()}
-    held = {name: known_parameter(path, known).path for name, path in (hold or {}).items()}
+    held = held_by(hold or {}, known)
     names = list(dict.fromkeys([*names_of(thing, by), *held.values()]))
     parameters = list({one.path: one for one in (known_parameter(name, known) for name in names)}.values())
     if parameters and {one.path for one in parameters} <= set(held.values()):
@@ -260,6 +260,29 @@ def known_parameter(path: str, known: Mapping[str, Scalar], where: str = "by") -
     if why:
         raise InvalidPath("this number has no derivative", where=found[0], value=one.value, cause=why, remedy=remedy)
     return one
+
+
+def held_by(hold: Mapping[str, str], known: Mapping[str, Scalar]) -> dict[str, str]:
+    """Paths of the parameters that follow, by the results that they keep constant.
+
+    Raises
+    ------
+    InvalidPath
+        As of `known_parameter`.
+    InvalidValue
+        One parameter follows two results.
+    """
+    held = {name: known_parameter(path, known, "hold").path for name, path in hold.items()}
+    paths = list(held.values())
+    if twice := sorted({path for path in paths if paths.count(path) > 1}):
+        raise InvalidValue(
+            "a parameter keeps one result constant",
+            where="hold",
+            value=", ".join(f"{name} by {path}" for name, path in held.items() if path in twice),
+            cause="two results with one parameter",
+            remedy="a parameter of its own for each result",
+        )
+    return held
 
 
 def known_parameters(

@@ -65,7 +65,7 @@ def responses(
     if twice is not None:
         raise InvalidValue(
             "two responses have the same name",
-            where="of",
+            where=where,
             value=twice,
             cause="two lambdas, or a name twice",
             remedy="functions with names of their own",
@@ -110,7 +110,11 @@ def _response(wanted: str | Function, known: Mapping[str, Quantity], result: Res
     if wanted in known:
         return Response(known[wanted])
     if wanted.partition(":")[0] in result.columns():
-        return Response(Quantity(wanted, value=column_number(result, wanted), digits=6), column=wanted)
+        try:
+            return Response(Quantity(wanted, value=column_number(result, wanted), digits=6), column=wanted)
+        except InvalidValue as error:
+            error.where = where
+            raise
     raise _no_such(wanted, [*known, *result.columns()], where)
 
 

@@ -17,7 +17,7 @@ from umform.progress import Show
 from umform.results.quantity import Quantity
 from umform.spec import Scalar, each
 from umform.studies.derivatives import Derivatives, derivatives
-from umform.studies.derivatives.derive import known_parameter, names_of, subject_of
+from umform.studies.derivatives.derive import held_by, known_parameter, names_of, subject_of
 from umform.studies.derivatives.subjects import Subject
 from umform.studies.scatter.correlations import covariance
 from umform.studies.scatter.found import Scattered
@@ -169,7 +169,7 @@ class Plan:
         if values is not None:
             names_of(thing, values, "values", "leave them out")
         numbers = {one.path: one for one in thing.parameters()}
-        held = {name: known_parameter(path, numbers, "hold").path for name, path in (hold or {}).items()}
+        held = held_by(hold or {}, numbers)
         made = _sources(sources, numbers, held)
         matrix = covariance(made, correlations or {}, lambda name: known_parameter(name, numbers, "correlations").path)
         by: Any = [*(one.path for one in made), *held.values()]

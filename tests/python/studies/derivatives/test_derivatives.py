@@ -98,6 +98,7 @@ def test_unknown_responses_are_refused_before_the_run(of, monkeypatch):
     with pytest.raises(InvalidValue) as caught:
         uf.derivatives(cantilever, by=BEAM, of=of, progress=False)
     assert of[0].partition(":")[0] in str(caught.value) or "mean" in str(caught.value)
+    assert caught.value.where == "of"
 
 
 # What cannot be varied --------------------------------------------------------------------------------------------
