@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import umform
+from umform.processes.air_bending.spec import AirBending
 from umform.studies.bend_table.table import BendTable, Tabled
 
 #: Definitions that all files share; docs/bend-tables.md has them with a picture.
@@ -18,18 +19,26 @@ DEFINITIONS = (
 
 def head(table: BendTable, *parts: Tabled) -> list[str]:
     """Lines of text without marks of comments."""
-    found = [f"Bend table of umform {umform.__version__}; every number is from a run of air bending in plane strain"]
+    found = [f"Bend table of umform {umform.__version__}; every number is from a run of air bending"]
     found += [*table.notes, *DEFINITIONS]
     for part in parts:
         case = part.setup.case
         found.append(
             f"{part.setup.metal}, T {case.thickness:g}; V {case.opening:g}, {case.die_angle:g} degrees, shoulders "
-            f"{case.die_radius:g}; punch {case.punch_radius:g}, {case.punch_angle:g} degrees"
+            f"{case.die_radius:g}; punch {case.punch_radius:g}, {case.punch_angle:g} degrees; {_sheet(case)}"
         )
         found += [f"not computed: {angle:g} degrees: {why}" for angle, why in part.failed.items()]
         found += part.remarks
         found.append(f"angles are within {table.tolerance:g} degrees; {_interpolation(part)}")
     return found
+
+
+def _sheet(case: AirBending) -> str:
+    """How the sheet lies, and what holds it beside the tools."""
+    wide = "plane strain" if case.width is None else f"{case.width:g} wide with free ends"
+    rolling = "" if case.rolling is None else f"rolling direction at {case.rolling:g} degrees from the bend line"
+    friction = f"friction {case.friction:g}" if case.friction else ""
+    return ", ".join(filter(None, (wide, rolling, friction)))
 
 
 def _interpolation(part: Tabled) -> str:

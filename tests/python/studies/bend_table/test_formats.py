@@ -12,6 +12,7 @@ import pytest
 from umform.errors import FileProblem, InvalidValue
 from umform.studies.bend_table import FORMATS, write_table
 from umform.studies.bend_table.formats import creo, file_names, freecad, inventor, solidworks, table_csv, table_json
+from umform.studies.bend_table.head import head
 
 #: Largest error of a flat length in mm.
 _CLOSE = 1e-6
@@ -117,6 +118,15 @@ def test_csv_has_both_factors_and_both_deductions(table, folder):
         assert float(row["angle degrees"]) + float(row["bend_angle degrees"]) == 180.0
         length = 2.0 * (float(row["radius mm"]) + float(row["thickness mm"]))
         assert float(row["tangent_deduction mm"]) == pytest.approx(length - float(row["bend_allowance mm"]))
+
+
+def test_the_head_of_a_file_says_how_the_sheet_lies(table):
+    part = table.parts[0]
+    case = replace(part.setup.case, width=5.0, rolling=90.0, friction=0.1)
+    assert any(line.endswith("; plane strain") for line in head(table, part))
+    told = " ".join(head(table, replace(part, setup=replace(part.setup, case=case))))
+    words = "5 wide with free ends, rolling direction at 90 degrees from the bend line, friction 0.1"
+    assert words in told and "plane strain" not in told
 
 
 def test_a_wrong_line_is_named(tmp_path):
