@@ -173,7 +173,7 @@ def bend(
                 from umform.processes.air_bending.budget import error_budget
 
                 done = replace(done, budget=error_budget(done, processes=processes))
-            for one, written in studies.added_to(done, done.case, place, hold=goal.held, goal=goal.name):
+            for one, written in studies.added_to(done, done.case, place, hold=goal.held):
                 done = one
                 more += written
             done, along = deflected(done, brake_frame, place)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterator
+import shlex
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -65,22 +66,29 @@ class ScatterOptions:
         with self._refusals():
             return self._plan(subject).run()
 
-    def added_to(self, outcome: _Outcome, case: Any, place: Path, goal: str = "") -> tuple[_Outcome, list[Path]]:
+    def added_to(
+        self, outcome: _Outcome, case: Any, place: Path, found: Mapping[str, str] | None = None
+    ) -> tuple[_Outcome, list[Path]]:
         """The outcome of a process with the scatter of its results, which widens their bands, and the files.
 
-        Without any scatter, the outcome itself. A note says that the stroke of a goal is constant, unless it is held.
+        Without any scatter, the outcome itself. A note says that strokes that were found for angles or a force, given
+        by the names of these, are constant, unless they are held.
         """
         if not self:
             return outcome, []
         from umform.studies.scatter.found import RESULTS
 
-        found = self.run(case)
-        outcome = outcome.with_deviations({one.name: one.deviation.value or 0.0 for one in found})
-        constant = [f"the stroke is constant: --hold {goal}=stroke keeps the {goal}"] if goal else []
-        for annex in found.annexes:
-            notes = [*annex.notes, *constant * (annex.title == RESULTS and not self.typed["hold"])]
+        spread = self.run(case)
+        outcome = outcome.with_deviations({one.name: one.deviation.value or 0.0 for one in spread})
+        free = {name: path for name, path in (found or {}).items() if name not in self._pairs("hold")}
+        constant = [
+            f"the stroke is constant: --hold {shlex.quote(f'{name}={path}')} keeps the {name}"
+            for name, path in free.items()
+        ]
+        for annex in spread.annexes:
+            notes = [*annex.notes, *constant * (annex.title == RESULTS)]
             outcome = outcome.with_annex(replace(annex, notes=notes))
-        return outcome, found.write(place)
+        return outcome, spread.write(place)
 
     @staticmethod
     @contextmanager

@@ -126,7 +126,6 @@ class Studies:
         place: Path,
         *,
         hold: Mapping[str, str] | None = None,
-        goal: str = "",
         finished: bool = True,
         rates: Callable[[], Rates] | None = None,
     ) -> Iterator[tuple[_Outcome, list[Path]]]:
@@ -141,9 +140,7 @@ class Studies:
         place : Path
             Folder of the files.
         hold : mapping of str to str, optional
-            Results that parameters keep constant in the derivatives.
-        goal : str
-            Result whose stroke was found, for a note of the scatter.
+            Results that parameters keep constant in the derivatives; a note of the scatter says that these stay.
         finished : bool
             Whether the run has ended; otherwise only the runs on the way to wanted results are added.
         rates : callable, optional
@@ -156,7 +153,7 @@ class Studies:
             outcome = outcome.with_annex(found.annex)
             yield outcome, found.write(place)
         if self.scatter and finished:
-            outcome, files = self.scatter.added_to(outcome, case, place, goal)
+            outcome, files = self.scatter.added_to(outcome, case, place, hold)
             yield outcome, files
         if self.found is not None:
             yield outcome.with_annex(self.found.annex), self.found.write(place)

@@ -135,3 +135,16 @@ def test_a_bend_to_an_angle_says_that_its_stroke_is_constant(tmp_path, monkeypat
     done = call("bend", "--angle", "160", *coarse, "--scatter", "thickness=1%")
     assert done.exit_code == 0, done.output
     assert "the stroke is constant: --hold angle=stroke keeps the angle" in done.stdout
+
+
+def test_a_part_whose_bends_have_angles_says_that_its_strokes_are_constant_unless_they_follow(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "part.toml").write_text(
+        "length = 60.0\n[[bends]]\nposition = 20.0\nangle = 160.0\n[[bends]]\nposition = 40.0\nangle = 160.0\n"
+    )
+    coarse = ["--layers", "1", "--elements-per-thickness", "1", "--increment", "0.05", "--tolerance", "0.5"]
+    given = ["--scatter", "thickness=1%", "--measure", "flange 1", "--hold", "bend 1: angle=bends.0.stroke"]
+    done = call("bend", "--sequence", "part.toml", *coarse, *given)
+    assert done.exit_code == 0, done.output
+    (note,) = [line for line in done.stdout.splitlines() if "the stroke is constant" in line]
+    assert "--hold 'bend 2: angle=bends.1.stroke' keeps the bend 2: angle" in note
