@@ -157,8 +157,10 @@ class Identified(Study):
             yield from vague("measurements", self.fit)
         for path, one in self.sought.items():
             if one.deviation is not None and self.deviations[path] > _LITTLE * one.deviation:
-                yield f"{path} is hardly measured: standard deviation {self.deviations[path]:.2g}, known before "
-                f"{one.deviation:.2g}"
+                yield (
+                    f"{path} is hardly measured: standard deviation {self.deviations[path]:.2g}, known before "
+                    f"{one.deviation:.2g}"
+                )
 
     def _misfit(self, found: Floats) -> float:
         return float(np.sqrt(np.mean(((found - self._measured[0]) / self._measured[1]) ** 2)))

@@ -55,8 +55,8 @@ def identify(
         Bounds, or a first value, by path; see `Problem.paths`. What was known before is another measurement:
         ``Sought(400.0, 700.0, start=520.0, deviation=30.0)``.
     data : sequence of MeasuredCurve or MeasuredNumber
-        Measurements. Either all of them have standard deviations or none: these are then 1 % of the largest number of
-        each, and the errors of the result follow from the scatter.
+        Measurements. Either all of them, and what was known before, have standard deviations or none: these are then
+        1 % of the largest number of each, and the errors of the result follow from the scatter.
     most : int
         Largest number of trials.
     options, solver
@@ -98,7 +98,6 @@ def identify(
             cause="an empty list",
             remedy="bounds by path, and at least one measured curve or number",
         )
-    _refuse_mixed(measured)
     if not most >= 1:
         raise InvalidValue("one trial at least is needed", where="most", value=most, remedy="30, for instance")
     thing = subject_of(subject, dict.fromkeys(find, 0.0), options, solver)
@@ -109,6 +108,7 @@ def identify(
         if path in sought:
             raise InvalidValue("a number is looked for twice", where="find", value=f"{path}, {name}", remedy="once")
         sought[path] = Sought.of(given, path)
+    _refuse_mixed(measured, sought)
     present = {} if isinstance(thing, OfFunction) else {path: float(known[path].value) for path in sought}
     start = np.array([one.begin(present.get(path), path) for path, one in sought.items()])
     scale = np.array([one.scale(first) for one, first in zip(sought.values(), start, strict=True)])
@@ -201,15 +201,16 @@ def _undetermined(what: str, names: Sequence[str], cause: str) -> InvalidValue:
     )
 
 
-def _refuse_mixed(data: Sequence[Measured]) -> None:
-    given = [one.known for one in data]
+def _refuse_mixed(data: Sequence[Measured], sought: Mapping[str, Sought]) -> None:
+    """Refuse measurements without standard deviations beside others, or beside what was known before."""
+    given = [*(one.known for one in data), *(True for one in sought.values() if one.deviation is not None)]
     if any(given) and not all(given):
         raise InvalidValue(
             "some measurements have a standard deviation, others have none",
             where="data",
             value=", ".join(one.name for one in data if not one.known),
             cause="their weights cannot be compared",
-            remedy="give each of them its standard deviation, or none",
+            remedy="give each of them its standard deviation, or none, also to what was known before",
         )
 
 

@@ -109,7 +109,7 @@ def test_what_was_known_before_determines_what_is_not_measured(tension):
     found = uf.identify(bar, sought, number)
     assert found.values["modulus"] == pytest.approx(1500.0, abs=1.0)
     assert found.deviations["modulus"] == pytest.approx(100.0, rel=0.01)
-    assert "modulus is hardly measured" in str(found)
+    assert "modulus is hardly measured: standard deviation 1e+02, known before 1e+02" in str(found)
 
 
 def test_a_number_at_its_bound_is_not_determined(tension):
@@ -201,6 +201,9 @@ def test_measurements_are_checked(tension):
         uf.MeasuredCurve("pull", "pull_force", "curve.csv")
     with pytest.raises(UmformError, match="some measurements have a standard deviation"):
         uf.identify(bar, BOUNDS, [curve(tension), uf.MeasuredNumber("pull_force:last", 200.0, 1.0)])
+    known = BOUNDS | {"modulus": uf.Sought(start=1500.0, deviation=100.0)}
+    with pytest.raises(UmformError, match="some measurements have a standard deviation"):
+        uf.identify(bar, known, [curve(tension)])
     with pytest.raises(UmformError, match="a curve is two or more pairs"):
         uf.MeasuredCurve("pull", "pull_force", ([1.0, 2.0], [1.0]))
     with pytest.raises(UmformError, match="one for each ordinate"):
