@@ -13,6 +13,7 @@ import hashlib
 import sys
 from collections.abc import Sequence
 from functools import partial
+from pathlib import PurePath
 from types import CodeType
 from typing import Any
 
@@ -80,6 +81,8 @@ def text(value: object, depth: int = 0) -> str:
         return repr(value.item())
     if value is None or isinstance(value, str | bool | int | float | complex | bytes):
         return repr(value)
+    if isinstance(value, PurePath):
+        return repr(str(value))
     if isinstance(value, np.ndarray):
         return f"array {value.shape} {digest(value)}"
     if isinstance(value, list | tuple):

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import umform
+from umform.analysis.run.fingerprint import text as text_of
 from umform.digest import floats
 from umform.errors import FileProblem, UmformError
 from umform.io.tables import write_json
@@ -183,7 +184,7 @@ def _word(value: Any) -> str:
 def _fingerprint(deck: Problem) -> str:
     """Digest of everything that affects the numbers of a deck: its values, the files that it reads, the version."""
     data = floats({key: value for key, value in deck.source.data.items() if key != "title"})
-    check = hashlib.sha256(json.dumps([umform.__version__, data], sort_keys=True, default=str).encode())
+    check = hashlib.sha256(json.dumps([umform.__version__, data], sort_keys=True, default=text_of).encode())
     for text in sorted(set(texts(data))):
         try:
             check.update((deck.source.folder / text).read_bytes())

@@ -9,6 +9,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
+from umform.analysis.run.fingerprint import text
 from umform.errors import InvalidValue
 from umform.problem import DeckError, Problem
 from umform.problem.deck_text import toml
@@ -82,6 +83,11 @@ class Plan:
             numbers.setdefault(self.jobs[number].folder, []).append(number)
         return numbers
 
+    @cached_property
+    def _cells(self) -> dict[str, list[Any]]:
+        """Cells of the varied values; objects with the same words, such as those of two long tables, are counted."""
+        return {name: _cells([values.get(name) for values in self.values]) for name in self.varied}
+
     def row(self, number: int, record: Record, measures: Iterable[Measure]) -> dict[str, Any]:
         """A row of the table, and its measures as ``quantities``; a job that is not done has none.
 
@@ -95,7 +101,7 @@ class Plan:
         found = {name: None if one is None else one.value for name, one in measured.items()}
         folder = self.jobs[number].folder.name if number in self.jobs else ""
         about = {name: record[name] for name in _ABOUT}
-        varied = {name: _cell(self.values[number].get(name)) for name in self.varied}
+        varied = {name: cells[number] for name, cells in self._cells.items()}
         return {**found, **about, "folder": folder, "quantities": measured, **varied}
 
     def beside(self, measures: Iterable[Measure]) -> list[Measure]:
@@ -194,9 +200,28 @@ def _value(key: str, value: Any, data: Mapping[str, Any]) -> Any:
     return value.item() if hasattr(value, "item") else value
 
 
+def _cells(values: Sequence[Any]) -> list[Any]:
+    """Values as cells of a table: lists and tables as in a deck, objects by their words."""
+    cells = [_cell(value) for value in values]
+    alike: dict[Any, dict[str, int]] = {}
+    for cell, value in zip(cells, values, strict=True):
+        numbers = alike.setdefault(cell, {})
+        numbers.setdefault(text(value) if _is_object(value) else "", len(numbers) + 1)
+    return [
+        f"{cell}, {alike[cell][text(value)]}" if _is_object(value) and len(alike[cell]) > 1 else cell
+        for cell, value in zip(cells, values, strict=True)
+    ]
+
+
 def _cell(value: Any) -> Any:
-    """A value as a cell of a table: lists and tables as in a deck."""
-    return toml(value) if isinstance(value, Mapping | list | tuple) else value
+    if isinstance(value, Mapping | list | tuple):
+        return toml(value)
+    return str(value) if _is_object(value) else value
+
+
+def _is_object(value: Any) -> bool:
+    """Whether a value is one that a program has made, such as a law."""
+    return not (value is None or isinstance(value, str | int | float | Mapping | list | tuple))
 
 
 def _check_keys(keys: Mapping[str, str]) -> None:

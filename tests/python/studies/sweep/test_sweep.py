@@ -194,6 +194,17 @@ def test_classes_of_the_user_are_part_of_what_was_run(deck, tmp_path):
     assert place() != before
 
 
+def test_objects_of_python_are_rows_with_their_words(deck):
+    """A deck has no words for them: such jobs are refused, each for itself."""
+    strain = np.linspace(0.0, 1.0, 400)
+    curves = [uf.Table(strain, 200.0 + 100.0 * strain**more) for more in (0.5, 0.5, 0.4)]
+    metal = {"law": "J2", "E": 2e5, "nu": 0.3, "hardening": {"curve": "Perfect", "yield_stress": 200.0}}
+    found = sweep(deck, {"material.hardening": curves}, changes={"material": metal})
+    assert found["outcome"] == ["refused"] * 3 and "an object of Python" in found["reason"][0]
+    assert len(set(found["folder"])) == 2
+    assert [text.rpartition(", ")[2] for text in found["material.hardening"]] == ["1", "1", "2"]
+
+
 def test_a_job_that_comes_twice_runs_once(deck, ran):
     found = sweep(deck, {"E": [1e5, 2e5, 1e5]}, measures=["pull_force:max"])
     assert [row["E"] for row in ran] == [1e5, 2e5]
