@@ -39,7 +39,8 @@ def relative_motion(model: Model, other: Model) -> float:
     found = [np.ptp(moved[_nodes(pair)], axis=0) for pair in model.system.sheet_contacts]
     for pair, another in zip(model.contacts, other.contacts, strict=True):
         nodes = _nodes(pair)
-        found.append(another.gap(other_places[nodes]) - pair.gap(places[nodes]))
+        with np.errstate(invalid="ignore"):  # a tool without a distance there
+            found.append(another.gap(other_places[nodes]) - pair.gap(places[nodes]))
     most = max((float(np.abs(each[np.isfinite(each)]).max(initial=0.0)) for each in found), default=0.0)
     return most / sheet_thickness(model.mesh) if most else 0.0
 
