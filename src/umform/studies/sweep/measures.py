@@ -51,12 +51,15 @@ class Measure:
         name it may also be a quantity of the job.
     missing : bool
         Whether a job may be without it.
+    function : bool
+        Whether it is a function of the user.
     """
 
     name: str
     column: str = ""
     stat: str = ""
     missing: bool = False
+    function: bool = False
 
     @classmethod
     def of(cls, wanted: str | Function) -> Measure:
@@ -68,7 +71,7 @@ class Measure:
             An unknown word after the colon.
         """
         if not isinstance(wanted, str):
-            return cls(wanted.__name__)
+            return cls(wanted.__name__, function=True)
         column, colon, stat = wanted.partition(":")
         if wanted == _SPRINGBACK:
             return cls(wanted)
@@ -111,17 +114,21 @@ class Measure:
             The job has no such column or quantity, or no springback.
         """
         known = {one["name"]: one for kind in _KINDS for one in record.get(kind, ())}
-        found = known.get(self.name, record["functions"].get(self.name))
+        found = record["functions"][self.name] if self.function else known.get(self.name)
         if isinstance(found, Mapping):
             return replace(Quantity.of(found), name=self.name)
         return Quantity(self.name, value=self._number(record, known), digits=_DIGITS)
 
     def _number(self, record: Record, known: Mapping[str, Any]) -> float | None:
+        number: float | None
+        if self.function:
+            number = record["functions"][self.name]
+            return number
         if self.column:
             history = record["history"]
             if self.column in history:
-                found: float | None = history[self.column][self.stat]
-                return found
+                number = history[self.column][self.stat]
+                return number
             if self.missing:
                 return None
             raise InvalidValue(
@@ -131,7 +138,7 @@ class Measure:
                 cause=slip(self.column, [*history, *known]),
                 remedy=f"one of {', '.join([*history, *known])}; finished jobs are kept: run the sweep again",
             )
-        if self.name == _SPRINGBACK and record[_SPRINGBACK] is None and not self.missing:
+        if record[_SPRINGBACK] is None and not self.missing:
             raise InvalidValue(
                 "a sweep without unloading has no springback",
                 where="measure",
@@ -139,7 +146,7 @@ class Measure:
                 cause="no step of the kind release or free at the end, after another step",
                 remedy="such a step at the end of the deck, or leave the measure out",
             )
-        number: float | None = record[_SPRINGBACK] if self.name == _SPRINGBACK else record["functions"][self.name]
+        number = record[_SPRINGBACK]
         return number
 
 

@@ -60,6 +60,14 @@ def test_the_table_has_what_each_deck_gives_alone(deck):
     assert {file.name for file in found.files} >= {"sweep.csv", "sweep.png"}
 
 
+def springback(result):
+    return 42.0
+
+
+def test_a_function_is_what_it_computes_whatever_its_name(deck):
+    assert sweep(deck, {"pull": [0.1]}, measures=[springback])["springback"] == [42.0]
+
+
 def test_a_function_may_give_a_quantity(deck):
     found = sweep(deck, {"pull": [0.1, 0.2]}, measures=[stretch])
     assert found["stretch"] == pytest.approx([0.1, 0.2])
