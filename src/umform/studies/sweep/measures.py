@@ -100,7 +100,7 @@ class Measure:
                 "a measure has the name of another column of the table",
                 where="measures",
                 value=self.name,
-                cause="a key that is varied, or a remark on the job",
+                cause="a key that is varied, a remark on the job, or two functions with one name, as lambdas",
                 remedy="another name for the function, or the whole path of the key",
             )
         return replace(self, name=f"{self.column}:{self.stat}")

@@ -110,9 +110,13 @@ class Plan:
         Raises
         ------
         InvalidValue
-            A function has the name of a varied key.
+            A function has the name of a varied key, or of another measure.
         """
-        return [measure.beside([*self.varied, *_ABOUT, "folder"]) for measure in measures]
+        found: list[Measure] = []
+        for measure in measures:
+            others = [one.name for one in found if one.function or measure.function]
+            found.append(measure.beside([*self.varied, *_ABOUT, "folder", *others]))
+        return found
 
     def table(self, records: Mapping[int, Record], wanted: Sequence[Measure]) -> tuple[list[dict[str, Any]], list[str]]:
         """Rows of all jobs, and the names of the measures."""

@@ -66,6 +66,9 @@ def springback(result):
 
 def test_a_function_is_what_it_computes_whatever_its_name(deck):
     assert sweep(deck, {"pull": [0.1]}, measures=[springback])["springback"] == [42.0]
+    for twice in ([springback, "springback"], [lambda result: 1.0, lambda result: 2.0]):
+        with pytest.raises(InvalidValue, match="name of another column"):
+            sweep(deck, {"pull": [0.1]}, measures=twice)
 
 
 def test_a_function_may_give_a_quantity(deck):
