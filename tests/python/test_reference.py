@@ -5,6 +5,7 @@ from __future__ import annotations
 import doctest
 import importlib
 import inspect
+import pkgutil
 import re
 from pathlib import Path
 
@@ -65,6 +66,14 @@ def test_processes_have_examples_that_run(name: str, tmp_path: Path, monkeypatch
     monkeypatch.chdir(tmp_path)
     module, _, last = name.rpartition(".")
     run_examples(getattr(importlib.import_module(f"umform.{module}"), last), name)
+
+
+@pytest.mark.parametrize("package", ["studies", "sheet_metals", "surfaces", "results", "materials", "spec", "io"])
+def test_examples_of_other_docstrings_run(package: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    path = importlib.import_module(f"umform.{package}").__path__
+    for module in pkgutil.walk_packages(path, f"umform.{package}."):
+        assert not doctest.testmod(importlib.import_module(module.name)).failed, module.name
 
 
 def test_methods_of_a_model_are_on_its_page() -> None:

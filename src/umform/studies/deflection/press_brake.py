@@ -22,7 +22,7 @@ class PressBrake:
     >>> from umform.studies.deflection import PressBrake
     >>> brake = PressBrake(span=3100.0, ram_height=1400.0, ram_thickness=60.0)
     >>> round(float(brake.deflection([0.0], 3000.0, 98.0)[0]), 3)
-    0.139
+    0.062
     """
 
     groups: ClassVar = {"span": "Press brake"}
