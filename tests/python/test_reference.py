@@ -68,7 +68,9 @@ def test_processes_have_examples_that_run(name: str, tmp_path: Path, monkeypatch
     run_examples(getattr(importlib.import_module(f"umform.{module}"), last), name)
 
 
-@pytest.mark.parametrize("package", ["studies", "sheet_metals", "surfaces", "results", "materials", "spec", "io"])
+@pytest.mark.parametrize(
+    "package", ["studies", "sheet_metals", "surfaces", "results", "materials", "spec", "io", "model", "mesh"]
+)
 def test_examples_of_other_docstrings_run(package: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     path = importlib.import_module(f"umform.{package}").__path__

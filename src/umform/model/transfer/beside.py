@@ -39,7 +39,7 @@ def laid_beside(part: Model, /, **sheets: Mesh) -> Model:
     >>> part = uf.Model(strip, material=uf.SVK(E=210e3, nu=0.3))
     >>> model = laid_beside(part, cover=strip.moved((0.0, 0.0, 0.2)))
     >>> [body.name for body in model.bodies]
-    ['body1', 'cover']
+    ['sheet', 'cover']
     """
     several = len(part.bodies) != 1 or getattr(part.bodies[0].rolling, "ndim", 0) > 1
     if several or PART in sheets:
