@@ -60,17 +60,17 @@ checked on the same decks. The numbers of `forming` are not among these answers.
 
 | name | change |
 |---|---|
-| `mesh*2` | elements of a generated mesh twice as long |
+| `mesh*2` | elements of a generated mesh twice as long, those of all sheets |
 | `step*2` | increments twice as large, also those of a pace |
 | `t-pts-2` | two points through the thickness less, for laws with a history |
 | `c-pts-1` | one contact point, or cell, per direction and facet less; one more where there are two |
-| `depth*2` | half of each penalty, or twice the allowed penetration |
+| `depth*2` | half of each penalty, or twice the allowed penetration; of sheets that touch half of the last penalty |
 | `tol*10` | tolerances ten times as large, unless that of the residual is below 1e-6 |
 
-The others run on the coarser mesh, where there is one. A mesh of a file, and that of an operation before, have none:
-the errors are then those by the other sources, and the table says *of this mesh*. Arcs, the closing of tools and
-releases without a number of increments keep their increments in the same way. A variant that does not converge leaves
-the error unknown, and a warning says why.
+The others run on the coarser mesh, where there is one. A mesh of a file, and that of an operation before, have none,
+nor have bonded sheets whose nodes would not meet: the errors are then those by the other sources, and the table says
+*of this mesh*. Arcs, the closing of tools and releases without a number of increments keep their increments in the same
+way. A variant that does not converge leaves the error unknown, and a warning says why.
 
 ## Studies
 

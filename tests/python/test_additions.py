@@ -172,7 +172,7 @@ assert part["description"] == "Factor of the extent." and part["default"] == 1.0
 def test_a_column_of_every_history_is_a_line(addition):
     addition.put("model/terms/controls.py", '    "external_work",\n', '    "farthest",\n')
     line = '        row["farthest"] = float(np.abs(model.u).max())\n'
-    addition.put("results/history.py", '        row["iterations"] = len(iterations)\n', line)
+    addition.put("results/history.py", "        row |= self._energy_columns(evaluation)\n", line)
     addition.run("""
 import csv
 from pathlib import Path

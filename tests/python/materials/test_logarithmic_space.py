@@ -60,7 +60,7 @@ def test_in_simple_shear_the_two_depart():
     ],
 )
 def test_tangent_where_principal_stretches_meet(E):
-    """Shears of T in the principal axes ask for all second divided cards.differences."""
+    """Shears of T in the principal axes ask for all second divided differences."""
     law = mt.Metal(**cards.STEEL, hardening=cards.CURVES["voce"], yield_function=cards.FUNCTIONS["hill48"]).law()
     start = np.random.default_rng(1).normal(size=(1, law.state_size)) * 0.02
     plastic, eqps = named(start, law.history_variables).values()

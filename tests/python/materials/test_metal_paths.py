@@ -28,7 +28,7 @@ CYCLES = [
 
 
 def tension_shear(metal, stresses, steps):
-    """Strains 11 and 12 (of the cards.tensor) and eqps behind each corner of a path in s11 and s12."""
+    """Strains 11 and 12 (of the tensor) and eqps behind each corner of a path in s11 and s12."""
     corners = np.array([[0.0, 0.0], *stresses])
     rows = np.concatenate([np.linspace(a, b, steps + 1)[1:] for a, b in itertools.pairwise(corners)])
     stress = np.zeros((len(rows), 6))

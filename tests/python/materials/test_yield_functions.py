@@ -26,7 +26,7 @@ def test_yld2004_at_states_known_to_20_digits(stress, equivalent):
 
 
 def test_gradient_of_yld2004():
-    """The same source; shears there are of the cards.tensor, half of those here."""
+    """The same source; shears there are of the tensor, half of those here."""
     stress = np.array([120.5, -35.25, 60.75, 42.5, -28.0, 33.25])
     known = [0.46131648419506466702, -0.81171119189451749695, 0.35039470769945102992]
     known += [2 * g for g in (0.31754139064342331668, -0.45754809859404116078, 0.43880414633419044754)]
@@ -43,8 +43,8 @@ def by_eigenvalues(function, stress):
         for (i, j), factor in (((0, 1), c.shear12), ((1, 2), c.shear23), ((0, 2), c.shear13)):
             S[i, j] = S[j, i] = factor * s[i, j]
         roots.append(np.linalg.eigvalsh(S))
-    cards.differences = np.abs(np.subtract.outer(*roots))
-    return (np.sum(cards.differences**function.exponent) / 4) ** (1 / function.exponent)
+    differences = np.abs(np.subtract.outer(*roots))
+    return (np.sum(differences**function.exponent) / 4) ** (1 / function.exponent)
 
 
 @pytest.mark.parametrize("name", ["hosford", "hosford-20", "yld91", "aa2090", "aa6111", "aa5182", "hosford-3"])

@@ -90,7 +90,7 @@ def test_a_support_in_local_axes_holds_where_the_nodes_are():
     load = model.force("x1", (0.0, 0.0, -0.2))
     solve(model, Move(load, 1.0, steps=2), options=TIGHT)
     nodes = model.mesh.nodes("x1")
-    radial = around.at(model.mesh.points[nodes])[:, 0]
+    radial = around.at(model.positions[nodes])[:, 0]
     way = np.einsum("nk,nk->n", model.u.reshape(-1, 3)[nodes], radial)
     model.fix("x1", "r", axes=around, here=True)
     model.hinge("y0", "y", here=True)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 from umform.analysis.run import Result
@@ -100,7 +101,9 @@ def refuse_unknown(
         columns = list(Result(model).row(model.system.evaluate(model.state, tangent=False)))
         model.system.revert()
     for name in unknown:
-        if Measure.of(name).column not in columns:
+        with _refused_at(where):
+            column = Measure.of(name).column
+        if column not in columns:
             raise _no_such(name, [*(f"{measure}. ..." for measure in measures), *columns], where)
 
 
@@ -110,12 +113,19 @@ def _response(wanted: str | Function, known: Mapping[str, Quantity], result: Res
     if wanted in known:
         return Response(known[wanted])
     if wanted.partition(":")[0] in result.columns():
-        try:
+        with _refused_at(where):
             return Response(Quantity(wanted, value=column_number(result, wanted), digits=6), column=wanted)
-        except InvalidValue as error:
-            error.where = where
-            raise
     raise _no_such(wanted, [*known, *result.columns()], where)
+
+
+@contextmanager
+def _refused_at(where: str) -> Iterator[None]:
+    """What is refused inside is refused at an argument."""
+    try:
+        yield
+    except InvalidValue as error:
+        error.where = where
+        raise
 
 
 def _no_such(wanted: str, names: Sequence[str], where: str) -> InvalidValue:
