@@ -13,6 +13,7 @@ from umform.errors import InvalidValue, NoConvergence, RigidBodyMotion
 from umform.mesh import strip
 from umform.mesh.generators import grid
 from umform.model import Model
+from umform.model.supports.axes import turned
 from umform.model.supports.ties import node_pairs
 from umform.surfaces import Plane
 
@@ -165,6 +166,19 @@ def test_a_hinge_goes_with_a_plane_of_symmetry_that_holds_both_nodes(hold):
     assert sum(len(tie.dofs) for tie in model.supports.ties) == sum(len(tie.dofs) for tie in other.supports.ties)
     np.testing.assert_allclose(model.u, other.u, rtol=0.0, atol=1e-12 * np.abs(other.u).max())
     assert np.abs(model.u).max() > 0.0
+
+
+@pytest.mark.parametrize("axes", [None, turned("x", "y")], ids=["global", "local"])
+def test_a_hinge_leaves_nodes_where_a_support_holds_them_now(axes):
+    model = Model(strip(10.0, 1.0, 0.2, (4, 1)), material=ELASTIC)
+    model.fix("x0")
+    solve(model, Move(model.force("x1", (0.0, 0.0, 1.0)), to=0.01, steps=2), progress=False)
+    before = model.u.copy()
+    model.fix("x1", "x", here=True)
+    model.hinge("x1", "x", here=True, axes=axes)
+    held = 3 * model.mesh.nodes("x1")
+    assert np.ptp(before[held]) > 0.02  # the section is turned
+    np.testing.assert_allclose(model.supports.prescribed()[held], before[held], rtol=1e-12)
 
 
 def test_a_hinge_beside_one_node_that_is_held_says_what_to_do():

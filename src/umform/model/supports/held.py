@@ -133,10 +133,11 @@ class Held:
         u = np.zeros(self.fixed.size)
         for control in controls:
             control.displace(u, values.get(control, 0.0))
+        fixed = self._held_by(holders)
         for holder in holders:
             if holder.base is not None:
                 u[holder.held] = holder.base[holder.held]
-                for tie in holder.ties:
+                for tie in (tie.without_held(fixed) for tie in holder.ties):
                     u[tie.dofs] = 0.0 if tie.offsets is None else tie.offsets[:, None]
         groups.prescribe(values, u, offsets=bool(holders))
         return u
@@ -147,6 +148,13 @@ class Held:
         if self._split is None:
             self._split = _split(self.constrained(), self.ties, self.rows)
         return self._split
+
+    def _held_by(self, holders: Sequence[Support]) -> NDArray[np.bool_]:
+        """Mask of the degrees of freedom that supports hold along x, y or z."""
+        fixed = np.zeros_like(self.fixed)
+        for holder in holders:
+            fixed[holder.held] = True
+        return fixed
 
     def _new(self, kind: str, directions: str | None, nodes: Ids, base: bool, name: str) -> Support:
         """A support that is not active yet; used names are refused."""
@@ -192,9 +200,8 @@ class Held:
 
     def _support(self, holders: list[Support], controls: Sequence[Control] = ()) -> None:
         """Activate these supports and those of new controls, unless they contradict each other."""
-        acting, fixed = _acting(holders), np.zeros_like(self.fixed)
-        for holder in acting:
-            fixed[holder.held] = True
+        acting = _acting(holders)
+        fixed = self._held_by(acting)
         ties = [tie.without_held(fixed) for holder in acting for tie in holder.ties]
         rows = [part for holder in acting for part in holder.rows]
         every = [*self.controls, *controls]

@@ -155,6 +155,20 @@ def directions_of(
     return "".join(letter for letter, _ in found), [vectors for _, vectors in found]
 
 
+def direction_of(axes: Axes, letter: str, points: Floats) -> Floats:
+    """Unit vectors (n, 3) of the one direction in which a control prescribes a displacement."""
+    _, vectors = directions_of(axes, letter, None, points)
+    if len(vectors) != 1:
+        raise InvalidValue(
+            "a displacement is prescribed in one direction",
+            where="supports",
+            value=letter or "''",
+            cause="several letters, or none",
+            remedy=f"one of {', '.join(axes.letters)}; a control for each direction",
+        )
+    return vectors[0]
+
+
 def tie_of(pairs: Ids, direction: int, control: MidLine | None, base: Floats | None) -> Tie:
     """The mean of the displacements of each pair in one direction."""
     dofs = (3 * pairs + direction).astype(np.int32)

@@ -13,6 +13,7 @@ from umform.model.supports.held import HELD, Held, refuse_twice
 from umform.model.supports.support import (
     Support,
     direction_number,
+    direction_of,
     directions_of,
     numbers_of,
     rows_of_nodes,
@@ -229,8 +230,8 @@ class Supports(Held):
         ids = self.mesh.nodes(nodes)
         control = Prescribed(name or self.controls.free_name("displacement"))
         if axes is not None:
-            _, vectors = directions_of(axes, direction, None, self.mesh.points[ids])
-            rows = [rows_of_nodes(ids, vector, control.name, control, None) for vector in vectors]
+            vectors = direction_of(axes, direction, self.mesh.points[ids])
+            rows = [rows_of_nodes(ids, vectors, control.name, control, None)]
             return self._drive(control, Support(control.name, control.name, direction, ids, rows=rows, control=control))
         control.dofs = (3 * ids + direction_number(direction)).astype(np.int32)
         refuse_twice(control.dofs, direction, self._taken(self.ties), name or "this one")
@@ -275,8 +276,8 @@ class Supports(Held):
         control, pairs = MidLine(name or self.controls.free_name("midline")), node_pairs(self.mesh, nodes)
         holder = Support(control.name, control.name, direction, unique(pairs), control=control)
         if axes is not None:
-            _, vectors = directions_of(axes, direction, None, self.mesh.points[pairs].mean(axis=1))
-            holder.rows = [rows_of_pairs(pairs, vector, control.name, control, None) for vector in vectors]
+            vectors = direction_of(axes, direction, self.mesh.points[pairs].mean(axis=1))
+            holder.rows = [rows_of_pairs(pairs, vectors, control.name, control, None)]
             return self._drive(control, holder)
         tie = tie_of(pairs, direction_number(direction), control, None)
         refuse_twice(tie.dofs.ravel(), direction, self._taken(self.ties), control.name)
