@@ -191,7 +191,8 @@ class Mesh:
         Parameters
         ----------
         selector : str, callable or array_like
-            Name of a face set; predicate of the coordinates x, y, z that all nodes of a face must meet; or rows.
+            Name of a face set; predicate of the coordinates x, y, z that all nodes of a face must meet, without faces
+            between two cells; or rows.
 
         Returns
         -------
@@ -216,13 +217,16 @@ class Mesh:
                     for hit in [np.flatnonzero(inside[self.connectivity[:, local]].all(axis=1))]
                 ]
             ).astype(np.int32)
+            rows = rows[self._lie_outside(rows)]
         else:
             rows = _as_rows(selector)
         if len(rows) == 0:
             raise EmptySet(
                 "a set selects no face",
                 value=selector if isinstance(selector, str) else "predicate or list",
-                cause="it is empty, or its metal was cut off" if isinstance(selector, str) else "",
+                cause="it is empty, or its metal was cut off"
+                if isinstance(selector, str)
+                else "no face lies in it, or only faces between two cells",
                 remedy="another set" if isinstance(selector, str) else _LOOK,
             )
         bad = (rows < 0).any(axis=1) | (rows[:, 0] >= len(self.connectivity)) | (rows[:, 1] >= len(FACES))
@@ -269,12 +273,23 @@ class Mesh:
         upper = self.connectivity[:, half:]
         return np.ascontiguousarray(np.where(rows[:, 1:] == 0, lower[rows[:, 0]], upper[rows[:, 0]]))
 
-    def face_centres(self) -> Floats:
-        """Mean of the corners of each face, in the order of :data:`umform.mesh.FACES`; shape (m, 6, 3)."""
+    def corners_of(self, rows: Ids) -> Ids:
+        """Nodes at the corners of faces (cell, face), of lateral ones the lower two first; shape (k, 4)."""
         corners, half = np.array(nodes_of_faces("hex8")), self.connectivity.shape[1] // 2
         local = corners % 4 + half * (corners // 4)
-        centres: Floats = self.points[self.connectivity[:, local]].mean(axis=2)
+        found: Ids = self.connectivity[rows[:, :1], local[rows[:, 1]]]
+        return found
+
+    def face_centres(self, rows: Ids) -> Floats:
+        """Mean of the corners of faces (cell, face), shape (k, 3)."""
+        centres: Floats = self.points[self.corners_of(rows)].mean(axis=1)
         return centres
+
+    def _lie_outside(self, rows: Ids) -> NDArray[np.bool_]:
+        """Whether each of some faces occurs once, among them those of all cells at their nodes."""
+        corners = np.sort(self.corners_of(rows), axis=1)
+        _, number, counts = np.unique(corners, axis=0, return_inverse=True, return_counts=True)
+        return np.asarray(counts[number.ravel()] == 1)
 
     def displaced(self, u: Floats) -> Floats:
         """The points (n, 3) after a displacement, three components of each node in one row."""
@@ -311,7 +326,7 @@ def _as_ids(selector: ArrayLike, count: int, where: str = "") -> Ids:
 
 
 def _as_rows(faces: ArrayLike, where: str = "") -> Ids:
-    """Rows (cell, face) from integers; anything else is refused."""
+    """Rows (cell, face) from integers, each once; anything else is refused."""
     array = np.asarray(faces)
     if array.size and (not np.issubdtype(array.dtype, np.integer) or array.shape[-1:] != (2,)):
         raise InvalidValue(
@@ -319,7 +334,9 @@ def _as_rows(faces: ArrayLike, where: str = "") -> Ids:
             where=where,
             value=f"{array.dtype} of shape {array.shape}",
         )
-    return array.astype(np.int32).reshape(-1, 2)
+    rows = array.astype(np.int32).reshape(-1, 2)
+    _, first = np.unique(rows, axis=0, return_index=True)
+    return rows[np.sort(first)]
 
 
 def _refuse_twice(cells: Ids) -> None:

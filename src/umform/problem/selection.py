@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import EmptySet
-from umform.mesh import FACES, Ids, Mesh
+from umform.mesh import Ids, Mesh
 from umform.problem.notes import Discriminator, Field, Refusal, Tag
 from umform.problem.parts import Part, Vector
 
@@ -52,7 +52,7 @@ def _not_empty(ids: Ids, kind: str) -> Ids:
 
 
 class Box(Part):
-    """All that lies in a box; of faces those whose nodes all do."""
+    """All that lies in a box; of faces those whose nodes all do, without faces between two cells."""
 
     min: Annotated[list[Bound], Field(min_length=3, max_length=3)] | None = None
     """Lowest corner; -inf leaves a side open."""
@@ -95,8 +95,8 @@ class Nearest(Part):
 
     def faces(self, mesh: Mesh) -> Ids:
         """Row of the face."""
-        nearest = _nearest(mesh.face_centres().reshape(-1, 3), self.nearest)
-        return np.array([divmod(nearest, len(FACES))], dtype=np.int32)
+        rows = mesh.face_set(lambda x, y, z: True)
+        return rows[[_nearest(mesh.face_centres(rows), self.nearest)]]
 
 
 class ById(Part):

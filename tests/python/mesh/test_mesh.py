@@ -170,8 +170,18 @@ def test_faces_are_selected_by_name_predicate_and_rows(cell):
     ):
         rows = made.face_set(predicate)
         assert {tuple(row) for row in rows} == {tuple(row) for row in made.face_set(name)}
-    np.testing.assert_array_equal(made.face_set([(2, 1), (0, 0)]), [(2, 1), (0, 0)])
+    np.testing.assert_array_equal(made.face_set([(2, 1), (0, 0), (2, 1)]), [(2, 1), (0, 0)])
     assert FACES[int(made.face_set("y1")[0, 1])] == "s1"
+
+
+@pytest.mark.parametrize("cell", CELLS)
+def test_faces_between_cells_meet_no_predicate(cell):
+    made = strip(6.0, 4.0, 0.6, (3, 2), cell=cell, layers=2)
+    for cut in (lambda x, y, z: np.abs(x - 2.0) < 1e-9, lambda x, y, z: np.abs(z) < 1e-9):
+        with pytest.raises(EmptySet, match="between two cells"):
+            made.face_set(cut)
+    outside = {tuple(row) for name in ("lower", "upper", "x0", "x1", "y0", "y1") for row in made.face_set(name)}
+    assert {tuple(row) for row in made.face_set(lambda x, y, z: True)} == outside
 
 
 @pytest.mark.parametrize("cell", CELLS)

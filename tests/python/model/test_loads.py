@@ -67,14 +67,15 @@ def test_body_force_has_the_right_total_and_moment(sheet):
     np.testing.assert_allclose(moment, np.cross((L / 2, W / 2, 0), L * W * T * VECTOR), atol=1e-13)
 
 
+@pytest.mark.parametrize("layers", [1, 2])
 @pytest.mark.parametrize(("side", "z"), [("lower", -T / 2), ("upper", T / 2)])
 @pytest.mark.parametrize(
     ("face", "length", "centre"),
     [("x0", W, (0, W / 2)), ("x1", W, (L, W / 2)), ("y0", L, (L / 2, 0)), ("y1", L, (L / 2, W))],
 )
 @pytest.mark.parametrize("cell", CELLS)
-def test_line_load_has_the_right_total_and_moment(build, cell, face, length, centre, side, z):
-    made = build.jittered(strip(L, W, T, (3, 3), cell=cell), 0.1)
+def test_line_load_has_the_right_total_and_moment(build, cell, face, length, centre, side, z, layers):
+    made = build.jittered(strip(L, W, T, (3, 3), cell=cell, layers=layers), 0.1)
     forces = nodal.edge_forces(made, face, side, VECTOR)
     total, moment = total_and_moment(made, forces)
     np.testing.assert_allclose(total, length * VECTOR, rtol=1e-13)

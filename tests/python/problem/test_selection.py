@@ -48,6 +48,8 @@ def test_faces():
     assert np.allclose(middle, [0.5, 0.5, 0.5])
     ((cell, number),) = faces({"nearest": [5.0, 1.4, 0.2]})
     assert FACES[number] == "r1"
+    ((cell, number),) = faces({"nearest": [1.0, 0.5, 0.3]})  # a face between two cells is nearer
+    assert FACES[number] == "upper"
     assert faces({"ids": [[0, 1]]}).tolist() == [[0, 1]]
 
 

@@ -82,7 +82,10 @@ def traction_forces(mesh: Mesh, faces: Selector, traction: ArrayLike) -> Floats:
 
 
 def edge_forces(mesh: Mesh, faces: Selector, side: str, line_load: ArrayLike) -> Floats:
-    """Nodal forces of a dead line load (force per reference length) on the lower or upper edge of lateral faces."""
+    """Nodal forces of a dead line load (force per reference length) on the lower or upper edge of lateral faces.
+
+    Of a stack of faces it is the lowest or the uppermost edge.
+    """
     rows, vector = mesh.face_set(faces), vector3(line_load, "line load")
     if side not in ("lower", "upper"):
         raise InvalidValue("an edge lies on the lower or on the upper face", value=side)
@@ -92,6 +95,9 @@ def edge_forces(mesh: Mesh, faces: Selector, side: str, line_load: ArrayLike) ->
             value=FACES[int(rows[:, 1].min())],
             remedy="choose faces like x0, x1, y0, y1",
         )
+    edges = np.sort(mesh.corners_of(rows).reshape(-1, 2, 2), axis=2).astype(np.int64)
+    lower, upper = (edges @ (len(mesh.points), 1)).T  # a number for each edge; layers share those between them
+    rows = rows[~(np.isin(lower, upper) if side == "lower" else np.isin(upper, lower))]
     parts = []
     for number in np.unique(rows[:, 1]):
         axis, value = _FACE_COORDINATE[int(number)]

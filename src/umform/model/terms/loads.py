@@ -75,7 +75,7 @@ class Loads:
         )
 
     def line_load(self, faces: Selector, side: str, load: Vector, name: str = "") -> Load:
-        """Dead load on the lower or upper edge of lateral faces.
+        """Dead load on the lower or upper edge of lateral faces; of a stack of them the lowest or the uppermost edge.
 
         Parameters
         ----------
