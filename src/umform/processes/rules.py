@@ -44,6 +44,14 @@ PLASTIC = Rule(
     "a J2 or a Metal; umform.sheet_metals.get('DC04').law for one",
 )
 
+#: A law without a rate: how long the steps of a process take is not said.
+WITHOUT_RATE = Rule(
+    lambda value: getattr(value, "rate", None) is None,
+    "the tools of a ready process have no speed",
+    "a metal whose yield stress depends on the rate",
+    "a metal without a rate; for one with it a deck (--print-deck) whose steps have a time",
+)
+
 
 def check_rolling(material: Any, rolling: float | None) -> None:
     """Reject an anisotropic law without its rolling direction.

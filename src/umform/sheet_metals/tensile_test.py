@@ -16,14 +16,18 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
+import numpy as np
+
 from umform.errors import InvalidValue
-from umform.materials import J2, LinearVoce, Swift, Voce
+from umform.materials import J2, Hardening, LinearVoce, Swift, Table, Voce
 
 #: Plastic elongation at the proof stress Rp0.2.
 OFFSET = 0.002
 
 #: Range of plastic strain in which the largest force is sought.
 _LARGEST = 3.0
+#: Number of strains at which it is sought first: a table may have several maxima.
+_SOUGHT_AT = 601
 
 
 class TensileTest(NamedTuple):
@@ -147,6 +151,33 @@ def voce_from_tensile_test(
     return Voce(saturation - drop * math.exp(rate * at.p_top), saturation, rate)
 
 
+def necking_strain(hardening: Hardening, young: float = math.inf) -> float:
+    """Plastic strain at the largest force y / L, by Considère; 3 if it still rises there.
+
+    Parameters
+    ----------
+    hardening : Hardening
+        The curve.
+    young : float
+        Young's modulus; infinite without elastic strains.
+    """
+    curve = hardening.curve()
+
+    def considere(p: float) -> float:
+        y, slope = curve(p)
+        return slope * (1.0 - y / young) - y
+
+    bends = [p for p in hardening.eqps if p < _LARGEST] if isinstance(hardening, Table) else []
+    strains = np.union1d(np.linspace(0.0, _LARGEST, _SOUGHT_AT), bends)
+    stresses = np.array([curve(p)[0] for p in strains.tolist()])
+    most = int(np.argmax(np.log(stresses) - strains - stresses / young))
+    if most == len(strains) - 1:
+        return _LARGEST
+    least, last = float(strains[max(most - 1, 0)]), float(strains[most + 1])
+    beside = math.nextafter(least, math.inf)  # in a bend the slope is that of one side
+    return least if considere(beside) <= 0.0 else _root(considere, beside, math.nextafter(last, 0.0))
+
+
 def tensile_test(law: J2) -> TensileTest:
     """Rp0.2, Rm and Ag of a law.
 
@@ -162,19 +193,25 @@ def tensile_test(law: J2) -> TensileTest:
         strain = p + y / law.E
         return y * math.exp(-strain), math.expm1(strain)
 
-    def offset(p: float) -> float:
-        stress, elongation = nominal(p)
-        return elongation - stress / law.E - OFFSET
-
-    def considere(p: float) -> float:
-        y, slope = curve(p)
-        return slope * (1.0 - y / law.E) - y
-
-    if considere(_LARGEST) > 0:
+    top = necking_strain(law.hardening, law.E)
+    if top == _LARGEST:
         raise InvalidValue("the force of a tensile test has no maximum", where="tensile_test", value=law.hardening)
-    top = 0.0 if considere(0.0) <= 0 else _root(considere, 0.0, _LARGEST)
     strength, elongation = nominal(top)
-    return TensileTest(nominal(_root(offset, 0.0, 0.01))[0], strength, elongation - strength / law.E)
+    return TensileTest(_proof_stress(nominal, law.E), strength, elongation - strength / law.E)
+
+
+def _proof_stress(nominal: Callable[[float], tuple[float, float]], young: float) -> float:
+    """Rp0.2 from stress and elongation at plastic strains; with large elastic strains a bar has it before it yields."""
+
+    def offset(stress: float, elongation: float) -> float:
+        return elongation - stress / young - OFFSET
+
+    def elastic(strain: float) -> tuple[float, float]:
+        return young * strain * math.exp(-strain), math.expm1(strain)
+
+    if offset(*nominal(0.0)) < 0.0:
+        return nominal(_root(lambda p: offset(*nominal(p)), 0.0, 0.01))[0]
+    return elastic(_root(lambda strain: offset(*elastic(strain)), 0.0, math.log1p(nominal(0.0)[1])))[0]
 
 
 def _root(of: Callable[[float], float], least: float, most: float) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,7 +16,7 @@ _STRAINS = np.concatenate([np.linspace(2.5e-4, 0.02, 80), np.arange(0.022, 0.3, 
 
 
 def tension_test(law: J2 | Metal, angle: float = 0.0) -> TensileTest:
-    """Rp0.2, Rm and Ag of a bar at an angle to the rolling direction.
+    """Rp0.2, Rm and Ag of a bar at an angle to the rolling direction, pulled slowly: without the factor of a rate.
 
     Parameters
     ----------
@@ -36,14 +37,16 @@ def tension_test(law: J2 | Metal, angle: float = 0.0) -> TensileTest:
     """
     if isinstance(law, J2):
         return tensile_test(law)
-    strain, stress, _ = tension(law, _STRAINS, angle)
+    strain, stress, strain_left = tension(replace(law, rate=None), _STRAINS, angle)
     nominal, elongation = stress * np.exp(-strain), np.expm1(strain)
     plastic = elongation - nominal / law.E
     top = int(np.argmax(nominal))
     if top == len(nominal) - 1:
         raise InvalidValue("the force of a tensile test has no maximum", where="tension_test", value=law)
     proof = OFFSET if plastic[top] > OFFSET else plastic[top]
-    parabola = np.polynomial.Polynomial.fit(strain[top - 1 : top + 2], nominal[top - 1 : top + 2], 2)
-    at = float(parabola.deriv().roots()[0].real)
-    strength = float(parabola(at))
+    strength, at = float(nominal[top]), float(strain[top])
+    if top > 0 and strain_left[top - 1, 0] > 0.0:  # otherwise the force falls from yield on
+        parabola = np.polynomial.Polynomial.fit(strain[top - 1 : top + 2], nominal[top - 1 : top + 2], 2)
+        at = float(parabola.deriv().roots()[0].real)
+        strength = float(parabola(at))
     return TensileTest(float(np.interp(proof, plastic, nominal)), strength, math.expm1(at) - strength / law.E)

@@ -6,12 +6,14 @@ from types import SimpleNamespace
 import pytest
 
 from umform.errors import InvalidValue
-from umform.materials import J2, Swift, Table
+from umform.materials import J2, CowperSymonds, Metal, Swift, Table
 from umform.processes.air_bending import AirBending
 from umform.processes.air_bending.formulas import shop_forces, uniform_strain
 from umform.processes.air_bending.remarks import coarse_mesh, extrapolated, force_apart, tools_text, total_force
 from umform.processes.air_bending.sheet import studied_mesh
+from umform.processes.air_bending.stack import StackedSheet
 from umform.processes.draw import UBend
+from umform.processes.draw_bead.spec import DrawBead
 from umform.processes.hemming.spec import acute
 from umform.sheet_metals import get
 
@@ -47,6 +49,14 @@ def test_one_contact_point_is_refused_on_faces_of_nine_nodes(case):
     with pytest.raises(InvalidValue, match="does not hold a face of nine nodes"):
         case(material=steel, contact_points=1, **more)
     case(material=steel, contact_points=1, element="BEND8", **more)
+
+
+@pytest.mark.parametrize("case", [AirBending, UBend, DrawBead, partial(StackedSheet, 1.0)])
+def test_a_metal_with_a_rate_is_refused(case):
+    quick = Metal(**STEEL, hardening=Swift(520.0, 0.004, 0.2), rate=CowperSymonds(40.0, 5.0))
+    more = {"thickness": 0.8, "length": 300.0, "width": 35.0, "punch_width": 50.0, "punch_edge": 5.0, "die_edge": 5.0}
+    with pytest.raises(InvalidValue, match="have no speed"):
+        case(material=quick, **(more | {"holder_force": 2e3} if case is UBend else {}))
 
 
 def test_a_force_far_from_the_rule_is_explained():

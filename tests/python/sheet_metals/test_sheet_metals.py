@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 import runpy
 from pathlib import Path
@@ -12,6 +13,7 @@ import pytest
 import umform as uf
 from umform.errors import FileProblem, InvalidValue, UmformError
 from umform.materials import Table
+from umform.results.forming.limits import KeelerBrazier
 from umform.sheet_metals import (
     get,
     names,
@@ -196,6 +198,31 @@ def test_a_force_without_maximum_is_refused():
     p = np.linspace(0, 3.5, 36)
     with pytest.raises(InvalidValue, match="no maximum"):
         tensile_test(uf.J2(E=210e3, nu=0.3, hardening=uf.Table(tuple(p), tuple(100 * np.exp(1.5 * p)))))
+
+
+def test_a_yield_point_elongation_is_not_the_largest_force():
+    """Constant yield stress up to a strain of 0.02, over which the force falls before it rises."""
+    curve = uf.Table((0.0, 0.02, 0.1, 0.3), (300.0, 300.0, 400.0, 450.0))
+    test = tensile_test(uf.J2(E=206e3, nu=0.3, hardening=curve))
+    at = 0.1 + 400.0 / 206e3
+    strength = 400.0 * np.exp(-at)
+    assert test == pytest.approx((299.0, strength, np.expm1(at) - strength / 206e3), rel=3e-4)
+    assert uf.sheet_metals.tension_test(uf.Metal(206e3, 0.3, hardening=curve)) == pytest.approx(test, rel=1e-2)
+    assert KeelerBrazier.of(1.0, uf.J2(E=206e3, nu=0.3, hardening=curve)).n == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize(("E", "stress"), [(70e3, 10.0), (1000.0, 60.0)], ids=["soft", "polymer"])
+def test_metals_that_do_not_harden_have_their_largest_force_at_yield(E, stress):
+    for law in (uf.J2(E, 0.3, hardening=uf.Perfect(stress)), uf.Metal(E, 0.3, hardening=uf.Perfect(stress))):
+        test = uf.sheet_metals.tension_test(law)
+        assert test.tensile_strength == pytest.approx(stress * np.exp(-stress / E), rel=5e-4)
+        assert test.yield_stress <= test.tensile_strength
+
+
+def test_a_metal_with_a_rate_is_pulled_slowly():
+    metal = uf.Metal(206e3, 0.3, hardening=uf.Swift(520.0, 0.004, 0.2))
+    quick = dataclasses.replace(metal, rate=uf.CowperSymonds(40.0, 5.0))
+    assert uf.sheet_metals.tension_test(quick) == uf.sheet_metals.tension_test(metal)
 
 
 @pytest.mark.skipif(not (ROOT / "examples").is_dir(), reason="the examples are not here")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from functools import lru_cache
 
@@ -11,6 +12,7 @@ from umform.materials import J2, Metal, Table
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.air_bending.stack import bonded_sheets
 from umform.sheet_metals import tension_test
+from umform.sheet_metals.tensile_test import necking_strain
 
 #: Factors in use for F = factor Rm t² / V.
 FORCE_FACTORS = (1.33, 1.42)
@@ -24,12 +26,12 @@ INNER_RADIUS = 0.16
 def tensile_strength(material: J2 | Metal, angle: float = 0.0) -> float:
     """Tensile strength Rm: for J2 the maximum of y(e) exp(-e), y the true yield stress (Considère); else from a bar.
 
-    For J2, elastic strains are neglected, and the maximum is sought up to a strain of 2. ``angle``: degrees from the
-    rolling direction to the bar.
+    For J2, elastic strains are neglected. ``angle``: degrees from the rolling direction to the bar.
     """
     if isinstance(material, Metal):
         return tension_test(material, angle).tensile_strength
-    return _most(material)[1]
+    strain = necking_strain(material.hardening)
+    return material.hardening.curve()(strain)[0] * math.exp(-strain)
 
 
 def uniform_strain(material: J2 | Metal, angle: float = 0.0) -> float:
@@ -37,21 +39,12 @@ def uniform_strain(material: J2 | Metal, angle: float = 0.0) -> float:
 
     ``angle``: degrees from the rolling direction to the bar.
     """
+    if isinstance(material.hardening, Table):
+        return float(material.hardening.eqps[-1])
     if isinstance(material, Metal):
         test = tension_test(material, angle)
         return float(np.log1p(test.uniform_elongation))
-    if isinstance(material.hardening, Table):
-        return float(material.hardening.eqps[-1])
-    return _most(material)[0]
-
-
-@lru_cache(maxsize=8)
-def _most(material: J2) -> tuple[float, float]:
-    """Strain and value of the maximum of y(e) exp(-e)."""
-    curve, strains = material.hardening.curve(), np.linspace(0.0, 2.0, 4001)
-    nominal = np.array([curve(e)[0] for e in strains.tolist()]) * np.exp(-strains)
-    at = int(np.argmax(nominal))
-    return float(strains[at]), float(nominal[at])
+    return necking_strain(material.hardening)
 
 
 def strength(case: AirBending, material: J2 | Metal | None = None) -> float:

@@ -12,7 +12,7 @@ from annotated_types import Ge, Gt, Le
 
 from umform.errors import InvalidValue
 from umform.processes.air_bending.stack import StackedSheet, bonded_sheets, check_stack
-from umform.processes.rules import PLASTIC, check_contact_points, check_rolling
+from umform.processes.rules import PLASTIC, WITHOUT_RATE, check_contact_points, check_rolling
 from umform.spec import About, check_fields, listed, names_its_words, note_of, parameters
 from umform.spec.types import ContactPoints, Degrees, Friction, Length, Positive, Rolling
 
@@ -106,7 +106,7 @@ class AirBending:
     """Drawn die; ``opening``, ``die_angle`` and ``die_radius`` are then those of the drawing."""
     width: Length | None = None
     """Length of the bend; without it plane strain, a sheet so wide that nothing moves along the bend."""
-    material: Annotated[J2 | Metal, PLASTIC] = field(default_factory=dc04_like)
+    material: Annotated[J2 | Metal, PLASTIC, WITHOUT_RATE] = field(default_factory=dc04_like)
     """Law of the sheet."""
     rolling: Rolling | None = None
     """Angle from the bend line to the rolling direction; a law with directions needs it."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Protocol
 from annotated_types import Ge, Le
 
 from umform.errors import InvalidValue
-from umform.processes.rules import PLASTIC, check_rolling
+from umform.processes.rules import PLASTIC, WITHOUT_RATE, check_rolling
 from umform.spec import About, check_fields, names_its_words
 from umform.spec.types import Length
 
@@ -35,7 +35,7 @@ class StackedSheet:
 
     thickness: Length
     """Thickness of the sheet."""
-    material: Annotated[J2 | Metal, PLASTIC]
+    material: Annotated[J2 | Metal, PLASTIC, WITHOUT_RATE]
     """Law of the sheet."""
     friction: Annotated[float, Ge(0.0), Le(2.0), About(cause="per cent instead of a part of one")] = 0.0
     """Coefficient of friction with the sheet below."""

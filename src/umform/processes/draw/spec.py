@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, cast
 from annotated_types import Ge, Le
 
 from umform.errors import InvalidValue
-from umform.processes.rules import PLASTIC, check_contact_points
+from umform.processes.rules import PLASTIC, WITHOUT_RATE, check_contact_points
 from umform.processes.solution import drawing_options, solution_keys, usual_pace
 from umform.spec import About, check_fields, parameters
 from umform.spec.types import ContactPoints, Friction, Penalty, Size
@@ -48,7 +48,7 @@ class Draw:
         float, Ge(0.01), Le(100.0), About("mm", cause="metres in place of millimetres, or a sign", remedy="such as 1")
     ]
     """Thickness of the sheet."""
-    material: Annotated[Plastic, PLASTIC]
+    material: Annotated[Plastic, PLASTIC, WITHOUT_RATE]
     """Law of the sheet."""
     punch_edge: Size
     """Radius of the edge of the punch."""

@@ -10,7 +10,7 @@ from annotated_types import Ge, Le
 
 from umform.errors import InvalidValue
 from umform.processes.extrapolation import allowed_penetration
-from umform.processes.rules import PLASTIC, check_contact_points, check_rolling
+from umform.processes.rules import PLASTIC, WITHOUT_RATE, check_contact_points, check_rolling
 from umform.processes.solution import drawing_options, usual_pace
 from umform.spec import About, check_fields, names_its_words
 from umform.spec.types import ContactPoints, Friction, Length, Penalty, Rolling
@@ -61,7 +61,7 @@ class DrawBead:
 
     thickness: Length = 0.8
     """Thickness of the sheet."""
-    material: Annotated[J2 | Metal, PLASTIC]
+    material: Annotated[J2 | Metal, PLASTIC, WITHOUT_RATE]
     """Law of the sheet."""
     radius: Length = 5.5
     """Radius of the tip of the bead."""

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from umform.errors import InvalidValue
 from umform.materials import Metal, Plastic
 from umform.materials.checks import check_finite
+from umform.sheet_metals.tensile_test import necking_strain
 from umform.sheet_metals.tension_test import tension_test
 
 Floats = NDArray[np.float64]
@@ -79,13 +80,7 @@ def _necking_strain(law: Plastic) -> float:
         test = tension_test(cast(Metal, law))
         stretch = 1.0 + test.uniform_elongation + test.tensile_strength / law.E
         return max(math.log(stretch) - test.tensile_strength * stretch / law.E, 1e-3)
-    curve = law.hardening.curve()
-    low, high = 1e-6, 1.0
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        stress, slope = curve(middle)
-        low, high = (middle, high) if slope > stress else (low, middle)
-    return max(low, 1e-3)
+    return max(necking_strain(law.hardening), 1e-3)
 
 
 @dataclass(frozen=True)
