@@ -79,12 +79,16 @@ def rolling_directions(rolling: Rolling | None, centres: Floats) -> Floats | Non
     if rolling is None:
         return None
     cells = len(centres)
-    vectors = np.array(rolling(*centres.T) if callable(rolling) else rolling, dtype=float)
+    given = rolling(*centres.T) if callable(rolling) else rolling
+    try:
+        vectors = np.array(given, dtype=float)
+    except (TypeError, ValueError):  # a letter, for instance
+        vectors = np.empty(0)
     if vectors.shape not in ((3,), (cells, 3)):
         raise InvalidValue(
             "rolling must be one vector, or one for each cell",
             where="rolling",
-            value=f"shape {vectors.shape}",
+            value=given if isinstance(given, str) else f"shape {vectors.shape}",
             cause="a name of an axis, or a vector for each node",
             remedy=f"rolling=(1, 0, 0), or an array of shape ({cells}, 3)",
         )

@@ -114,10 +114,10 @@ class Model(ShownModel):
     bodies : sequence of Body, optional
         Several bodies instead of element and material; each cell belongs to one.
     rolling : array_like, shape (3,) or (cells, 3), or callable, optional
-        Rolling direction of the sheet, or that of each cell, or a function of the coordinates x, y, z of the centres of
-        the cells; :func:`umform.rolling_at` for an angle to a bend line. e_1 of the local axes is its projection onto
-        the layer, eq. (1.26). By default e_1 lies along G_1 and follows the numbering of the mesh, which an isotropic
-        law does not see.
+        Rolling direction of the sheet, or that of each cell in the order of their numbers, or a function of the
+        coordinates x, y, z of the centres of the cells; :func:`umform.rolling_at` for an angle to a bend line. e_1 of
+        the local axes is its projection onto the layer, eq. (1.26). By default e_1 lies along G_1 and follows the
+        numbering of the mesh, which an isotropic law does not see.
     **options
         Options of the element, and its points through the thickness: thickness_points, thickness_rule,
         thickness_order, plane_strain ..., the fields of :class:`umform.elements.BodyOptions`.

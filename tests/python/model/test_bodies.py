@@ -163,6 +163,13 @@ def test_each_cell_belongs_to_one_body():
         Model(mesh, bodies=[Body(material=MILD, cells=lambda x, y, z: x > 99.0)])
     with pytest.raises(InvalidValue, match="does not exist"):
         Model(mesh, bodies=[Body(material=MILD, cells=[0, 16])])
+    for cells in (lambda x, y, z: x, lambda x, y, z: (x > 1.0)[:3]):
+        with pytest.raises(InvalidValue, match="returns True or False for each cell"):
+            Model(mesh, bodies=[Body(material=MILD, cells=cells)])
+    with pytest.raises(InvalidValue, match="whole numbers, a mask"):
+        Model(mesh, bodies=[Body(material=MILD, cells=[0.5, 2.7])])
+    with pytest.raises(InvalidValue, match=r"(?s)rolling must be one vector.*x"):
+        Model(mesh, material=MILD, rolling="x")
     with pytest.raises(InvalidValue, match="bodies, or element and material"):
         Model(mesh, material=MILD, bodies=[Body(material=MILD)])
     with pytest.raises(InvalidValue, match="element, thickness_points"):

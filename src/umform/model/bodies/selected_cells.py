@@ -25,8 +25,16 @@ def cell_numbers(mesh: Mesh, cells: Cells | None, name: str) -> Numbers:
     if cells is None:
         return np.arange(count)
     if callable(cells):
-        centres = mesh.points[mesh.connectivity].mean(axis=1)
-        cells = cells(*centres.T)
+        found = np.asarray(cells(*mesh.points[mesh.connectivity].mean(axis=1).T))
+        if found.dtype != bool or found.shape not in ((), (count,)):
+            raise InvalidValue(
+                "a predicate of x, y, z returns True or False for each cell",
+                where=f"body {name}",
+                value=f"{found.dtype} of shape {found.shape}",
+                cause="coordinates or numbers in place of truth values",
+                remedy="lambda x, y, z: x > 5.0",
+            )
+        cells = np.broadcast_to(found, count)
     if isinstance(cells, str):
         inside = np.zeros(len(mesh.points), dtype=bool)
         inside[mesh.nodes(cells)] = True
@@ -34,6 +42,14 @@ def cell_numbers(mesh: Mesh, cells: Cells | None, name: str) -> Numbers:
     chosen = np.asarray(cells)
     if chosen.dtype == bool and chosen.shape != (count,):
         raise InvalidValue("a mask of cells has one entry for each cell", where=f"body {name}", value=chosen.shape)
+    if chosen.size and chosen.dtype != bool and not np.issubdtype(chosen.dtype, np.integer):
+        raise InvalidValue(
+            "cells of a body are whole numbers, a mask, a predicate, or the name of a set",
+            where=f"body {name}",
+            value=f"{chosen.dtype} of shape {chosen.shape}",
+            cause="coordinates or fractions in place of the numbers of cells",
+            remedy="cells=[0, 1, 2]",
+        )
     numbers = np.flatnonzero(chosen) if chosen.dtype == bool else np.unique(chosen.astype(np.int64))
     if len(numbers) == 0:
         raise EmptySet("a body has no cell", where=f"body {name}", remedy="look at its predicate or its numbers")
