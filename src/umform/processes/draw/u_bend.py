@@ -58,7 +58,7 @@ class UBend(Draw):
         ---------.  punch_edge  .-------
            die    |            |         opening, die_edge
 
-    Half of it is computed, in plane strain.
+    Half of it is computed, in plane strain; the strip is cut along the rolling direction.
 
     Examples
     --------
