@@ -16,6 +16,8 @@ from umform.materials import J2, Hardening, Metal
 from umform.sheet_metals.cards import card_rows, made_card
 from umform.sheet_metals.sheet_metal import SheetMetal
 from umform.sheet_metals.tensile_test import swift_from_tensile_test, voce_from_tensile_test
+from umform.spec import check_arguments
+from umform.spec.types import Positive
 
 _CURVES: dict[str, Callable[[float, float, float, float], Hardening]] = {
     "Swift": swift_from_tensile_test,
@@ -41,7 +43,7 @@ def cards() -> tuple[str, ...]:
     return tuple(card_rows())
 
 
-def get(name: str, thickness: float | None = None) -> SheetMetal:
+def get(name: str, thickness: Positive | None = None) -> SheetMetal:
     """Sheet metal by name.
 
     Parameters
@@ -60,8 +62,9 @@ def get(name: str, thickness: float | None = None) -> SheetMetal:
     Raises
     ------
     InvalidValue
-        If the library has no such metal; the message names the most similar one.
+        If the library has no such metal; the message names the most similar one. If the thickness is not positive.
     """
+    check_arguments(get, thickness=thickness)
     known = _known()
     key = _plain(name)
     if key in known:

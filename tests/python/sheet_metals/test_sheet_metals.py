@@ -270,3 +270,9 @@ def test_s355_has_other_least_values_from_3_mm_on():
         assert test.tensile_strength == pytest.approx(strength, rel=2e-3)
         assert f"Rm {strength:g} MPa" in metal.note
     assert get("DC04", 5.0) is get("DC04")
+
+
+@pytest.mark.parametrize("thickness", [0.0, -1.0, float("nan"), "2"])
+def test_a_thickness_that_is_none_is_refused(thickness):
+    with pytest.raises(InvalidValue, match="thickness"):
+        get("St 52-3", thickness)
