@@ -121,11 +121,15 @@ def drawings(problem: Prepared) -> Iterator[Finding]:
 
 
 def forming_limit(contents: Contents, problem: Prepared) -> Iterator[Finding]:
-    """Refuse the curve of Keeler and Brazier without a flow curve that gives its n."""
+    """Refuse the curve of Keeler and Brazier without a flow curve that gives its n, and without millimetres."""
+    named, remedy = contents.output.forming_limit, "forming_limit = [[-0.2, 0.5], [0.0, 0.3], [0.2, 0.4]], of a test"
+    if not isinstance(named, str):
+        return
     laws = [body.material for body in problem.model.bodies]
-    if isinstance(contents.output.forming_limit, str) and not (len(laws) == 1 and isinstance(laws[0], Plastic)):
-        text = f"{contents.output.forming_limit} needs the hardening of one plastic material"
-        yield error("output", text, "forming_limit = [[-0.2, 0.5], [0.0, 0.3], [0.2, 0.4]], strains of a test")
+    if not (len(laws) == 1 and isinstance(laws[0], Plastic)):
+        yield error("output", f"{named} needs the hardening of one plastic material", remedy)
+    if contents.units.length not in ("", "mm"):
+        yield error("output", f"{named} takes the thickness in mm, the deck has {contents.units.length}", remedy)
 
 
 def idle(deck: Problem) -> Iterator[Finding]:

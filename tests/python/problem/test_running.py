@@ -248,6 +248,8 @@ def test_a_forming_limit_of_keeler_and_brazier(deck, tmp_path):
     elastic, steel = (f"material={{{law}, E=210e3, nu=0.3}}" for law in ('law="SVK"', f'law="J2", hardening={SWIFT}'))
     refused = umform("run", deck, "--out", tmp_path / "out", *changes, elastic)
     assert refused.exit_code == 1 and "needs the hardening" in refused.output
+    refused = umform("run", deck, "--out", tmp_path / "out", *changes, steel, "--set", 'units={length="m"}')
+    assert refused.exit_code == 1 and "takes the thickness in mm" in refused.output
     answer = umform("run", deck, "--out", tmp_path / "out", *changes, steel)
     assert answer.exit_code == 0, answer.output
     table = np.genfromtxt(tmp_path / "out" / "fields.csv", delimiter=",", names=True)
