@@ -43,8 +43,10 @@ class Chaboche(ParametersInNotebook):
     """Rate of the change of the moduli with the plastic strain."""
 
     def __post_init__(self) -> None:
-        parts = tuple(tuple(float(number) for number in part) for part in self.parts)
-        object.__setattr__(self, "parts", parts)
+        try:
+            parts = tuple(tuple(float(number) for number in part) for part in self.parts)
+        except (TypeError, ValueError):  # a pair, or words
+            parts = ()
         if not 1 <= len(parts) <= _MOST or any(len(part) != 2 for part in parts):
             raise InvalidValue(
                 "back stresses are one to four pairs (C, gamma)",
@@ -53,6 +55,7 @@ class Chaboche(ParametersInNotebook):
                 cause="a single pair that is not in a list, or one number too many",
                 remedy="Chaboche([(3000.0, 30.0)])",
             )
+        object.__setattr__(self, "parts", parts)
         check_fields(self)
         for number, (modulus, recall) in enumerate(parts, start=1):
             check_finite(f"Chaboche, back stress {number}", C=modulus, gamma=recall)

@@ -191,8 +191,17 @@ class Table(ParametersInNotebook, Hardening):
     """Yield stresses, not decreasing."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "eqps", tuple(float(e) for e in self.eqps))
-        object.__setattr__(self, "stress", tuple(float(s) for s in self.stress))
+        for name in ("eqps", "stress"):
+            try:
+                object.__setattr__(self, name, tuple(float(value) for value in getattr(self, name)))
+            except (TypeError, ValueError):
+                raise InvalidValue(
+                    "a hardening table has a column of numbers for strains and one for stresses",
+                    where=f"Table, {name}",
+                    value=getattr(self, name),
+                    cause="a single number, or words such as the head of a column",
+                    remedy="Table(eqps=(0.0, 0.1, 0.3), stress=(200.0, 300.0, 350.0))",
+                ) from None
         if len(self.eqps) != len(self.stress) or len(self.eqps) < 2:
             raise InvalidValue(
                 "a hardening table needs two or more pairs",

@@ -92,6 +92,16 @@ def point_path(
             cause="components that were left out",
             remedy="NaN in strain where the stress is prescribed",
         )
+    unknown = ~np.isfinite(np.where(np.isnan(wanted), given, wanted)).all(axis=1)
+    if unknown.any():
+        row = int(np.argmax(unknown))
+        raise InvalidValue(
+            "each component of a path has a finite strain or a finite stress",
+            where=f"point_path, row {row}",
+            value=f"strain {wanted[row].tolist()}, stress {given[row].tolist()}",
+            cause="NaN in both, or a gap in measured data",
+            remedy="NaN in strain where the stress is prescribed, and the stress there",
+        )
     steps = _durations(material, time, len(wanted))
     law, finite = _law(material)
     turn = _turned(math.radians(angle))
@@ -160,6 +170,14 @@ def tension(
             value=strains,
             cause="a gap in measured data, or a single strain",
             remedy="a list of numbers",
+        )
+    if component not in range(6):
+        raise InvalidValue(
+            "a component is a place in 11, 22, 33, 12, 23, 13",
+            where="tension, component",
+            value=component,
+            cause="a place that is counted from 1, or from the end",
+            remedy="0 for tension along axis 1, 3 for shear in the plane of the sheet",
         )
     path = np.full((len(along), 6), np.nan)
     path[:, component] = along

@@ -79,6 +79,9 @@ def test_rotation_of_the_sheet_changes_nothing():
         (lambda: mt.Hosford(math.nan), "from 2 to 20"),
         (lambda: mt.Chaboche([(-3000.0, 30.0)]), "C must be positive"),
         (lambda: mt.Chaboche([]), "one to four"),
+        (lambda: mt.Chaboche((3000.0, 30.0)), "(?s)one to four.*a single pair that is not in a list"),
+        (lambda: mt.Table(0.1, 200.0), "a column of numbers"),
+        (lambda: mt.Table(("strain", "0.1"), (200.0, 300.0)), "a column of numbers"),
         (lambda: mt.Chaboche([(1.0, 1.0)] * 5), "one to four"),
         (lambda: mt.YoshidaUemori(C=500.0, B=168.0, growth=190.0, b=-9.0, m=12.0, h=0.5), "must be positive"),
         (

@@ -104,3 +104,17 @@ def test_what_is_no_law_is_refused():
 def test_a_gap_in_the_strains_of_a_bar_is_refused():
     with pytest.raises(uf.errors.InvalidValue, match="finite strains"):
         tension(J2, [0.01, np.nan, 0.05])
+
+
+def test_a_component_with_neither_strain_nor_stress_is_refused():
+    strain, stress = np.full((2, 6), np.nan), np.zeros((2, 6))
+    strain[:, 0] = 0.01
+    stress[1, 2] = np.nan
+    with pytest.raises(InvalidValue, match=r"(?s)a finite strain or a finite stress.*row 1"):
+        point_path(METAL, strain, stress)
+
+
+@pytest.mark.parametrize("component", [-1, 6])
+def test_a_component_that_is_none_is_refused(component):
+    with pytest.raises(InvalidValue, match="a component is a place"):
+        tension(METAL, [0.01], component=component)
