@@ -63,10 +63,15 @@ def grid(x: Lines, y: Lines, z: Lines, cell: str = "hex8", thickness: Positive |
         With node and face sets x0, x1, y0, y1, lower, upper, and node sets x0_lower, x0_upper, ... for their edges.
     """
     check_arguments(grid, thickness=thickness)
-    lines = [np.asarray(values, dtype=float) for values in (x, y, z)]
-    for name, values in zip("xyz", lines, strict=True):
+    lines = []
+    for name, given in (("x", x), ("y", y), ("z", z)):
+        try:
+            values = np.asarray(given, dtype=float)
+        except (TypeError, ValueError):  # words, for instance
+            values = np.empty(0)
         if values.ndim != 1 or len(values) < 2 or not (np.diff(values) > 0).all():
-            raise InvalidValue("grid lines must increase", where=name, value=values)
+            raise InvalidValue("grid lines must increase", where=name, value=given)
+        lines.append(values)
     if thickness is not None and thickness != np.ptp(lines[2]):
         lines[2] = lines[2][0] + (lines[2] - lines[2][0]) * (thickness / np.ptp(lines[2]))
     if cell not in ("hex8", "hex18"):

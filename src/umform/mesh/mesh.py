@@ -297,8 +297,20 @@ class Mesh:
         return points
 
     def moved(self, translation: ArrayLike) -> Mesh:
-        """The same mesh with all points shifted."""
-        return self.transformed(lambda X: X + np.asarray(translation, dtype=float))
+        """The same mesh with all points shifted by three numbers."""
+        try:
+            shift = np.asarray(translation, dtype=float)
+        except (TypeError, ValueError):  # a letter, for instance
+            shift = np.empty(0)
+        if shift.shape != (3,):
+            raise InvalidValue(
+                "a translation has three components",
+                where="Mesh.moved",
+                value=translation,
+                cause="one number, or a vector of a plane",
+                remedy="mesh.moved((0.0, 0.0, 1.0))",
+            )
+        return self.transformed(lambda X: X + shift)
 
     def transformed(self, function: Callable[[Floats], Floats]) -> Mesh:
         """The same mesh with its points (n, 3) mapped by ``function``."""

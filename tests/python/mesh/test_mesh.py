@@ -375,8 +375,17 @@ def test_all_refusals_of_the_mesh_are_mesh_errors_or_invalid_values():
 def test_a_mesh_moves_and_follows_a_displacement():
     mesh = strip(2.0, 1.0, 0.5, (2, 1))
     assert np.array_equal(mesh.moved((1.0, 0.0, 0.25)).points, mesh.points + np.array([1.0, 0.0, 0.25]))
+    for translation in (1.0, (1.0, 2.0), "z"):
+        with pytest.raises(InvalidValue, match="three components"):
+            mesh.moved(translation)
     u = np.arange(3.0 * len(mesh.points))
     assert np.array_equal(mesh.displaced(u), mesh.points + u.reshape(-1, 3))
     model = Model(mesh, material=SVK(E=1.0, nu=0.0))
     model.u = u
     assert np.array_equal(model.positions, mesh.displaced(u))
+
+
+def test_grid_lines_that_are_none_are_refused():
+    for lines in ("ab", 1.0, [0.0, np.nan]):
+        with pytest.raises(InvalidValue, match="grid lines must increase"):
+            grid([0.0, 1.0], lines, [0.0, 1.0])
