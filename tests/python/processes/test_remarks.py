@@ -79,11 +79,12 @@ def test_the_uniform_strain_is_that_of_the_library(name):
     assert uniform_strain(metal.law) == pytest.approx(metal.valid_strain, abs=5e-3)
 
 
-def test_a_flow_curve_is_extrapolated_beyond_its_data():
-    measured = AirBending(material=J2(**STEEL, hardening=Table((0.0, 0.1, 0.4), (200.0, 300.0, 400.0))))
+@pytest.mark.parametrize("law", [J2, Metal])
+def test_a_flow_curve_is_extrapolated_beyond_its_data(law):
+    measured = AirBending(material=law(**STEEL, hardening=Table((0.0, 0.1, 0.4), (200.0, 300.0, 400.0))))
     assert extrapolated(measured, 0.39) == []
     assert "0.41 exceeds the 0.40" in extrapolated(measured, 0.41)[0]
-    swift = AirBending(material=J2(**STEEL, hardening=Swift(500.0, 1e-6, 0.2)))
+    swift = AirBending(material=law(**STEEL, hardening=Swift(500.0, 1e-6, 0.2)))
     assert extrapolated(swift, 0.19) == []
     assert "exceeds the 0.20" in extrapolated(swift, 0.25)[0]
 

@@ -153,7 +153,7 @@ def test_a_second_run_goes_down_where_a_larger_value_is_refused_or_changes_the_m
 
 
 class Two(OfFunction):
-    """Two operations: the second one has another mesh, as a sheet that is laid beside the first."""
+    """Two operations with different meshes, such as a second sheet that is added."""
 
     def build(self):
         model, move = build(**self.values, cells=6)
