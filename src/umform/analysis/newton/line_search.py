@@ -33,6 +33,8 @@ def shortened(
     r: Floats,
     evaluation: Evaluation,
     length: float,
+    *,
+    keep: bool = False,
 ) -> tuple[Evaluation, float]:
     """The evaluation where the slope along the increment has decreased, and the accepted part of the increment.
 
@@ -50,6 +52,8 @@ def shortened(
         At ``u + length du``.
     length : float
         Accepted part of the increment.
+    keep : bool
+        Whether tools hold open points at ``u``: a part of the increment leaves them open, so they stay held.
     """
     along = system.coefficients(du)
     slope = system.ranks.dot(r, along)
@@ -60,7 +64,7 @@ def shortened(
         part = min(max(1.0 / (1.0 + overshoot), _SHORTEST), _LONGEST)  # the secant of the slope
         system.shorten(part)
         length *= part
-        evaluation = system.evaluate(system.state_at(u + length * du, goal))
+        evaluation = system.evaluate(system.state_at(u + length * du, goal), keep=keep)
     return evaluation, length
 
 

@@ -293,7 +293,7 @@ class Newton:
             recorder.add(evaluation, residual, increment, energy, length, tangent.pivots)
             tangent.plan(evaluation)
             evaluation = evaluation.without_tangent()  # factors exist: release the memory of the tangent
-            evaluation, length = self._advanced(goal, evaluation.x, du, r, mode, longest, tangent)
+            evaluation, length = self._advanced(goal, evaluation, du, r, mode, longest, tangent)
             increment = length * self._relative(du, evaluation)
         raise Failed(f"no convergence in {len(iterations)} iterations", iterations, Cause.ITERATIONS)
 
@@ -335,10 +335,17 @@ class Newton:
         return done or (near and bool(self.system.too_deep(evaluation)))
 
     def _advanced(
-        self, goal: State, u: Floats, du: Floats, r: Floats, mode: IterationMode, longest: float, tangent: Tangent
+        self,
+        goal: State,
+        before: Evaluation,
+        du: Floats,
+        r: Floats,
+        mode: IterationMode,
+        longest: float,
+        tangent: Tangent,
     ) -> tuple[Evaluation, float]:
         """The evaluation after the increment, or after a part of it if it is too long; this part. eq. (5.12)"""
-        system, length = self.system, longest
+        system, u, length = self.system, before.x, longest
         system.recover(du, mode.mixed)
         if length < 1.0:
             system.shorten(length)
@@ -346,7 +353,7 @@ class Newton:
         if tangent.shifted:
             return lengthened(system, goal, u, du, r, evaluation, length)
         if tangent.searches:
-            return shortened(system, goal, u, du, r, evaluation, length)
+            return shortened(system, goal, u, du, r, evaluation, length, keep=before.kept)
         return evaluation, length
 
     def ready_solver(self) -> Bordered:
