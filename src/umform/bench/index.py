@@ -60,7 +60,7 @@ class Job:
     created, ended : float or None
         Seconds since 1970.
     starts : int
-        Number of starts.
+        Number of starts since it was ordered, resumed, or handed on by a server.
     folder : str
         Folder of its files, relative to the folder of the bench.
     """
@@ -153,13 +153,20 @@ class Index:
             pass
 
     def change(
-        self, name: str, state: str, *, reason: str = "", summary: Mapping[str, Any] | None = None, start: bool = False
+        self,
+        name: str,
+        state: str,
+        *,
+        reason: str = "",
+        summary: Mapping[str, Any] | None = None,
+        start: bool = False,
+        anew: bool = False,
     ) -> None:
-        """Set the state of a job."""
+        """Set the state of a job; ``anew``: its starts count from 0."""
         assert state in STATES
         ended = None if state in UNFINISHED else time.time()
-        text = "UPDATE jobs SET state = ?, reason = ?, summary = ?, ended = ?, starts = starts + ? WHERE id = ?"
-        values = (state, reason[:4000], json.dumps(dict(summary or {})), ended, int(start), name)
+        text = "UPDATE jobs SET state = ?, reason = ?, summary = ?, ended = ?, starts = ? * starts + ? WHERE id = ?"
+        values = (state, reason[:4000], json.dumps(dict(summary or {})), ended, int(not anew), int(start), name)
         with self._query(text, values):
             pass
 

@@ -17,6 +17,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from umform.bench.errors_as_json import error_record
 from umform.bench.folders import DECK, LIVE, LOCK, NAME, ORDER, OUTCOME, RESULTS, SHAPE, is_locked
 from umform.bench.index import UNFINISHED, Index, Job
 from umform.bench.limits import Disk
@@ -102,7 +103,7 @@ class Queue:
                 job = self.index.job(name)
                 asked = name in self._deadlines
                 if job is not None and not self._store_outcome(job, keep_waiting=not asked):
-                    self.index.change(name, "stopped" if asked else "waiting")
+                    self.index.change(name, "stopped" if asked else "waiting", anew=True)
             self.spare.end()
             self.index.close()
 
@@ -183,7 +184,7 @@ class Queue:
             if job is None or job.state not in ("stopped", "failed"):
                 return
             (self.folder_of(name) / OUTCOME).unlink(missing_ok=True)
-            self.index.change(name, "waiting")
+            self.index.change(name, "waiting", anew=True)
         self._wake.set()
 
     def remove(self, name: str) -> bool:
@@ -244,7 +245,14 @@ class Queue:
             elif job.starts < MOST_STARTS:
                 self.index.change(name, "waiting")
             else:
-                self.index.change(name, "failed", reason=f"its process ended {job.starts} times without a result")
+                error = UmformError(
+                    f"its process ended {job.starts} times without a result",
+                    where="job",
+                    value=job.number,
+                    cause="it was killed, perhaps for want of memory",
+                    remedy="a coarser mesh, or fewer jobs at a time; jobs.log of the folder has its output",
+                )
+                self.index.change(name, "failed", reason=str(error), summary={"error": error_record(error)})
 
     def _start_waiting(self) -> None:
         """Start waiting jobs up to the limit; keep a spare process if none runs or more wait."""

@@ -87,14 +87,26 @@ def _outcome(folder: Path) -> dict[str, Any]:
         work = _bend if order["kind"] == "bend" else _deck
         return {"state": "done", "reason": "", "summary": work(folder, order)}
     except UmformError as error:
-        return {"state": "failed", "reason": str(error), "summary": {"error": error_record(error)}}
+        return _failed(error)
     except KeyboardInterrupt:
         return {"state": "stopped", "reason": "", "summary": {}}
     except MemoryError:
-        return {"state": "failed", "reason": "the job needs more memory than this machine has", "summary": {}}
+        return _failed(
+            UmformError(
+                "the job needs more memory than this machine has",
+                where="job",
+                cause="too many elements: a fine mesh, or a long part",
+                remedy="a coarser mesh, or a shorter part",
+            )
+        )
     except Exception as error:
         traceback.print_exc()
         return {"state": "failed", "reason": f"{type(error).__name__}: {error}"[:2000], "summary": {}}
+
+
+def _failed(error: UmformError) -> dict[str, Any]:
+    """The outcome of a job with an error."""
+    return {"state": "failed", "reason": str(error), "summary": {"error": error_record(error)}}
 
 
 def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:

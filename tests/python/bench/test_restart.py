@@ -189,6 +189,11 @@ def test_process_that_dies_without_a_word_is_started_again_but_not_for_ever(tmp_
     wait(lambda: queue.index.job(name).state not in UNFINISHED)
     job = queue.index.job(name)
     assert (job.state, job.starts) == ("failed", MOST_STARTS) and "without a result" in job.reason
+    assert "memory" in job.summary["error"]["cause"] and "jobs.log" in job.summary["error"]["remedy"]
+    queue.resume(name)
+    wait(lambda: queue.index.job(name).state not in UNFINISHED)
+    job = queue.index.job(name)
+    assert (job.state, job.starts) == ("failed", MOST_STARTS) and f"{MOST_STARTS} times" in job.reason
     queue.close()
 
 
