@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from umform.processes.air_bending import AirBending
+from umform.processes.air_bending.remarks import coarse_mesh
 from umform.results.quantity import Band, Quantity
 
 PAGE = Path(str(files("umform.bench").joinpath("page")))
@@ -82,3 +84,16 @@ def test_numbers_are_read_with_either_sign_and_never_guessed():
         wanted = [[value, sign not in text] for text, value in zip(texts, values, strict=True)]
         wanted[5 if language == "en" else 6] = "ambiguous"  # three decimals, or thousands
         assert read_in_the_page(texts, language) == wanted
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="no Node to run JavaScript")
+def test_a_message_with_a_list_is_german_as_a_whole():
+    script = "globalThis.fetch = async () => ({ json: async () => JSON.parse(process.argv[2]) });"
+    script += "import(process.argv[1]).then(async ({ loadMessages, message }) => { await loadMessages('de');"
+    script += "console.log(message(process.argv[3])); });"
+    (said,) = coarse_mesh(AirBending(layers=1, elements_per_thickness=1.0))
+    german = PAGE.joinpath("messages.de.json").read_text(encoding="utf-8")
+    arguments = [(PAGE / "messages.js").as_uri(), german, said]
+    command = ["node", "--experimental-default-type=module", "--no-warnings", "-e", script, *arguments]
+    text = subprocess.run(command, check=True, timeout=60, capture_output=True, text=True).stdout
+    assert "Elemente je Dicke 1 (Vorgabe 3), Lagen 1 (Vorgabe 2); nur zum Ausprobieren" in text

@@ -27,8 +27,15 @@ export function message(text) {
     const found = pattern.exec(text);
     if (found) {
       let at = 0;
-      return other.replace(/\{\}/g, () => message(found[(at += 1)]));
+      return other.replace(/\{\}/g, () => listed(found[(at += 1)]));
     }
   }
   return text;
+}
+
+/** An insert: a list of messages, or one of them. @param {string} text */
+function listed(text) {
+  const parts = text.split(", ");
+  const said = parts.map(message);
+  return said.every((one, i) => one !== parts[i]) ? said.join(", ") : message(text);
 }

@@ -33,17 +33,25 @@ def depth_text(below_die: float) -> str:
     return f"for the machine: the tip of the punch {abs(below_die):.3f} mm {side} the top of the die"
 
 
+#: Settings of the mesh beside their defaults.
+_SETTINGS = {
+    "elements_per_thickness": "elements per thickness {:g} (default {:g})",
+    "layers": "layers {:g} (default {:g})",
+    "width_elements": "width elements {:g} (default {:g})",
+}
+
+
 def coarse_mesh(case: AirBending, like: AirBending | None = None) -> list[str]:
     """Remarks if the mesh is coarser than a default one, or has other elements than the studies of errors."""
     like = like or AirBending()
-    names = ["elements_per_thickness", "layers", *(["width_elements"] if case.width is not None else [])]
-    below = {name: getattr(like, name) for name in names if getattr(case, name) < getattr(like, name)}
-    given = ", ".join(f"{name.replace('_', ' ')} {getattr(case, name):g} (default {n:g})" for name, n in below.items())
+    names = [name for name in _SETTINGS if name != "width_elements" or case.width is not None]
+    pairs = {name: (getattr(case, name), getattr(like, name)) for name in names}
+    below = [_SETTINGS[name].format(own, usual) for name, (own, usual) in pairs.items() if own < usual]
     found = []
     if below:
         found.append(
-            f"coarse mesh: {given}; for a trial only, the angle may be off by some degrees; force, springback and "
-            "thinning are those of this mesh"
+            f"coarse mesh: {', '.join(below)}; for a trial only, the angle may be off by some degrees; force, "
+            "springback and thinning are those of this mesh"
         )
     made = element(case.element)
     if made.cell != element(like.element).cell:
