@@ -50,7 +50,9 @@ class Wanted:
 
     @classmethod
     def read(cls, form: object) -> Wanted:
-        """The values of a form; fields that are not given have their defaults, those of other work are left out.
+        """The values of a form; fields that are not given have their defaults.
+
+        Those of other work, and of a second sheet without a metal, are left out.
 
         Raises
         ------
@@ -62,8 +64,11 @@ class Wanted:
         known = form_fields()
         errors = [unknown(name) for name in form if name not in known]
         work = form.get("work", known["work"].default)
+        alone = form.get(f"{SECOND}material") is None
         values: dict[str, Any] = {}
         for name, one in known.items():
+            if alone and one.parameter.spec is StackedSheet:
+                continue
             if work in one.works or work not in WORKS:
                 try:
                     values[name] = value_of(one, form.get(name, one.default))
@@ -112,15 +117,15 @@ class Wanted:
 
         own = self.choices
         thickness = self.values.get(f"{own.work}_thickness", thickness)
-        if own.yield_stress is None or own.tensile_strength is None:
-            metal = get(own.material, self.values.get("thickness", thickness))
-        else:
-            elongation = None if own.uniform_elongation is None else 0.01 * own.uniform_elongation
-            try:
+        try:
+            if own.yield_stress is None or own.tensile_strength is None:
+                metal = get(own.material, self.values.get("thickness", thickness))
+            else:
+                elongation = None if own.uniform_elongation is None else 0.01 * own.uniform_elongation
                 metal = of_certificate(own.material, own.yield_stress, own.tensile_strength, elongation)
-            except InvalidValue as error:
-                error.where = error.where or "tensile_strength"
-                raise
+        except InvalidValue as error:
+            error.where = {"sheet_metals": "material", "": "tensile_strength"}.get(error.where, error.where)
+            raise
         return metal.law, metal.note
 
     def case(self, shelf: Shelf | None = None) -> AirBending:

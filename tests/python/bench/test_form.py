@@ -19,7 +19,6 @@ PROGRAM = """
 import json
 from typer.testing import CliRunner
 from umform.bench.library import library
-from umform.bench.form_check import look
 from umform.bench.wanted import Wanted
 from umform.cli import app
 from umform.processes.air_bending import AirBending
@@ -77,6 +76,13 @@ def test_fields_of_other_work_are_neither_checked_nor_kept():
     assert not {"gap", "bends", "travel"} & wanted.values.keys()
     with pytest.raises(Mistakes):
         Wanted.read({"work": "hem", "gap": -1.0})
+
+
+def test_sizes_of_a_second_sheet_are_kept_with_its_metal_only():
+    assert "second_thickness" not in Wanted.read({"second_thickness": -1.0}).values
+    assert Wanted.read({"second_material": "DC04", "second_thickness": 2}).values["second_thickness"] == 2.0
+    with pytest.raises(Mistakes):
+        Wanted.read({"second_material": "DC04", "second_thickness": -1.0})
 
 
 def test_all_mistakes_are_said_at_once():

@@ -82,6 +82,53 @@ def test_all_bends_of_an_order_are_one_table_that_fills(visit):
     page.wait_for_selector("#series-table")
 
 
+def test_orders_with_other_tools_are_told_apart_in_their_table_and_no_angle_is_left_out(visit):
+    page = visit.page
+    quick(page, 1)
+    page.fill("#f-angle", "150")
+    page.locator("#fields summary", has_text="Die and punch").click()
+    for radius in ("2", "2.5"):
+        page.fill("#f-punch_radius", radius)
+        page.click("#table")
+        page.fill("#table-angles", "170")
+        page.fill("#table-openings", "16")
+        page.click("#table-go")
+        page.wait_for_selector("#series-table")
+        page.click("nav [data-view=bend]")
+    page.fill("#f-die_radius", "3")
+    page.click("#table")
+    page.fill("#table-angles", "160:172:1")
+    page.fill("#table-openings", "16 20")
+    orders = []
+
+    def taken(route):
+        if route.request.method != "POST":
+            return route.fallback()
+        orders.append(route.request.post_data_json["forms"])
+        return route.fulfill(json={"jobs": [], "refused": [{"title": "all of them"}]})
+
+    page.route("**/api/jobs", taken)
+    page.click("#table-go")
+    page.locator("#table-dialog", has_text="all of them").wait_for()
+    (forms,) = orders
+    assert len(forms) == 26
+    assert {(form["opening"], form["die_radius"]) for form in forms} == {(16, 3), (20, 2.5)}  # the form, the library
+    page.keyboard.press("Escape")
+    page.evaluate("location.hash = '#all/DC04%202%20mm'")
+    page.wait_for_function("() => !document.querySelector('#series-table .state')")
+    assert "Tip radius" in page.locator("#series-table thead").inner_text()
+    rows = page.locator("#series-table tbody tr", has_text="170°").all()
+    assert [row.locator("td").first.inner_text() for row in rows] == ["2.5", "2"]
+
+
+def test_what_jobs_were_given_is_said_in_words(visit):
+    said = "import('/assets/fields.js').then(({ givenText }) => Object.keys(given).map((name) => "
+    said += "givenText({ parameters: given }, name)))"
+    given = {"work": "bottom", "whole": False, "material": "DC04", "stroke": None, "opening": 16}
+    words = visit.page.evaluate(f"(given) => {said}", given)
+    assert words == ["bottoming", "no", "DC04", "–", "16"]
+
+
 def test_on_a_phone_the_page_goes_to_the_result_and_says_so(browser, link):
     visit = Visit(browser, link, **PHONE)
     page = visit.page
@@ -140,6 +187,9 @@ def test_a_finished_deck_shows_all_increments(visit):
     assert "Largest von Mises stress" in page.locator(".heroes.first").inner_text()
     page.locator(".last summary").click()
     assert "force_force" not in page.locator(".last").inner_text()  # columns in words
+    assert not page.locator("#sketch").is_visible() and not page.locator("#expected > *").count()  # those of the form
+    page.click("nav [data-view=bend]")
+    page.locator("#sketch").wait_for()
 
 
 def test_results_fit_and_axe_finds_nothing_serious(visit):

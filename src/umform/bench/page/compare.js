@@ -3,10 +3,10 @@
 
 import { get } from "./api.js";
 import { element, make, wide } from "./dom.js";
-import { fields, label } from "./fields.js";
+import { differing, fullHeading, givenText } from "./fields.js";
 import { plot } from "./plot.js";
 import { cell, forShop, heading } from "./quantities.js";
-import { language, number, t } from "./texts.js";
+import { language, t } from "./texts.js";
 
 /** @param {string[]} names */
 export async function compare(names) {
@@ -20,9 +20,7 @@ export async function compare(names) {
   }
   const curves = await Promise.all(jobs.map(async (job) => ({ name: `${job.number}`, ...(await get(`/api/jobs/${job.id}/curve`)) })));
   const head = make("tr", {}, make("td"), ...jobs.map((job, i) => make("th", { scope: "col" }, make("i", { class: `swatch c${i % 6}` }), `${job.number}`)));
-  const given = fields.map(({ name }) => name)
-    .filter((name) => new Set(jobs.map((job) => JSON.stringify(job.parameters[name] ?? null))).size > 1 || ["material", "angle"].includes(name))
-    .map((name) => givenRow(label(name), jobs.map((job) => shown(job.parameters[name]))));
+  const given = [...new Set(["material", "angle", ...differing(jobs)])].map((name) => givenRow(fullHeading(name), jobs.map((job) => givenText(job, name))));
   /** @type {import("./quantities.js").Quantity[][]} */
   const columns = jobs.map((job) => [...(job.summary.quantities ?? []), ...(job.summary.checks ?? [])]);
   const row = (/** @type {string} */ name, /** @type {(one: any, job: any) => any} */ as) => {
@@ -41,6 +39,3 @@ export async function compare(names) {
 
 /** @param {string} name @param {string[]} cells */
 const givenRow = (name, cells) => make("tr", {}, make("th", { scope: "row" }, name), ...cells.map((cell) => make("td", {}, cell)));
-
-/** @param {any} value */
-const shown = (value) => (typeof value === "number" ? number(value) : value ?? "–");

@@ -16,6 +16,7 @@ export class Deck {
     this.text.addEventListener("input", () => this.changed());
     for (const event of ["click", "keyup"]) this.text.addEventListener(event, () => this.help());
     element("deck-template").addEventListener("change", () => this.take());
+    element("deck-file").addEventListener("click", () => { element("deck-file").value = ""; }); // the same file again is a change
     element("deck-file").addEventListener("change", () => this.open());
     element("deck-check").addEventListener("click", () => this.check());
     element("deck-run").addEventListener("click", () => this.run());

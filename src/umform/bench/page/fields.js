@@ -2,7 +2,7 @@
 // The fields of the form, as the server reads them off the parameters of the processes.
 
 import { message } from "./messages.js";
-import { has, t } from "./texts.js";
+import { has, number, t } from "./texts.js";
 
 /**
  * @typedef {{name: string, label: string, help: string, valid: string, unit: string, group: string, works: string[],
@@ -48,3 +48,17 @@ export const sizeField = (tool, size) => fields.find((one) => one.tool === tool 
 /** Sizes of a tool by their own names, from values of the form. @param {"punch" | "die"} tool @param {Record<string, any>} values */
 export const sizesIn = (tool, values) =>
   Object.fromEntries(fields.filter((one) => one.tool === tool && one.name in values).map((one) => [one.size, values[one.name]]));
+
+/** Names of the fields in which jobs differ. @param {any[]} jobs */
+export const differing = (jobs) => fields.map(({ name }) => name)
+  .filter((name) => new Set(jobs.map(({ parameters }) => JSON.stringify(parameters[name] ?? null))).size > 1);
+
+/** The label of a field beside those of all groups. @param {string} name */
+export const fullHeading = (name) => (name.startsWith("second_") ? `${t("group.Second sheet")}: ${label(name)}` : label(name));
+
+/** The value of a field of a job, in words. @param {any} job @param {string} name @returns {string} */
+export function givenText({ parameters }, name) {
+  const value = parameters[name] ?? null;
+  if (typeof value === "boolean") return t(value ? "yes" : "no");
+  return typeof value === "string" ? t(`${name}.${value}`, {}, value) : number(value);
+}

@@ -36,7 +36,7 @@ const bend = ({ number: count, angle, direction, radius, radius_of_the_drawing: 
 
 /** @param {any} step @param {number} i @param {number} part angle of the part there */
 const step = ({ bend: count, turned, opening, die_angle: die, punch_radius: punch, stop, against, stroke, loaded_angle: loaded, force }, i, part) =>
-  [i + 1, count, turned ? t("flat.turned") : "", `${number(part, 2)}°`, `V${number(opening)} / ${number(die)}°`, `R ${number(punch)}`, stop === null ? message(against) : `${number(stop, 2)} (${message(against)})`,
+  [i + 1, count, turned ? t("yes") : "", `${number(part, 2)}°`, `V${number(opening)} / ${number(die)}°`, `R ${number(punch)}`, stop === null ? message(against) : `${number(stop, 2)} (${message(against)})`,
     number(stroke, 3), loaded === null ? "–" : `${number(loaded, 2)}°`, number(force, 1)];
 
 /** A table with a caption. @param {string} id @param {string} title @param {string[]} names @param {any[][]} lines */

@@ -136,13 +136,13 @@ async function start() {
 }
 
 /**
- * The card above the results: tools and sheet, or the part that is to be unfolded; nothing above an unfolded one.
- * @param {any} found @param {string} work
+ * The card above the results: tools and sheet, or the part that is to be unfolded; nothing above a job without a drawing.
+ * @param {any} found @param {string} work @param {boolean} [ofJob]
  */
-function sketch(found, work) {
+function sketch(found, work, ofJob = false) {
   const flat = viewOf(work) === "flat";
   const [card, place] = [element("sketch"), element("part-view")];
-  card.hidden = flat && !found.part;
+  card.hidden = ofJob ? !found.drawing : flat && !found.part;
   place.hidden = !flat;
   element("drawing").style.display = flat ? "none" : "";
   element("drawing-text").hidden = flat;

@@ -39,8 +39,12 @@ export class Parts {
   controls(value) {
     const file = make("input", { id: "part-file", type: "file", accept: ".step,.stp,.STEP,.STP", class: "hidden", "aria-label": t("part.file") });
     file.addEventListener("change", () => file.files[0] && this.send(file.files[0]));
+    const again = () => {
+      file.value = ""; // the same file again is a change
+      file.click();
+    };
     return make("div", { class: "bar", id: "part-controls" },
-      make("button", { type: "button", id: "part-choose", onclick: () => file.click() }, t("part.file")), file,
+      make("button", { type: "button", id: "part-choose", onclick: () => again() }, t("part.file")), file,
       value ? make("button", { type: "button", id: "part-remove", "aria-label": t("part.remove", { name: value }), onclick: () => this.remove(value) }, "×") : null,
       make("p", { class: "soft" }, t("part.drop")),
       make("p", { id: "part-said", role: "status", class: `note ${this.said.how}` }, this.said.text));

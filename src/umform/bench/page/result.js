@@ -4,6 +4,7 @@
 import { get, post } from "./api.js";
 import { element, make, wide } from "./dom.js";
 import { known } from "./fields.js";
+import { message } from "./messages.js";
 import { announce, goTo, narrow } from "./announce.js";
 import { bendNumbers } from "./numbers.js";
 import { plot } from "./plot.js";
@@ -88,7 +89,7 @@ export class Result {
     if (!this.job) {
       this.looked = job.kind === "bend" ? await post("/api/look", known(job.parameters)) : {};
       if (job.id !== this.name) return; // another job was opened meanwhile
-      if (job.kind === "bend") this.actions.sketch({ drawing: this.looked.drawing }, job.parameters.work);
+      this.actions.sketch({ drawing: this.looked.drawing }, job.parameters.work, true);
       if (this.looked.drawing) this.drawing.set(this.looked.drawing, { ...job.parameters, ...this.looked.shown });
     }
     if (this.looked.drawing) this.actions.expected(this.looked, job.parameters, job.summary.press);
@@ -156,7 +157,7 @@ export class Result {
   /** The error of a job. @param {any} job */
   failure({ reason, summary: { error } }) {
     const all = error ? error.all ?? [error] : [{ what: reason }];
-    const text = (/** @type {any} */ one) => [problemText({ ...one, kind: "" }), one.where && `${one.where}: ${one.value}`].filter(Boolean).join("\n");
+    const text = (/** @type {any} */ one) => [problemText({ ...one, kind: "" }), [one.where, one.value].filter(Boolean).join(": ")].filter(Boolean).join("\n");
     return make("pre", { class: "bad" }, all.map(text).join("\n\n"));
   }
 
@@ -173,8 +174,8 @@ export class Result {
   /** The end of the run of a deck. @param {any} job */
   last(job) {
     const rows = Object.entries(job.summary.last).map(([name, value]) => make("tr", {}, make("th", { scope: "row" }, name), make("td", {}, number(/** @type {number} */ (value)))));
-    const notes = [...job.summary.warnings.map((/** @type {string} */ text) => make("p", { class: "note warn" }, text)),
-      ...job.summary.events.map((/** @type {string} */ text) => make("p", { class: "note" }, text))];
+    const notes = [...job.summary.warnings.map((/** @type {string} */ text) => make("p", { class: "note warn" }, message(text))),
+      ...job.summary.events.map((/** @type {string} */ text) => make("p", { class: "note" }, message(text)))];
     const { quantities = [], checks = [], key = [] } = job.summary;
     const tiles = key.map((/** @type {import("./quantities.js").Quantity} */ one) => tile(one, "hero"));
     return make("div", { class: "last" }, ...notes, make("dl", { class: "heroes first" }, ...tiles), table([...quantities, ...checks]), make("details", {}, make("summary", {}, t("deck.end")), wide(make("table", {}, make("tbody", {}, ...rows)))));

@@ -11,7 +11,7 @@ import { problemText, t } from "./texts.js";
 function listed(text) {
   const numbers = takingList(text);
   if (typeof numbers === "string") throw new Error(unclearList(numbers));
-  return numbers.slice(0, 12).filter((value) => value > 0);
+  return numbers;
 }
 
 /** @param {any} form @param {any} library @param {(series: string) => void} ordered */
@@ -20,6 +20,7 @@ export function askTable(form, library, ordered) {
   const values = { ...form.values };
   const [opening, radius] = [sizeField("die", "opening"), sizeField("die", "radius")];
   const dies = new Map(library.tools.die.map((/** @type {any} */ { sizes }) => [sizes[opening], sizes[radius]]));
+  dies.set(values[opening], values[radius]); // of the form
   const near = [...dies.keys()].filter((/** @type {number} */ one) => one >= 6 * values.thickness && one <= 12 * values.thickness);
   const angles = make("input", { id: "table-angles", value: `90 105 120 135` });
   const openings = make("input", { id: "table-openings", value: (near.length ? near : [values.opening]).join(" ") });
@@ -31,7 +32,7 @@ export function askTable(form, library, ordered) {
     event.preventDefault();
     try {
       const forms = listed(openings.value).flatMap((wide) => listed(angles.value).map((angle) =>
-        ({ ...values, [opening]: wide, angle, stroke: null, die: null, [radius]: dies.get(wide) ?? values[radius] })));
+        ({ ...values, [opening]: wide, angle, stroke: null, die: wide === values[opening] ? values.die : null, [radius]: dies.get(wide) ?? values[radius] })));
       const series = `${values.material} ${values.thickness} mm`;
       const answer = await post("/api/jobs", { forms, series });
       ordered(series);
