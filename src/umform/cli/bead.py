@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
@@ -18,12 +16,12 @@ from umform.cli.options import (
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.plausible import refuse_implausible
+from umform.cli.reached import what_was_reached
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, printing
 from umform.cli.spec_options import Given, given_by
 from umform.cli.studies import Studies, with_studies
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
-from umform.errors import UmformError
 from umform.processes.draw_bead.spec import DrawBead
 
 
@@ -75,7 +73,7 @@ def bead(
     place = results_folder(out, "bead", RESULTS, overwrite=overwrite)
     case = studies.compensated(case)
     with staging(place, FILES):
-        with _what_was_reached(place):
+        with what_was_reached(place, "bead.vtkhdf"):
             drawn = extrapolated(case) if several else drawn_through(case)
         more: list[Path] = []
         try:
@@ -91,16 +89,3 @@ def bead(
     if timing:
         show_timing(drawn.result.timing)
     studies.end()
-
-
-@contextmanager
-def _what_was_reached(out: Path) -> Iterator[None]:
-    """Write the history of a run that ended early."""
-    try:
-        yield
-    except (UmformError, KeyboardInterrupt) as stop:
-        reached = getattr(stop, "result", None)
-        if reached is not None and reached.frames:
-            files = [reached.write(out / name) for name in ("history.csv", "bead.vtkhdf")]
-            stop.add_note(f"  results so far are in {out}: {', '.join(file.name for file in files)}")
-        raise

@@ -29,6 +29,7 @@ from umform.cli.options import (
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.plausible import refuse_implausible
+from umform.cli.reached import say_kept, what_was_reached
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, printing, say
 from umform.cli.sequence import run_sequence
 from umform.cli.spec_options import Given, given_by
@@ -42,7 +43,6 @@ from umform.processes.air_bending.spec import AirBending
 from umform.studies.deflection.press_brake import PressBrake
 
 if TYPE_CHECKING:
-    from umform.analysis.run import Result
     from umform.processes.air_bending.measures import Measures
 
 
@@ -162,7 +162,7 @@ def bend(
     for text in said:  # only of a run that starts
         say(text)
     with staging(place, FILES):
-        with _what_was_reached(place) as rows:
+        with _with_rows(place) as rows:
             for some in goal.rows(brake):
                 rows += some
             done = goal.bent(brake)
@@ -193,8 +193,8 @@ def bend(
 
 
 @contextmanager
-def _what_was_reached(out: Path) -> Iterator[list[Measures]]:
-    """Write the history and the states of a run that ended early, and the finished rows of the table.
+def _with_rows(out: Path) -> Iterator[list[Measures]]:
+    """Write the finished rows of the table of a run that ended early, with its history and its states.
 
     Yields
     ------
@@ -203,17 +203,13 @@ def _what_was_reached(out: Path) -> Iterator[list[Measures]]:
     """
     rows: list[Measures] = []
     try:
-        yield rows
+        with what_was_reached(out, "bend.vtkhdf"):
+            yield rows
     except (UmformError, KeyboardInterrupt) as stop:
         from umform.processes.air_bending.files import write_table
 
-        reached: Result | None = getattr(stop, "result", None)
         rows = rows or getattr(stop, "rows", rows)
-        files = [out / "table.csv"] if rows else []
         if rows:
             write_table(out / "table.csv", rows)
-        if reached is not None and reached.frames:
-            files += [reached.write(out / name) for name in ("history.csv", "bend.vtkhdf")]
-        if files:
-            stop.add_note(f"  results so far are in {out}: {', '.join(file.name for file in files)}")
+            say_kept(stop, [out / "table.csv"])
         raise

@@ -21,6 +21,7 @@ from umform.cli.options import (
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.plausible import refuse_implausible
+from umform.cli.reached import what_was_reached
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, printing, say
 from umform.cli.spec_options import Given, given_by
 from umform.cli.studies import Studies, with_studies
@@ -253,20 +254,21 @@ def _run(
 ) -> None:
     """Draw, print, write."""
     from umform.io.staging import staging
-    from umform.processes.draw.files import FILES, draw_blank, write_files
+    from umform.processes.draw.files import FILES, RESULTS, draw_blank, write_files
     from umform.processes.draw.words import before_the_run
 
     print_warnings_once()
     studies.check(case)
     refuse_implausible(case)
     curve = _limit(limit)
-    place = results_folder(out, name, FILES, overwrite=overwrite)
+    place = results_folder(out, name, RESULTS, overwrite=overwrite)
     case = studies.compensated(case)
     say(before_the_run(case))
     with staging(place, FILES):
         picture, blank = draw_blank(place, case)
         say(f"the mesh of the blank is drawn in {picture}")
-        drawn = how(case, limit=curve)
+        with what_was_reached(place, "draw.vtkhdf"):
+            drawn = how(case, limit=curve)
         more: list[Path] = []
         try:
             for one, written in studies.added_to(drawn, case, place, finished=bool(drawn.released)):

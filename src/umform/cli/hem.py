@@ -15,6 +15,7 @@ from umform.cli.metal import SheetMetal, with_metal
 from umform.cli.options import All, option
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.plausible import refuse_implausible
+from umform.cli.reached import what_was_reached
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, printing
 from umform.cli.spec_options import Given, given_by
 from umform.cli.studies import Studies, with_studies
@@ -83,7 +84,9 @@ def hem(
     refuse_implausible(case)
     place = results_folder(out, "hem", RESULTS, overwrite=overwrite)
     with staging(place, FILES):
-        done, more = hemming(case), list[Path]()
+        with what_was_reached(place, "hem.vtkhdf"):
+            done = hemming(case)
+        more: list[Path] = []
         try:
             rates = partial(slopes, case, studies.derive or (), process=hemming, base=done) if by_slopes else None
             for one, written in studies.added_to(done, done.with_stroke, place, hold=done.strokes, rates=rates):

@@ -12,6 +12,7 @@ from umform.cli.developed import sequence_of
 from umform.cli.folders import results_folder, say_written
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.plausible import refuse_implausible
+from umform.cli.reached import what_was_reached
 from umform.cli.root import printing, say
 from umform.cli.timing import show_timing
 
@@ -56,7 +57,7 @@ def run_sequence(
         for hit in hits:
             say(foreseen_text(sequence, number, hit))
     with staging(place, FILES):
-        with timings() as spent:
+        with timings() as spent, what_was_reached(place, "part.vtkhdf"):
             part = replace(bend_sequence(sequence, tolerance=tolerance), bend_length=length)
         more: list[Path] = []
         try:

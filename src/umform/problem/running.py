@@ -316,12 +316,19 @@ def _written(kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: C
                 result.warn(f"the folder {out} was removed during the run; it was made again")
             for caution in cautions:
                 result.warn(caution)
+            if ended_by is not None:
+                result.warn(f"the run ended early, {_why(ended_by)}: the numbers are those of its last converged state")
             written = write(kept.deck, problem, result, stage, whole=ended_by is None, taken=taken)
         over = ended_by is None or isinstance(ended_by, UmformError)
         if over and checkpoint.resolve() == (kept.out / CHECKPOINT).resolve():
             checkpoint.unlink(missing_ok=True)
     left = None if over or not checkpoint.exists() else checkpoint
     return ProblemOutcome(result, written.files, ended_by or stop, left, written.taken)
+
+
+def _why(error: BaseException) -> str:
+    """The cause of an early end, for the pages of what was reached."""
+    return "interrupted" if isinstance(error, KeyboardInterrupt) else str(getattr(error, "what", "") or repr(error))
 
 
 def _taken(deck: Problem, problem: Prepared, result: Result) -> tuple[Taken, KeyboardInterrupt | None]:

@@ -14,6 +14,7 @@ import pytest
 from command_line import umform
 
 from umform import cli
+from umform.analysis.newton.newton import Newton
 from umform.problem.templates import write_template
 from umform.processes.air_bending.brake import Brake
 
@@ -162,6 +163,36 @@ def test_ctrl_c_in_the_budget_keeps_the_bend(monkeypatch, tmp_path):
     assert "all but the budget" in run.stderr
     assert {"bend.json", "curve.csv", "report.html"} <= {path.name for path in (tmp_path / "out").iterdir()}
     assert not list((tmp_path / "out").glob(".*"))
+
+
+@pytest.mark.parametrize(
+    ("words", "states"),
+    [
+        (["hem", "--thickness", "1"], "hem.vtkhdf"),
+        (["draw", "cup", "--coarse"], "draw.vtkhdf"),
+        (["draw", "u", "--coarse"], "draw.vtkhdf"),
+        (["bead", "--no-extrapolate"], "bead.vtkhdf"),
+        (["bend", "--sequence", "part.toml"], "part.vtkhdf"),
+    ],
+)
+def test_ctrl_c_keeps_what_an_operation_has_reached(words, states, monkeypatch, tmp_path):
+    solve, calls = Newton.solve, []
+
+    def interrupted(self, *arguments, **options):
+        calls.append(1)
+        if len(calls) == 4:
+            raise KeyboardInterrupt
+        return solve(self, *arguments, **options)
+
+    monkeypatch.setattr(Newton, "solve", interrupted)
+    monkeypatch.chdir(tmp_path)
+    Path("part.toml").write_text("length = 60.0\n[[bends]]\nposition = 20.0\nangle = 120.0\n")
+    place = tmp_path / "out"
+    run = umform(*words, "--material", "DC04", "--out", place)
+    assert run.exit_code == cli.INTERRUPTED
+    assert f"results so far are in {place}: history.csv, {states}" in run.stderr
+    assert len((place / "history.csv").read_text().splitlines()) > 2 and (place / states).is_file()
+    assert umform(*words, "--material", "DC04", "--out", place).exit_code == 1  # they are not overwritten
 
 
 def test_a_handler_of_the_program_is_left_alone():

@@ -102,6 +102,7 @@ def test_no_convergence_writes_what_was_reached(deck, tmp_path, monkeypatch):
     assert "the results so far are written" in answer.output
     assert whole(tmp_path / "out") == FILES
     assert len(rows(tmp_path / "out")) == 3
+    assert "the run ended early, Newton" in (tmp_path / "out" / "report.html").read_text()
 
 
 def test_interrupt_writes_what_was_reached(deck, tmp_path, monkeypatch):
@@ -119,9 +120,12 @@ def test_interrupt_writes_what_was_reached(deck, tmp_path, monkeypatch):
     assert "interrupted; the results so far are written" in answer.output
     assert whole(tmp_path / "out") == FILES | {"checkpoint.h5"}  # also when it is cut off within its first minute
     assert len(rows(tmp_path / "out")) == 4
+    said = "the run ended early, interrupted: the numbers are those of its last converged state"
+    assert said in (tmp_path / "out" / "report.html").read_text()
     monkeypatch.undo()
     assert umform("resume", tmp_path / "out" / "checkpoint.h5").exit_code == 0
     assert len(rows(tmp_path / "out")) == 10 and whole(tmp_path / "out") == FILES
+    assert said not in (tmp_path / "out" / "report.html").read_text()
 
 
 def test_interrupt_while_writing_leaves_no_half_file(deck, tmp_path, monkeypatch):

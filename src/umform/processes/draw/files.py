@@ -30,8 +30,10 @@ _DATA = (
     "release.vtkhdf",
 )  # fmt: skip
 _PAGE = (*(f"{name}.png" for name in _PICTURES), "report.html")
-#: Files of a part; they also mark a folder as that of a part.
+#: Files of a part.
 FILES = (*_DATA, *_PAGE)
+#: Files that mark a folder as that of a part.
+RESULTS = (*FILES, "history.csv")
 #: Dots per inch of the pictures.
 _DPI = 120
 

@@ -28,7 +28,7 @@ _DECKS = ("bend1.toml", "hem.toml")
 _GAPS = ("from the tip mm", "gap under load mm", "gap released mm")
 #: Files of a hem.
 FILES = (*_DATA, *_DECKS, *_PICTURES, _PAGE)
-RESULTS = FILES
+RESULTS = (*FILES, "history.csv")
 
 
 def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:
