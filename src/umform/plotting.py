@@ -184,7 +184,7 @@ def _history(kind: type[Figure], result: History, x: str, ys: Sequence[str]) -> 
     with house_style():
         figure = kind(figsize=(6.2, 3.8), layout="constrained")
         axes = figure.add_subplot()
-        for name in ys:
+        for name in _columns(ys):
             axes.plot(result[x], result[name], label=name)
         axes.set_xlabel(x)
         if len(ys) == 1:
@@ -213,8 +213,11 @@ def compare_histories(
     Raises
     ------
     InvalidValue
-        If a run has no such column.
+        If there is no run or no column, or a run has no such column.
     """
+    if not histories:
+        raise InvalidValue("there are no histories to compare", where="histories", remedy="read_histories([...])")
+    ys = _columns(ys)
     for run, columns in histories.items():
         for name in (x, *ys):
             _check_column(name, columns, run)
@@ -229,6 +232,19 @@ def compare_histories(
         axes.set_ylabel(ys[0] if len(ys) == 1 else "")
         axes.legend()
     return _saved(figure, path)
+
+
+def _columns(ys: Sequence[str]) -> Sequence[str]:
+    """Columns of the ordinate, if they are a list with an entry."""
+    if isinstance(ys, str) or not ys:
+        raise InvalidValue(
+            "the columns of the ordinate are a list of names",
+            where="ys",
+            value=ys,
+            cause="a name without a list, or an empty list",
+            remedy='["punch_force"]',
+        )
+    return ys
 
 
 def _check_column(name: str, columns: Mapping[str, Floats], run: str) -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from umform.attempts import HARMLESS, Attempts
+from umform.errors import InvalidValue
 from umform.report import parts
 from umform.report.key_numbers import key_numbers
 from umform.report.live import Live, style
@@ -83,9 +84,17 @@ def write_report(
     Raises
     ------
     InvalidValue
-        If the name does not end in .html.
+        If the name does not end in .html, or the deck is no text.
     """
     parts.check_name(path)
+    if not isinstance(deck, str):
+        raise InvalidValue(
+            "the deck of a report is its text",
+            where="deck",
+            value=deck,
+            cause="the path of the deck",
+            remedy="Path(...).read_text()",
+        )
     model = result.model
     kinds = dict.fromkeys(body.element.name for body in model.bodies)
     size = f"{', '.join(kinds)}: {len(model.mesh.connectivity)} elements"

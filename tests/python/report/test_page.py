@@ -107,6 +107,8 @@ def test_words_of_the_user_are_escaped(result, tmp_path):
 def test_other_names_are_refused(name, result, tmp_path):
     with pytest.raises(InvalidValue, match="html"):
         result.report(tmp_path / name)
+    with pytest.raises(InvalidValue, match="is its text"):
+        result.report(tmp_path / "a.html", deck=tmp_path / name)
     assert list(tmp_path.iterdir()) == []
 
 

@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 import umform as uf
 from umform.errors import FileProblem, InvalidValue
-from umform.plotting import Picture, house_style, inline_svg, plot_history, plot_shape, save
+from umform.plotting import Picture, compare_histories, house_style, inline_svg, plot_history, plot_shape, save
 from umform.results.shape import Shape
 
 
@@ -91,6 +91,13 @@ def test_refusals(result, tmp_path):
         plot_history(result, "end", ["end_force"], tmp_path / "a.bmp")
     with pytest.raises(InvalidValue, match="column"):
         plot_history(result, "end", ["nothing"])
+    for columns in ([], "end_force"):
+        with pytest.raises(InvalidValue, match="list of names"):
+            plot_history(result, "end", columns)
+    with pytest.raises(InvalidValue, match="list of names"):
+        compare_histories({"one": result.table()}, "end", [])
+    with pytest.raises(InvalidValue, match="no histories"):
+        compare_histories({}, "end", ["end_force"])
     with pytest.raises(InvalidValue, match="field"):
         plot_shape(result, "nothing")
     with pytest.raises(FileProblem):

@@ -69,12 +69,12 @@ class Checkpoints:
         note: Mapping[str, Any] | None = None,
         ranks: Ranks = ONE,
     ) -> None:
-        if not 0.0 <= every < np.inf:
+        if not isinstance(every, int | float) or not 0.0 <= every < np.inf:
             raise InvalidValue(
                 "checkpoints are written every so many seconds, 0 or more",
                 where="every",
                 value=every,
-                cause="a sign, or a number that is not finite",
+                cause="a sign, a text, or a number that is not finite",
                 remedy="0 writes one after each increment; leave the checkpoint out to write none",
             )
         self.path, self.every, self.fingerprint = Path(path), every, fingerprint

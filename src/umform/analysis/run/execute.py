@@ -135,7 +135,7 @@ def solve_followed(
             result = Result(model, timing)
             run = ready(result, solver, options, frames, steps)
             run.follower = None if follower is None else follower(run)
-            run.on_increment = on_increment
+            run.call(on_increment)
             if checkpoint is not None:
                 from umform.analysis.run.checkpoint import other_file  # imported late: few runs need it
 
@@ -235,7 +235,7 @@ def resume_followed(
             result = Result(model, timing)
             run = ready(result, solver, options, frames, steps)
             run.follower = None if follower is None else follower(run)
-            run.on_increment = on_increment
+            run.call(on_increment)
             checkpoints = checkpoints_of(run, steps, path, every)
             assert checkpoints is not None
             memory = take_up(run, checkpoints)

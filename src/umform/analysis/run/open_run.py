@@ -125,7 +125,7 @@ class OpenRun:
         with timing.run:
             self.result = Result(model, timing)
             self._run = begun(self.result, solver, options, frames)
-            self._run.on_increment = on_increment
+            self._run.call(on_increment)
         self.steps: list[Step] = []
         self.iterations = 0
         self._run.newton.callbacks.append(self._count)

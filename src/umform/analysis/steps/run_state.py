@@ -16,6 +16,7 @@ from umform.analysis.newton.strategy_statistics import StrategyStatistics
 from umform.analysis.steps.lost_contact import lost_tools
 from umform.analysis.steps.own_parts import linear_rate, own_checks
 from umform.analysis.steps.trail import Trail
+from umform.errors import InvalidValue
 from umform.model import Evaluation, Model
 from umform.model.terms.control import Control
 from umform.progress import Tick, silent
@@ -141,6 +142,18 @@ class Run:
         if self.on_increment is not None and self.model.system.ranks.rank == 0:
             self.on_increment(self.result)
             self.model.system.revert()  # what evaluations of the user have tried
+
+    def call(self, function: Callable[[Any], object] | None) -> None:
+        """Call a function after each increment."""
+        if function is not None and not callable(function):
+            raise InvalidValue(
+                "on_increment is a function of the result",
+                where="on_increment",
+                value=function,
+                cause="the value of a call in place of the function",
+                remedy="def each(result): ..., then on_increment=each",
+            )
+        self.on_increment = function
 
     def _warn_of_slow(self, converged: Converged) -> None:
         """Warn at the third increment without quadratic convergence, if laws or tools of the user may be the cause."""

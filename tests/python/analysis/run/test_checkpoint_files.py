@@ -197,8 +197,9 @@ def test_where_no_checkpoint_can_be_written_nothing_is_computed(tmp_path, build)
     with pytest.raises(FileProblem, match="does not exist"):
         solve(model, steps, **options, checkpoint=tmp_path / "nowhere" / "run.h5")
     assert not model.u.any()
-    with pytest.raises(InvalidValue):
-        solve(model, steps, **options, checkpoint=tmp_path / "run.h5", every=-1.0)
+    for every in (-1.0, "60"):
+        with pytest.raises(InvalidValue, match="every so many seconds"):
+            solve(model, steps, **options, checkpoint=tmp_path / "run.h5", every=every)
 
 
 def test_on_a_full_disk_the_run_goes_on_with_a_warning_and_the_file_of_before(tmp_path, monkeypatch, build):

@@ -44,6 +44,9 @@ def test_it_is_called_after_each_increment_and_changes_nothing():
 
 def test_an_exception_in_it_ends_the_run():
     model, tip = bent()
+    with pytest.raises(uf.errors.InvalidValue, match="a function of the result"):
+        uf.solve(model, steps(tip), progress=False, on_increment=3)
+    assert not model.u.any()
 
     def enough(result):
         if result.rows[-1]["tip"] < -1.6:
