@@ -24,6 +24,7 @@ from umform.bench.guard import Guard
 from umform.bench.jobs import Queue
 from umform.bench.library import library
 from umform.errors import FileProblem, InvalidValue
+from umform.io.atomic import write_problem
 from umform.io.locks import try_lock
 
 HOST = "127.0.0.1"
@@ -101,9 +102,7 @@ def locked(folder: Path) -> Iterator[None]:
         folder.mkdir(parents=True, exist_ok=True)
         lock = (folder / "bench.lock").open("w")
     except OSError as error:
-        raise FileProblem(
-            "the folder of the bench cannot be created", where=str(folder), cause=error.strerror or str(error)
-        ) from error
+        raise write_problem(folder, error, "the folder of the bench cannot be created") from error
     with lock:
         if not try_lock(lock):
             raise FileProblem(

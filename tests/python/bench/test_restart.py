@@ -150,6 +150,9 @@ def test_server_that_is_killed_twenty_times_loses_nothing(tmp_path):
 def test_second_server_on_a_folder_is_refused(tmp_path):
     with locked(tmp_path), pytest.raises(FileProblem, match="another bench"), locked(tmp_path):
         pass
+    (tmp_path / "file").write_text("")
+    with pytest.raises(FileProblem, match="there is a file of this name"), locked(tmp_path / "file"):
+        pass
 
 
 def test_deck_that_is_stopped_and_handed_on_ends_with_the_same_bits(tmp_path):
