@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from umform.model.tools.tool_controls import ToolTurn
 from umform.report.looks import Units, look_of
 from umform.report.symmetry import modelled_part
 from umform.report.words import column_text
@@ -26,13 +27,12 @@ def key_numbers(result: History, units: Units) -> list[Quantity]:
     for control in leading_controls(result)[:1]:
         force, of = result[f"{control.name}_force"], modelled_part(result.model)
         at = int(np.abs(force).argmax())
-        label = f"largest {column_text(control.name)} force"
-        found.append(
-            Quantity(label, units.force, value=abs(float(force[at])), hint=of and "of the computed part, by symmetry")
-        )
-        found.append(
-            Quantity(f"{column_text(control.name)} at the end", units.length, value=float(result[control.name][-1]))
-        )
+        turns, name = isinstance(control, ToolTurn), column_text(control.name)
+        label, unit = (f"largest {name} moment", units.moment) if turns else (f"largest {name} force", units.force)
+        hint = of and "of the computed part, by symmetry"
+        found.append(Quantity(label, unit, value=abs(float(force[at])), hint=hint))
+        unit = "rad" if turns else units.length
+        found.append(Quantity(f"{name} at the end", unit, value=float(result[control.name][-1])))
     last = result.frames[-1] if result.frames else None
     fields = {} if last is None else {**last.points, **last.cells}
     for name in _FIELDS:

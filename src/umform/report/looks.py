@@ -49,6 +49,11 @@ class Units:
             return "MPa"
         return f"{self.force}/{self.length}²" if self.length and self.force else ""
 
+    @property
+    def moment(self) -> str:
+        """Unit of moments."""
+        return f"{self.force} {self.length}" if self.length and self.force else ""
+
 
 #: Units of a model that names none, and those of the processes.
 UNKNOWN, MILLIMETRES = Units(), Units("mm", "N")

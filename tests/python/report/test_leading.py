@@ -4,6 +4,9 @@ from types import SimpleNamespace
 
 import numpy as np
 
+import umform as uf
+from umform.report.key_numbers import key_numbers
+from umform.report.looks import MILLIMETRES
 from umform.results.forming.tool_distance import pose_in
 from umform.results.leading_controls import leading_controls
 
@@ -48,3 +51,15 @@ def test_a_way_that_was_added_after_the_run_is_zero_in_it():
 
 def test_a_tool_that_moves_without_force_counts():
     assert leading(tool=[0, 1], tool_force=[0, 0]) == ["tool"]
+
+
+def test_a_tool_that_turns_has_an_angle_and_a_moment():
+    strip = uf.mesh.strip(length=10, width=2, thickness=1, cells=(10, 1))
+    model = uf.Model(strip, material=uf.SVK(E=1e3, nu=0.3))
+    model.fix("x0")
+    wiper = model.contact("lower", uf.Cylinder((8.0, 0.0, -1.5), "y", 1.0), penalty=100.0)
+    model.turn(wiper, axis="y", about=(12.0, 0.0, -1.5), name="wiper")
+    result = uf.solve(model, uf.Move(model.controls[0], to=0.05, steps=2), progress=False)
+    found = {one.name: one.unit for one in key_numbers(result, MILLIMETRES)[:2]}
+    assert found == {"largest wiper moment": "N mm", "wiper at the end": "rad"}
+    assert key_numbers(result, MILLIMETRES)[1].value == 0.05

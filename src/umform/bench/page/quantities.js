@@ -2,6 +2,7 @@
 // Quantities of a job as the server declares them: label, unit, decimals, error, limit; all tables use them.
 
 import { make, wide } from "./dom.js";
+import { message } from "./messages.js";
 import { language, number, t } from "./texts.js";
 
 /**
@@ -27,7 +28,7 @@ function labelOf({ name, label }, words) {
   const [, bend, rest] = /^bend (\d+): (.*)$/.exec(name) ?? [];
   if (bend) return `${t("bend.number", { number: Number(bend) })}: ${labelOf({ name: rest, label: label.replace(/^bend \d+: /, "") }, words)}`;
   const [, flange] = /^flange (\d+)$/.exec(name) ?? [];
-  return flange ? t("strip.flange", { number: Number(flange) }) : t(`${words}.${name}`, {}, t(`measure.${name}`, {}, label));
+  return flange ? t("strip.flange", { number: Number(flange) }) : t(`${words}.${name}`, {}, t(`measure.${name}`, {}, message(label)));
 }
 
 /** Label and unit. @param {Quantity} one @param {string} words */
