@@ -86,14 +86,43 @@ def test_numbers_are_read_with_either_sign_and_never_guessed():
         assert read_in_the_page(texts, language) == wanted
 
 
+#: A page with the German texts; then what follows.
+_GERMAN = """
+const [folder, given] = process.argv.slice(1), fs = require("fs");
+globalThis.fetch = async (path) => ({ json: async () => JSON.parse(fs.readFileSync(folder + path.slice(7), "utf8")) });
+globalThis.document = { documentElement: {}, getElementById: () => ({}), querySelectorAll: () => [] };
+const load = (name) => import("file://" + folder + name);
+load("/texts.js").then(async ({ loadTexts }) => {
+  await loadTexts("de");
+"""
+
+
+def in_german(body, given):
+    """What a program of the page returns in German."""
+    script = f"{_GERMAN} console.log(JSON.stringify(await (async () => {{ {body} }})())); }});"
+    arguments = [str(PAGE), json.dumps(given)]
+    command = ["node", "--experimental-default-type=module", "--input-type=commonjs", "--no-warnings", "-e", script]
+    return json.loads(subprocess.run([*command, *arguments], check=True, timeout=60, capture_output=True).stdout)
+
+
 @pytest.mark.skipif(shutil.which("node") is None, reason="no Node to run JavaScript")
 def test_a_message_with_a_list_is_german_as_a_whole():
-    script = "globalThis.fetch = async () => ({ json: async () => JSON.parse(process.argv[2]) });"
-    script += "import(process.argv[1]).then(async ({ loadMessages, message }) => { await loadMessages('de');"
-    script += "console.log(message(process.argv[3])); });"
     (said,) = coarse_mesh(AirBending(layers=1, elements_per_thickness=1.0))
-    german = PAGE.joinpath("messages.de.json").read_text(encoding="utf-8")
-    arguments = [(PAGE / "messages.js").as_uri(), german, said]
-    command = ["node", "--experimental-default-type=module", "--no-warnings", "-e", script, *arguments]
-    text = subprocess.run(command, check=True, timeout=60, capture_output=True, text=True).stdout
+    text = in_german("const { message } = await load('/messages.js'); return message(JSON.parse(given));", said)
     assert "Elemente je Dicke 1 (Vorgabe 3), Lagen 1 (Vorgabe 2); nur zum Ausprobieren" in text
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="no Node to run JavaScript")
+def test_labels_of_stages_of_bends_and_of_decks_are_german():
+    body = "const { labelOf } = await load('/quantities.js');"
+    body += "return JSON.parse(given).map((name) => labelOf({ name, label: name }, 'hem'));"
+    names = {
+        "height": "Höhe",
+        "flattening: drift of the energies": "Zudrücken: Drift der Energien",
+        "first bend: penetration of table": "Erste Biegung: Eindringung: table",
+        "bend 2: angle": "Biegung 2: Schenkel zum Grundblech",
+        "flange 1": "Schenkel 1, außen",
+        "largest punch force": "Größte Kraft: Stempel",
+        "own: measure": "own: measure",
+    }
+    assert dict(zip(names, in_german(body, list(names)), strict=True)) == names

@@ -3,7 +3,7 @@
 
 import { make, wide } from "./dom.js";
 import { message } from "./messages.js";
-import { language, number, t } from "./texts.js";
+import { has, language, number, t } from "./texts.js";
 
 /**
  * @typedef {{name: string, label: string, unit: string, decimals: number | null, digits: number, value: number | null, missed: boolean, of_mesh?: boolean,
@@ -23,12 +23,18 @@ function shown({ decimals, digits, band }, value) {
 /** @param {Quantity} one */
 export const best = ({ value, band }) => band?.middle ?? value;
 
-/** The label, translated where known. @param {Pick<Quantity, "name" | "label">} one @param {string} words @returns {string} */
-function labelOf({ name, label }, words) {
-  const [, bend, rest] = /^bend (\d+): (.*)$/.exec(name) ?? [];
-  if (bend) return `${t("bend.number", { number: Number(bend) })}: ${labelOf({ name: rest, label: label.replace(/^bend \d+: /, "") }, words)}`;
+/** The label, translated where known; those of a bend or a stage begin with its name. @param {Pick<Quantity, "name" | "label">} one @param {string} words @returns {string} */
+export function labelOf({ name, label }, words) {
+  const key = [`${words}.${name}`, `measure.${name}`].find(has);
+  if (key) return t(key);
+  const [, stage = "", rest = ""] = /^([^:]+): (.*)$/.exec(name) ?? [];
+  const [, bend] = /^bend (\d+)$/.exec(stage) ?? [];
+  if (bend || has(`stage.${stage}`)) {
+    const of = bend ? t("bend.number", { number: Number(bend) }) : t(`stage.${stage}`);
+    return `${of}: ${labelOf({ name: rest, label: label.replace(`${stage}: `, "") }, words)}`;
+  }
   const [, flange] = /^flange (\d+)$/.exec(name) ?? [];
-  return flange ? t("strip.flange", { number: Number(flange) }) : t(`${words}.${name}`, {}, t(`measure.${name}`, {}, message(label)));
+  return flange ? t("strip.flange", { number: Number(flange) }) : message(label);
 }
 
 /** Label and unit. @param {Quantity} one @param {string} words */
