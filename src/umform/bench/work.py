@@ -143,6 +143,7 @@ def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
         watch.phase("files", 0.95)
         watch.shape(done.result)
         write_files(folder / RESULTS, done, note)
+    (folder / RESULTS / "history.csv").unlink(missing_ok=True)  # of a run that was stopped
     watch.phase("end", 1.0)
     needed = largest(computed_forces(wanted, case, {wanted.choices.work: done.measures.largest_force}))
     return {**record(done), "length": length, "note": note, "press": needed.over(length)}

@@ -143,6 +143,16 @@ def test_files_of_a_bend_can_be_taken(bench, done):
     assert bench.client.get(f"/files/{done['id']}/shape.html").status_code == 200
 
 
+def test_a_bend_that_was_stopped_leaves_no_history_beside_its_results(bench):
+    name = bench.order(stroke=0.9)
+    bench.ended(name)
+    (bench.queue.folder_of(name) / "results" / "history.csv").write_text("half")
+    bench.queue.index.change(name, "stopped")
+    assert bench.client.post(f"/api/jobs/{name}/resume", json={}).status_code == 200
+    job = bench.ended(name)
+    assert job["state"] == "done" and "history.csv" not in job["files"] and "curve.csv" in job["files"]
+
+
 def test_live_file_has_curve_and_section(done):
     live = done["live"]
     assert live["phase"] == "end" and live["fraction"] == 1.0
