@@ -240,6 +240,11 @@ def test_what_cannot_be_meant_is_refused_by_its_name(values, where, said):
     assert any(row["where"] == where and said in row["what"] for row in found["problems"]), found["problems"]
 
 
+def test_value_and_cause_of_a_small_blank_are_diameters():
+    (problem,) = look({"work": "cup", "cup_blank": 60.0})["problems"]
+    assert problem["value"] == "60.0" and "a diameter of 82.4" in problem["cause"]
+
+
 @pytest.mark.parametrize("values", [None, 3, "x", [], [[]], {"a": {"b": [1] * 1000}}, {1: 2}])
 def test_what_is_no_form_is_refused(values):
     assert look(values)["problems"]
