@@ -121,6 +121,7 @@ def test_labels_of_stages_of_bends_and_of_decks_are_german():
         "flattening: drift of the energies": "Zudrücken: Drift der Energien",
         "first bend: penetration of table": "Erste Biegung: Eindringung: table",
         "bend 2: angle": "Biegung 2: Schenkel zum Grundblech",
+        "sheet2_loaded_angle": "Blech 2: Winkel unter Last",
         "flange 1": "Schenkel 1, außen",
         "largest punch force": "Größte Kraft: Stempel",
         "own: measure": "own: measure",

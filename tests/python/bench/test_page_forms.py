@@ -57,6 +57,7 @@ def test_a_second_sheet_of_the_library_is_bent_with_the_first(visit):
     page.fill("#f-second_friction", "0.1")
     quick(page, 1.0)
     page.wait_for_selector("#run:enabled")
+    page.locator("#drawing-text", has_text="2 + 0.5 mm sheet").wait_for()
     page.click("#run")
     page.locator("#result", has_text="sheet 2: springback").wait_for()
 

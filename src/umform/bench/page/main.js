@@ -161,7 +161,7 @@ function expected(found, values, needed) {
   const facts = found.expected;
   const drawn = found.drawing?.kind === "draw";
   element("drawing-text").textContent = drawn ? t(`drawing.${values.work}`, { thickness: found.drawing.thickness })
-    : found.drawing ? t("drawing.text", { opening: values.opening, thickness: values.thickness, ...found.shown }) : t(toolsFit(found.problems ?? []) ? "drawing.old" : "drawing.unfit");
+    : found.drawing ? t("drawing.text", { opening: values.opening, thickness: thicknesses(values), ...found.shown }) : t(toolsFit(found.problems ?? []) ? "drawing.old" : "drawing.unfit");
   if (facts?.draw) return show(drawFacts(facts.draw));
   const press = needed ?? facts?.press;
   const range = (/** @type {any} */ { force: [low, high], beyond }) =>
@@ -181,6 +181,9 @@ function expected(found, values, needed) {
   }
   show(rows);
 }
+
+/** The thickness of the sheet, and of a second one on it. @param {any} values */
+const thicknesses = ({ thickness, second_material: second, second_thickness: other }) => [thickness, ...(second ? [other] : [])].map((one) => number(one)).join(" + ");
 
 /** Whether no error is one of the tools. @param {{where: string}[]} problems */
 const toolsFit = (problems) => !problems.some(({ where }) => where === "opening" || fields.some((one) => one.tool && one.name === where));

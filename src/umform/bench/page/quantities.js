@@ -33,6 +33,8 @@ export function labelOf({ name, label }, words) {
     const of = bend ? t("bend.number", { number: Number(bend) }) : t(`stage.${stage}`);
     return `${of}: ${labelOf({ name: rest, label: label.replace(`${stage}: `, "") }, words)}`;
   }
+  const [, sheet, measure] = /^sheet(\d+)_(.*)$/.exec(name) ?? [];
+  if (sheet) return `${t("sheet.number", { number: Number(sheet) })}: ${labelOf({ name: measure, label: label.replace(`sheet ${sheet}: `, "") }, words)}`;
   const [, flange] = /^flange (\d+)$/.exec(name) ?? [];
   return flange ? t("strip.flange", { number: Number(flange) }) : message(label);
 }
