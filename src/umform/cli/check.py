@@ -58,11 +58,12 @@ def check(
     """
     from umform.problem import check as checks
     from umform.problem.findings import Level
+    from umform.studies.derivatives.table import check_table
 
     with deck_errors():
         loaded = read(deck, changes or (), trust)
         problem = loaded.build()
-        findings = list(checks.check(loaded, problem))
+        findings = [*checks.check(loaded, problem), *check_table(loaded)]
     _show(findings)
     if blank is not None:
         _draw_blank(problem, blank)
@@ -80,13 +81,14 @@ def read(path: Path, changes: Sequence[str], trust: bool) -> Problem:
 
 
 @contextmanager
-def deck_errors(*options: str) -> Iterator[None]:
+def deck_errors(*options: str, **others: str) -> Iterator[None]:
     """Print the mistakes in a deck in terms of its keys, those in some options by their names, and exit with code 1."""
+    names = {one: f"--{one}" for one in options} | others
     try:
         yield
     except UmformError as error:
-        if isinstance(error, InvalidValue) and error.where in options:
-            error.where = f"--{error.where}"
+        if isinstance(error, InvalidValue):
+            error.where = names.get(error.where, error.where)
         say_of(error)
         raise typer.Exit(1) from error
 

@@ -64,13 +64,14 @@ def derive(
     """
     from umform.studies.derivatives import derivatives
     from umform.studies.derivatives.found import TABLE
+    from umform.studies.derivatives.table import KEYS
     from umform.studies.slopes import slopes
     from umform.studies.slopes.found import TABLE as SLOPES
 
     print_warnings_once()
     said: list[str] = []
     typed = {"by": by, "of": of, "hold": hold}
-    with deck_errors(*(name for name, values in typed.items() if values)):
+    with deck_errors("width", **KEYS | {name: f"--{name}" for name, values in typed.items() if values}):
         problem = read(deck, changes or (), trust)
         table = problem.contents.derivatives
         paths, held = by or (table.by if table else []), _pairs(hold or ())
@@ -86,11 +87,7 @@ def derive(
         else:
             if held:
                 said.append(f"slopes of whole runs hold no result; the deck would hold {', '.join(held)}")
-            try:
-                found = slopes(problem, paths, wanted, width=width)
-            except InvalidValue as error:
-                error.where = "--width" if error.where == "width" else error.where
-                raise
+            found = slopes(problem, paths, wanted, width=width)
     for text in said:  # only of a run that starts
         say(text)
     show_annex(found.annex)

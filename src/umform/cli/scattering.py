@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import math
 import shlex
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -79,7 +80,9 @@ class ScatterOptions:
         from umform.studies.scatter.found import RESULTS
 
         spread = self.run(case)
-        outcome = outcome.with_deviations({one.name: one.deviation.value or 0.0 for one in spread})
+        outcome = outcome.with_deviations(
+            {one.name: math.nan if one.deviation.value is None else one.deviation.value for one in spread}
+        )
         free = {name: path for name, path in (found or {}).items() if name not in self._pairs("hold")}
         constant = [
             f"the stroke is constant: --hold {shlex.quote(f'{name}={path}')} keeps the {name}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
@@ -90,6 +90,18 @@ def outcome_of(case: Any, *results: Result) -> Outcome:
     """
     found: Outcome = _function(case, "outcome")(case, *results)
     return found
+
+
+def quantities_named(case: Any) -> Collection[str] | None:
+    """Names of all quantities that a process may report, by ``names_of`` beside ``outcome_of``; None: known later.
+
+    Parameters
+    ----------
+    case : Spec
+        The parameters.
+    """
+    names_of = getattr(import_module(_module(case, "outcome")), "names_of", None)
+    return None if names_of is None else names_of(case)
 
 
 def _module(case: Any, file: str) -> str:

@@ -98,7 +98,7 @@ class Outcome(InNotebook, ABC):
 
     #: Studies of the results.
     annexes: Sequence[Annex] = ()
-    #: Standard deviations of the quantities by the scatter of parameters, by name.
+    #: Standard deviations of the quantities by the scatter of parameters, by name; NaN: unknown, as the error is then.
     deviations: Mapping[str, float] = MappingProxyType({})
 
     def with_annex(self, annex: Annex) -> Self:
@@ -139,7 +139,7 @@ class Outcome(InNotebook, ABC):
         else:
             own = own.joined(studied) if own.middle is None else own.beside_the_mesh(studied)
         deviation = self.deviations.get(one.name, 0.0)
-        if not deviation > 0.0:
+        if deviation == 0.0:
             return own
         return (own or Band(0.0, "")).widened(SIGMAS * deviation, _SCATTER, "scatter")
 

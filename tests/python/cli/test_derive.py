@@ -87,6 +87,25 @@ def test_a_deck_may_name_its_derivatives(deck, tmp_path):
     assert run("check", named).exit_code == 0
 
 
+@pytest.mark.parametrize(
+    ("table", "texts"),
+    [
+        ('by = ["nowhere"]', ["derivatives.by", "there is no number of this path"]),
+        ('by = ["mesh.layers"]', ["mesh.layers", "it is a whole number"]),
+        ('by = ["material.E"]\nresults = ["stroke_farce:peak"]', ["derivatives.results", "did you mean stroke_force?"]),
+        ('by = ["material.E"]\nhold = { strok = "to.stroke" }', ["derivatives.hold", "did you mean stroke?"]),
+        ('by = ["material.E"]\nhold = { stroke = "E" }', ["material.E", "it is adjusted to keep stroke"]),
+    ],
+)
+def test_the_table_of_derivatives_is_checked(deck, table, texts, tmp_path):
+    wrong = tmp_path / "deck.toml"
+    wrong.write_text(f"{deck.read_text()}\n[derivatives]\n{table}\n")
+    for words in (["check"], ["derive", "--out", tmp_path / "out"]):
+        found = run(*words, wrong, *COARSE)
+        assert found.exit_code == 1
+        assert all(text in " ".join(found.output.split()) for text in texts), found.output
+
+
 def test_a_bend_to_an_angle_has_derivatives_at_that_angle(tmp_path):
     words = ["--layers", 1, "--elements-per-thickness", 1, "--out", tmp_path, "--derive", "thickness"]
     done = run("bend", "--angle", 150, *words, "--derive", "material.hardening.strength")

@@ -7,10 +7,12 @@ from umform.errors import InvalidValue, NoConvergence
 from umform.processes import FreeBending, free_bending
 from umform.processes.bending import case as case_module
 from umform.processes.bending.case import build, measured
+from umform.processes.problems import quantities_named
 
 
 def test_forces_of_the_reference_in_a_few_steps():
     run = free_bending(FreeBending(steps=60), progress=False)
+    assert [one.name for one in run.quantities] == quantities_named(FreeBending())
     assert run.forces == pytest.approx([18.793, 21.760, 27.890, 33.513], rel=2e-3)
     assert run.zero_force == pytest.approx(14.655, rel=1e-4)
     assert abs(run.F[-1]) < 1e-5 * run.F.max()

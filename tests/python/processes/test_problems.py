@@ -21,7 +21,7 @@ from umform.processes.draw_bead.case import drawn_through
 from umform.processes.draw_bead.spec import DrawBead
 from umform.processes.hemming import Hemming, hemming
 from umform.processes.hemming.spec import acute
-from umform.processes.problems import outcome_of, problem_of
+from umform.processes.problems import outcome_of, problem_of, quantities_named
 
 METAL = uf.sheet_metals.get("DC04").law
 CUP = Cup(**ESAFORM | Cup.meshes["coarse"] | {"stroke": 2.0}, material=METAL)
@@ -39,6 +39,7 @@ def test_the_deck_of_a_drawn_part_repeats_its_history(case):
     assert drawn.released is not None
     assert drawn.released.model.u.tolist() == again.model.u.tolist()
     repeated = outcome_of(case, again).values
+    assert repeated.keys() <= set(quantities_named(case))
     of_frames = "forming limit used, by paths"  # strain paths are those of the frames that are kept
     assert repeated.pop(of_frames) == pytest.approx(drawn.values[of_frames], abs=0.05)
     assert repeated == {name: value for name, value in drawn.values.items() if name != of_frames}
@@ -53,6 +54,7 @@ def test_the_outcome_of_a_bend_is_that_of_the_process():
     done = air_bending(case, progress=False)
     assert done["largest_force"].value > 1.05 * done["force"].value
     assert outcome_of(case, problem_of(case).build().solve(progress=False)).values == done.values
+    assert list(done.values) == quantities_named(case)
 
 
 def test_the_deck_of_a_bead_repeats_its_history():
@@ -62,6 +64,7 @@ def test_the_deck_of_a_bead_repeats_its_history():
     assert drawn.result.table().keys() == again.table().keys()
     assert all(column.tolist() == again[name].tolist() for name, column in drawn.result.table().items())
     assert outcome_of(case, again).values == drawn.values
+    assert drawn.values.keys() == quantities_named(case).keys()
 
 
 def repeated(decks, folder, monkeypatch):

@@ -18,7 +18,7 @@ from umform.processes.air_bending import AirBending, StackedSheet, air_bending
 from umform.processes.air_bending.budget import error_budget
 from umform.processes.air_bending.files import record
 from umform.processes.air_bending.formulas import _bending, shop_forces
-from umform.processes.air_bending.outcome import outcome_of
+from umform.processes.air_bending.outcome import names_of, outcome_of
 from umform.processes.air_bending.problem import problem_of
 from umform.processes.air_bending.search import find_stroke, transformed_stiffness
 from umform.processes.air_bending.section import Section
@@ -100,6 +100,7 @@ def test_the_problem_of_a_stack_is_a_deck(free):
     assert [body.name for body in prepared.model.bodies] == ["sheet1", "sheet2"]
     again = outcome_of(free.case, prepared.solve(progress=False))
     assert again.measures.angle == free.measures.angle
+    assert set(names_of(free.case)) - again.values.keys() == {"sheet2_gap", "sheet2_gap_in_the_middle"}  # none above
 
 
 def test_the_distance_of_two_sections():

@@ -141,6 +141,8 @@ def test_scatter_widens_a_band():
     assert bands[0].sources["scatter"] == 4.0 and bands[0].source.endswith("by the scatter of parameters")
     assert bands[1].error == 1.0 and bands[1].source == "two standard deviations by the scatter of parameters"
     assert before.quantities[1].band is None
+    unknown = before.with_deviations({"largest thinning": math.nan}).quantities
+    assert [one.error_text for one in unknown] == ["unknown", "unknown"]
 
 
 @pytest.mark.parametrize("process", DATA)

@@ -15,6 +15,8 @@ from umform.processes.air_bending.stack import edges_of_sheet, name_of
 from umform.results.quantity import Band, Quantity, in_rows
 
 Floats = NDArray[np.float64]
+#: Ends of the names of the quantities of a sheet.
+_NAMES = ("loaded_angle", "angle", "springback", "radius", "gap", "gap_in_the_middle")
 
 
 @dataclass(frozen=True)
@@ -69,6 +71,11 @@ def gaps_of(below: Section, above: Section) -> tuple[float, float]:
     over &= ~((nearest == len(length) - 1) & (at[rows, nearest] > length[-1]))
     gaps = across[rows, nearest]
     return float(gaps[over].max()), float(nodes[0, 1] - face[0, 1])
+
+
+def names_of_stack(case: AirBending) -> list[str]:
+    """Names of the quantities of all sheets; none of a single one."""
+    return [f"{name_of(number)}_{name}" for number in range(len(case.sheets)) if case.on_top for name in _NAMES]
 
 
 def of_stack(number: int, sheet: SheetOfStack) -> list[Quantity]:

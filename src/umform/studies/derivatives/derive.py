@@ -119,14 +119,14 @@ def derivatives(
         refuse_followers(parameters, held, "by")
     of = each(of)
     lead = thing.build()
-    thing.refuse_unknown(lead, of or ())
-    functions = {one.__name__ for one in of or () if not isinstance(one, str)}
-    thing.refuse_unknown(lead, [name for name in held if name not in functions], "hold")
     shadows, sizes = {}, {}
     for one in parameters:
         shadows[one.path], sizes[one.path] = _shadow(thing, one, lead)
     again = thing.build()
     refuse_same_model([lead, again, *(built for _, built in shadows.values())])
+    thing.refuse_unknown(lead, of or ())
+    functions = {getattr(one, "__name__", "number") for one in of or () if not isinstance(one, str)}
+    thing.refuse_unknown(lead, [name for name in held if name not in functions], "hold")
     found = _run(
         lead, again, {path: built for path, (_, built) in shadows.items()}, checkpoint, frames=frames, progress=progress
     )

@@ -75,16 +75,16 @@ def responses(
 
 
 def refuse_unknown(
-    wanted: Sequence[str | Function], measures: Collection[str], model: Model, steps: Sequence[Step], where: str = "of"
+    wanted: Sequence[str | Function], known: Collection[str], model: Model, steps: Sequence[Step], where: str = "of"
 ) -> None:
-    """Refuse, before a run, what its history will not have, and what belongs to no measure.
+    """Refuse, before a run, what is no quantity, and what its history will not have.
 
     Parameters
     ----------
     wanted : sequence of str or callable
         Wanted numbers.
-    measures : collection of str
-        Names of measures, with which those of their quantities begin.
+    known : collection of str
+        Names of quantities; a beginning with a point at its end is that of all quantities of a measure.
     model, steps
         The model of the run at its beginning, and its steps.
     where : str
@@ -94,9 +94,13 @@ def refuse_unknown(
     ------
     InvalidValue
     """
-    unknown = [one for one in wanted if isinstance(one, str) and one.partition(".")[0] not in measures]
-    if not unknown or any(isinstance(step, Free) for step in steps):  # a step that frees adds columns
+    names = [one for one in wanted if isinstance(one, str)]
+    unknown = [one for one in names if one not in known and f"{one.partition('.')[0]}." not in known]
+    if not unknown:
         return
+    for step in steps:
+        if isinstance(step, Free):
+            step.prepare(model)  # its forces are columns
     with carried(model, steps):
         columns = list(Result(model).row(model.system.evaluate(model.state, tangent=False)))
         model.system.revert()
@@ -104,7 +108,8 @@ def refuse_unknown(
         with _refused_at(where):
             column = Measure.of(name).column
         if column not in columns:
-            raise _no_such(name, [*(f"{measure}. ..." for measure in measures), *columns], where)
+            listed = (f"{one} ..." if one.endswith(".") else one for one in known)
+            raise _no_such(name, [*listed, *columns], where)
 
 
 def _response(wanted: str | Function, known: Mapping[str, Quantity], result: Result, where: str) -> Response:
@@ -129,12 +134,13 @@ def _refused_at(where: str) -> Iterator[None]:
 
 
 def _no_such(wanted: str, names: Sequence[str], where: str) -> InvalidValue:
+    names = list(dict.fromkeys(names))
     between = "; " if any("," in name for name in names) else ", "
     return InvalidValue(
         "the run has no such quantity or column",
         where=where,
         value=wanted,
-        cause=slip(wanted, names),
+        cause=slip(wanted, names, slip(wanted.partition(":")[0], names)),
         remedy=f"one of {between.join(names)}",
     )
 

@@ -17,7 +17,7 @@ from umform.model import Model
 from umform.problem.measured import Taken
 from umform.problem.prepared import Prepared
 from umform.problem.problem import Problem
-from umform.processes.problems import Operation, operations_of, outcome_of, problem_of
+from umform.processes.problems import Operation, operations_of, outcome_of, problem_of, quantities_named
 from umform.progress import Show
 from umform.results.quantity import Quantity
 from umform.spec import Scalar, changed, scalars
@@ -134,7 +134,8 @@ class OfProblem:
 
     def refuse_unknown(self, built: Built, wanted: Sequence[str | Function], where: str = "of") -> None:
         """Refuse what is neither of its measures nor of its history."""
-        refuse_unknown(wanted, self.problem.contents.measures, built.model, built.steps, where)
+        known = [f"{name}." for name in self.problem.contents.measures]
+        refuse_unknown(wanted, known, built.model, built.steps, where)
 
     def quantities(self, built: Built, *results: Result) -> list[Quantity]:
         """Its measures."""
@@ -172,8 +173,11 @@ class OfCase:
         return Built.of(problem_of(self.case).build())
 
     def refuse_unknown(self, built: Built, wanted: Sequence[str | Function], where: str = "of") -> None:
-        """Nothing: a process names its numbers after its run."""
-        del built, wanted, where
+        """Refuse what is neither of the quantities of its process nor of the history of its last operation."""
+        names = quantities_named(self.case)
+        if names is not None:
+            model, steps = [(built.model, built.steps), *built.alike][-1]
+            refuse_unknown(wanted, names, model, steps, where)
 
     def quantities(self, built: Built, *results: Result) -> list[Quantity]:
         """Quantities that the process reports."""

@@ -177,6 +177,9 @@ class Plan:
             subject = partial(subject, **{name: value for name, value in values.items() if name not in by})
             by = {name: values[name] for name in by}
         wanted = _wanted(each(of), allowed, held)
+        lead, known = thing.build(), {*held.values(), *(_name(one) for one in each(of) or () if callable(one))}
+        for where, names in {"of": each(of) or (), "limits": allowed, "hold": held}.items():
+            thing.refuse_unknown(lead, [one for one in names if one not in known], where)
         return cls(subject, thing, by, tuple(made), matrix, wanted, allowed, held, settings)
 
     def run(self, progress: Show = None) -> Scattered:
@@ -250,8 +253,12 @@ def _wanted(of: Wanted | None, limits: Mapping[str, Limits], held: Mapping[str, 
     if of is None and not limits:
         return None
     given = list(limits if of is None else of)
-    taken = [*(getattr(one, "__name__", one) for one in given), *held.values()]
+    taken = [*map(_name, given), *held.values()]
     return [*given, *(name for name in dict.fromkeys([*limits, *held]) if name not in taken)]
+
+
+def _name(result: str | Callable[[Result], Any]) -> str:
+    return result if isinstance(result, str) else getattr(result, "__name__", "number")
 
 
 def _largest(spreads: Sequence[Spread], limits: Mapping[str, Limits]) -> list[str]:

@@ -20,6 +20,7 @@ from umform.processes.draw import Cup, Drawn, UBend, draw, write_files
 from umform.processes.draw.drawn import FORCE, FORCE_OFF
 from umform.processes.draw.endings import ending_of
 from umform.processes.draw.files import draw_blank
+from umform.processes.draw.outcome import names_of
 from umform.processes.draw.pictures import limits, pictures, sections
 from umform.processes.draw.spec import coarse
 from umform.processes.draw.u_bend import NUMISHEET
@@ -316,6 +317,7 @@ def test_only_ears_of_a_metal_with_directions_and_without_a_flange_count():
     ):
         drawn = replace(cup(), case=replace(CUP, **changes))
         assert drawn.has_ears is counted and ("number of ears" in drawn.values) is counted
+        assert drawn.values.keys() <= set(names_of(drawn.case))
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ import umform as uf
 from umform.errors import InvalidValue
 from umform.processes.bend_sequence import Bend, bend_sequence
 from umform.processes.hemming import hemming
-from umform.processes.problems import outcome_of
+from umform.processes.problems import outcome_of, quantities_named
 from umform_book.derivatives.chains import HEM, PART, SHEET
 
 
@@ -26,6 +26,7 @@ def test_the_outcome_of_the_runs_is_that_of_the_process():
     done = bend_sequence(PART, progress=False, frames=1)
     for one, other in zip(done.quantities, outcome_of(PART, *done.stages.values()).quantities, strict=True):
         assert (one.name, one.value) == (other.name, other.value)
+    assert list(done.values) == quantities_named(PART)
     made = hemming(HEM, progress=False, frames=1)
     for one, other in zip(made.quantities, outcome_of(HEM, *made.stages.values()).quantities, strict=True):
         assert (one.name, one.value) == (other.name, other.value)

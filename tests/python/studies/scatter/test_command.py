@@ -111,11 +111,22 @@ def test_a_bend_at_a_held_angle(tmp_path, monkeypatch):
     assert cpk == pytest.approx(0.1 / (3.0 * expected))
 
 
-def test_a_bend_refuses_before_it_runs(tmp_path, monkeypatch):
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [
+        (["bend", "--angle", "90", "--scatter", "die-radius=1%"], "did you mean die_radius?"),
+        (["bend", "--angle", "90", "--scatter", "die_radius=1%", "--limit", "angel=89:91"], "did you mean angle?"),
+        (["bend", "--angle", "90", "--scatter", "die_radius=1%", "--measure", "punch_fs:max"], "where:  --measure"),
+        (["bend", "--stroke", "6", "--want", "angel=90+-1", "--by", "stroke"], "did you mean angle?"),
+        (["draw", "u", "--coarse", "--scatter", "friction=1%", "--measure", "theta3"], "did you mean theta2?"),
+    ],
+)
+def test_a_process_refuses_before_it_runs(words, text, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    done = call("bend", "--angle", "90", "--scatter", "die-radius=1%")
+    monkeypatch.setattr("umform.analysis.newton.newton.Newton.solve", None)
+    done = call(*words)
     assert done.exit_code == 1
-    assert "did you mean die_radius?" in done.output
+    assert text in done.output
     assert not (tmp_path / "results").exists()
 
 
