@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -17,10 +16,12 @@ from umform.sheet_metals import cards, names
 from umform.spec import About, check_arguments, check_fields
 from umform.studies.bend_table.formats import table_csv
 from umform.studies.bend_table.formats.reading import Reading
+from umform.studies.calibration.columns import has_column, number, read_rows
 
 #: Part by which radius and thickness of a row of a table may differ from those of a bend.
 _ROW = 0.01
 _COLUMNS = ("angle", "radius", "thickness", "allowance")
+_EXAMPLE = f"{','.join(_COLUMNS)}: degrees by which the sheet is bent, mm; or bends.csv of `umform bend table`"
 
 
 @dataclass(frozen=True)
@@ -113,35 +114,23 @@ class AllowanceTable:
         Raises
         ------
         FileProblem
-            If it cannot be read, or a column is missing.
+            If it cannot be read, a column is missing, or a cell is no number.
         InvalidValue
-            If a number is negative or infinite, or a bend has two allowances.
+            If a number is negative, or a bend has two allowances.
         """
         check_arguments(AllowanceTable.read, cls.__name__, path=path)
         path = Path(path)
-        try:
-            text = path.read_text(encoding="utf-8-sig")
-            lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
-            if lines and "bend_deduction mm" in lines[0]:
-                return DeductionTable(table_csv.read(path), path.name)
-            rows = [tuple(float(row[name]) for name in _COLUMNS) for row in csv.DictReader(lines)]
-        except (OSError, UnicodeDecodeError, KeyError, TypeError, ValueError) as error:
-            raise FileProblem(
-                "this table of bend allowances cannot be read",
-                where=str(path),
-                cause=f"the column {error} is missing" if isinstance(error, KeyError) else str(error),
-                remedy=f"a CSV file with the columns {', '.join(_COLUMNS)}; degrees by which the sheet is bent, mm; or "
-                "bends.csv of `umform bend table`",
-            ) from error
+        if has_column(path, "bend_deduction mm"):
+            return _of_bend_table(path)
         found: dict[tuple[float, float, float], float] = {}
-        for a, r, t, length in rows:
-            possible = all(0.0 <= number < math.inf for number in (a, r, t, length))
-            if not possible or found.setdefault((a, r, t), length) != length:
+        for row in read_rows(path, _COLUMNS, _EXAMPLE):
+            a, r, t, length = (number(path, row, name) or 0.0 for name in _COLUMNS)
+            if min(a, r, t, length) < 0.0 or found.setdefault((a, r, t), length) != length:
                 raise InvalidValue(
                     "a table of bend allowances has each bend once, and no negative numbers",
-                    where=path.name,
+                    where=f"{path}, line {row[0]}",
                     value=f"{length:g} mm, {_named(a, r, t)}",
-                    cause="a sign, an empty line, a deduction in place of an allowance, or bends of two metals or dies",
+                    cause="a sign, a deduction in place of an allowance, or bends of two metals or dies",
                     remedy="flat lengths between the tangent lines; a table for each metal and die",
                 )
         return cls(tuple((a, r, t, length) for (a, r, t), length in found.items()), path.name)
@@ -219,6 +208,18 @@ class DeductionTable:
             raise _not_in_table(self.name, angle, radius, thickness, have)
         length = fits[0].flat_length(180.0 - angle, radius, (outside(angle, radius, thickness),) * 2)
         return Allowance(length, f"table {self.name}", radius)
+
+
+def _of_bend_table(path: Path) -> DeductionTable:
+    try:
+        return DeductionTable(table_csv.read(path), path.name)
+    except (KeyError, TypeError, ValueError) as error:
+        raise FileProblem(
+            "this is no bends.csv of `umform bend table`",
+            where=str(path),
+            cause=f"the column {error} is missing" if isinstance(error, KeyError) else str(error),
+            remedy="the file as the command has written it, with commas and decimal points",
+        ) from error
 
 
 def outside(angle: float, radius: float, thickness: float) -> float:

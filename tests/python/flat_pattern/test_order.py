@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 from brackets import BRACKETS, strip, write
 
-from umform.errors import InvalidValue
+from umform.errors import UmformError
 from umform.flat_pattern import AllowanceTable, KFactor, Orders, Tooling, flat
 from umform.flat_pattern.operator_sheet import steps_of, write_sheet
 from umform.processes.bend_sequence import Bodies
@@ -99,13 +99,21 @@ def test_a_table_gives_the_allowance_and_is_not_extrapolated(tmp_path, step):
     for bend in ((130.0, 2.0, 2.0), (90.0, 3.0, 2.0), (90.0, 2.0, 1.0)):
         with pytest.raises(ValueError, match="no allowance for this bend"):
             table(*bend)
-    for row in ("90,2,2,4.9", "150,2,2,nan", "150,2,2,-1.2"):
-        path.write_text(f"angle,radius,thickness,allowance\n60,2,2,3.1\n90,2,2,4.4\n{row}\n")
-        with pytest.raises(InvalidValue, match="each bend once"):
+    for row, text in (
+        ("90,2,2,4.9", "each bend once"),
+        ("150,2,2,-1.2", "each bend once"),
+        ("150,2,2,nan", "the allowance is not a number"),
+        ("150,2,2,", "the allowance is not a number"),
+        ("150,2,2", "this row has 3 cells"),
+    ):
+        path.write_text(f"Angle, radius, thickness, allowance\n60,2,2,3.1\n90,2,2,4.4\n{row}\n")
+        with pytest.raises(UmformError, match=text) as error:
             AllowanceTable.read(path)
-    path.write_text("angle,radius,allowance\n60,2,3.1\n")
-    with pytest.raises(OSError, match="thickness"):
-        AllowanceTable.read(path)
+        assert error.value.where == f"{path}, line 4"
+    for text in ("angle,radius,allowance\n60,2,3.1\n", "angle;radius;thickness;allowance\n60;2;2;3,1\n", "# none\n"):
+        path.write_text(text)
+        with pytest.raises(OSError, match=r"thickness|no rows"):
+            AllowanceTable.read(path)
     with pytest.raises(ValueError, match="DIN 6935"):
         KFactor(44)
 

@@ -74,13 +74,11 @@ def _table(path: str | PathLike[str], remedy: str) -> list[tuple[int, list[str]]
         lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
     except (OSError, ValueError) as error:
         cause = getattr(error, "strerror", None) or "another kind of file, or text that is not UTF-8"
-        raise FileProblem(
-            "the measurements cannot be read", where=str(path), cause=cause.lower(), remedy=remedy
-        ) from None
+        raise FileProblem("this table cannot be read", where=str(path), cause=cause.lower(), remedy=remedy) from None
     cells = [(number, line.split("#")[0].strip()) for number, line in enumerate(lines, start=1)]
     table = [(number, [cell.strip() for cell in line.split(",")]) for number, line in cells if line]
     if not table:
-        raise FileProblem("there are no measurements", where=str(path), cause="an empty file", remedy=remedy)
+        raise FileProblem("this table has no rows", where=str(path), cause="an empty file", remedy=remedy)
     return table
 
 

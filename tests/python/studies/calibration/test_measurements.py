@@ -58,7 +58,7 @@ def test_plastic_strains_get_their_elastic_part(file):
         ("angle,stress,r\n0,1,0.8\n0,1,0.9\n", "each once"),
         ("angle,stress,r\n135,1,0.8\n", "between 0 and 90"),
         ("angle,stress,r\n45,210,0.8\n90,215,0.8\n", "need that at 0 degrees"),
-        ("", "there are no measurements"),
+        ("", "this table has no rows"),
     ],
 )
 def test_directions_are_refused(file, text, message):
