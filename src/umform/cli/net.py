@@ -23,6 +23,7 @@ def net(
         Path | None,
         option("Outline of the formed part: a DXF drawing, or a CSV file with columns x, y or x, y, z.", _WANTED),
     ] = None,
+    outline_layer: Annotated[str | None, option("Layer of this drawing with the outline.", _WANTED)] = None,
     height: Annotated[
         float | None, option("Height of the edge over the bottom in mm, both on the mid-surface: of a cup.", _WANTED)
     ] = None,
@@ -31,6 +32,7 @@ def net(
         Path | None,
         option("Outline of the first blank, such as blank.dxf of `umform blank`.", _BLANK),
     ] = None,
+    first_layer: Annotated[str | None, option("Layer of this drawing with the outline.", _BLANK)] = None,
     changes: Changes = None,
     overwrite: Overwrite = False,
     force: Force = False,
@@ -57,19 +59,24 @@ def net(
             cause="both, or none of them",
             remedy="--outline flange.dxf for a flange, --height 20 for a cup",
         )
+    for option_of, layer, file in (("--outline", outline_layer, outline), ("--first", first_layer, first)):
+        if layer is not None and file is None:
+            raise InvalidValue(
+                "a layer is that of a drawing", where=f"{option_of}-layer", value=layer, remedy=f"{option_of} FILE.dxf"
+            )
     stem = f"{deck.stem}-net"
     place = chosen_folder(deck.parent, list(names(stem).values()), overwrite=overwrite)
-    with deck_errors("height", "corrections"):
+    with deck_errors("height", "corrections", "first", wanted="--outline"):
         loaded = read(deck, changes or (), trust)
         running.refuse_implausible(loaded, loaded.build(), force=force)
-        wanted = height if outline is None else outline_of(outline)
+        wanted = height if outline is None else outline_of(outline, outline_layer)
         assert wanted is not None
         found = net_blank(
             loaded,
             wanted,
             names(stem)["mesh"],
             corrections=corrections,
-            first=None if first is None else outline_of(first),
+            first=None if first is None else outline_of(first, first_layer),
         )
     files = write_files(place, stem, found)
     with printing(f"the files of the blank are in {place}"):

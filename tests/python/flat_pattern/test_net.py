@@ -18,7 +18,10 @@ from umform.problem import Problem, load
 from umform.problem.templates import template
 from umform.processes.draw import Cup
 from umform.report.symmetry import Mirror
+from umform.surfaces.dxf import write_dxf
+from umform.surfaces.segments import Arc
 
+HOLE = Arc((3.0, 0.0), (3.0, 0.0), (1.0, 0.0))
 SQUARE = np.array([[2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [0.0, 0.0]])
 
 
@@ -139,9 +142,13 @@ def test_the_command(tmp_path):
     refused = CliRunner().invoke(cli.app, words[:2])
     assert refused.exit_code != 0
     assert "--outline" in str(refused.exception) + refused.output
-    for wrong in (["--height", "-3"], ["--height", "9", "--corrections", "0"]):
+    far = ["--height", "9", "--first", str(tmp_path / "far.csv")]
+    np.savetxt(tmp_path / "far.csv", circle(1.0) + 100.0, delimiter=",")
+    for wrong in (["--height", "-3"], ["--height", "inf"], ["--height", "9", "--corrections", "0"], far):
         refused = CliRunner().invoke(cli.app, [*words[:2], *wrong, "--overwrite"])
         assert refused.exit_code == 1 and f"where:  {wrong[-2]}" in refused.output
+    refused = CliRunner().invoke(cli.app, [*words[:2], "--height", "9", "--first-layer", "0"])
+    assert refused.exit_code == 1 and "a layer is that of a drawing" in str(refused.exception) + refused.output
 
 
 def test_a_row_of_an_outline_that_is_no_point_is_refused(tmp_path):
@@ -150,6 +157,29 @@ def test_a_row_of_an_outline_that_is_no_point_is_refused(tmp_path):
     with pytest.raises(FileProblem, match="a row of the outline is no point") as error:
         outline_of(path)
     assert error.value.where.endswith("row 3")
+
+
+@pytest.mark.parametrize("rows", ["", "x;y\n40;0\n0;40\n-40;0\n", "40,0,0,1\n0,40,0,1\n-40,0,0,1\n"])
+def test_a_table_that_is_no_outline_is_refused(tmp_path, rows):
+    path = tmp_path / "flange.csv"
+    path.write_text(rows)
+    with pytest.raises(FileProblem, match="columns between commas"):
+        outline_of(path)
+
+
+def test_an_outline_on_a_layer_of_a_drawing(tmp_path):
+    path = write_dxf(tmp_path / "flange.dxf", {"EDGE": [Arc((9.0, 0.0), (9.0, 0.0), (0.0, 0.0))], "HOLES": [HOLE]})
+    assert np.hypot(*outline_of(path, "edge").T) == pytest.approx(9.0, abs=0.01)
+    with pytest.raises(uf.errors.OpenSection, match="2 closed curves"):
+        outline_of(path)
+    with pytest.raises(uf.errors.InvalidValue, match="only a drawing has layers"):
+        outline_of(tmp_path / "flange.csv", "EDGE")
+
+
+def test_a_search_that_fails_leaves_no_mesh(tmp_path):
+    with pytest.raises(uf.errors.InvalidValue, match="far from the formed sheet"):
+        net_blank(deck(), 5000.0, tmp_path / "net.inp", corrections=1, first=circle(44.0))
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_first_blank_is_given(tmp_path):

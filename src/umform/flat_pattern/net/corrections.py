@@ -139,6 +139,7 @@ def net_blank(
     if not (isinstance(corrections, int) and 1 <= corrections <= 10):
         raise InvalidValue("a blank is corrected once to ten times", where="corrections", value=corrections, remedy="2")
     file = Path(mesh)
+    trial = file.with_name(f"{file.stem}-trial{file.suffix}")
     model = deck.build().model
     edge = Edge.of(model.mesh, mirrors(model))
     own, centre = edge.star, edge.star.centre
@@ -153,19 +154,22 @@ def net_blank(
     stars, runs, steps = [own if first is None else on_rays(first, "first")], list[NetRun](), list[Floats]()
     factor = 1.0
     changed = deck
-    while len(runs) <= corrections:
-        if first is not None or runs:
-            changed = _with(deck, stretched(model.mesh, own, stars[-1]), file)
-        problem = changed.build()
-        problem.solve(progress=progress)
-        blank, u = problem.model.mesh, problem.model.u
-        formed, surface = edge.formed(blank, u), mid_surface(blank, u).points
-        runs.append(NetRun(stars[-1], formed, goal.distance(formed, surface)))
-        log.info("blank %d: largest distance %.3f mm, mean %.3f mm", len(runs), runs[-1].largest, runs[-1].mean)
-        if len(runs) <= corrections:
-            steps.append(corrected_blank(blank, u, goal.places(formed, surface)) - stars[-1].points)
-            factor = _factor(factor, steps)
-            stars.append(on_rays(stars[-1].points + factor * steps[-1], "the corrected blank"))
+    try:
+        while len(runs) <= corrections:
+            if first is not None or runs:
+                changed = _with(deck, stretched(model.mesh, own, stars[-1]), trial)
+            problem = changed.build()
+            problem.solve(progress=progress)
+            blank, u = problem.model.mesh, problem.model.u
+            formed, surface = edge.formed(blank, u), mid_surface(blank, u).points
+            runs.append(NetRun(stars[-1], formed, goal.distance(formed, surface)))
+            log.info("blank %d: largest distance %.3f mm, mean %.3f mm", len(runs), runs[-1].largest, runs[-1].mean)
+            if len(runs) <= corrections:
+                steps.append(corrected_blank(blank, u, goal.places(formed, surface)) - stars[-1].points)
+                factor = _factor(factor, steps)
+                stars.append(on_rays(stars[-1].points + factor * steps[-1], "the corrected blank"))
+    finally:
+        (deck.source.folder / trial).unlink(missing_ok=True)
     best = min(runs, key=lambda run: run.largest)
     return NetBlank(_with(deck, stretched(model.mesh, own, best.blank), file), file, edge, runs)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
@@ -81,23 +82,32 @@ class AtHeight:
         return np.asarray(abs(self.places(edge, surface)[:, 2] - edge[:, 2]))
 
 
-def outline_of(path: str | Path) -> Floats:
+def outline_of(path: str | Path, layer: str | None = None) -> Floats:
     """Corners of an outline in a file, shape (n, 2) or (n, 3).
 
     Parameters
     ----------
     path : str or Path
         A DXF drawing of one closed curve, or a CSV table with the columns x, y or x, y, z; a heading is left out.
+    layer : str, optional
+        The layer of the drawing with the curve; by default all of it is the curve.
 
     Raises
     ------
     FileProblem, OpenSection
         If the file cannot be read.
+    InvalidValue
+        If there is no such layer, or the file has no layers.
     """
     if Path(path).suffix.lower() == ".dxf":
-        return Profile.from_dxf(path, tolerance=_CHORD).points(_CHORD)
+        return Profile.from_dxf(path, layer, tolerance=_CHORD).points(_CHORD)
+    if layer is not None:
+        raise InvalidValue("only a drawing has layers", where=str(path), value=layer, remedy="leave the layer out")
     try:
-        rows = np.genfromtxt(path, delimiter=",", comments="#")
+        with warnings.catch_warnings(action="ignore"):  # of an empty file
+            rows = np.genfromtxt(path, delimiter=",", comments="#", ndmin=2)
+        if rows.shape[1] not in (2, 3):
+            raise ValueError(f"it has {rows.shape[1]} columns between commas")
     except (OSError, ValueError) as error:
         raise FileProblem(
             "the outline cannot be read",
@@ -105,7 +115,6 @@ def outline_of(path: str | Path) -> Floats:
             cause=" ".join(str(error).split())[:200],
             remedy="a DXF drawing with one closed curve, or a CSV file with columns x, y or x, y, z",
         ) from error
-    rows = np.atleast_2d(rows)
     known = np.isfinite(rows).all(axis=1)
     if not known[1:].all():  # the first one may be a heading
         raise FileProblem(
@@ -123,9 +132,9 @@ def height(value: float) -> AtHeight:
     Raises
     ------
     InvalidValue
-        If it is not positive.
+        If it is not positive and finite.
     """
-    if not value > 0.0:
+    if not 0.0 < value < np.inf:
         raise InvalidValue(
             "the height of a part is positive", where="height", value=value, remedy="in mm, from the bottom to the edge"
         )
