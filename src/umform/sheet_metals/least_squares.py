@@ -38,6 +38,8 @@ class Fit(Generic[Law]):
         Root of the mean square of the residuals.
     correlation : ndarray, shape (n, n)
         Correlations of the constants, in their order; zero where a constant is not determined at all.
+    sizes : mapping of str to float
+        Size of a constant that may be zero, in place of its value if that is smaller.
     """
 
     law: Law
@@ -45,11 +47,13 @@ class Fit(Generic[Law]):
     deviations: Mapping[str, float]
     misfit: float
     correlation: Floats = field(default_factory=lambda: np.eye(0), compare=False)
+    sizes: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def undetermined(self) -> tuple[str, ...]:
-        """Constants whose standard deviation is more than half of their value."""
-        return tuple(name for name, value in self.constants.items() if not self.deviations[name] <= _VAGUE * abs(value))
+        """Constants whose standard deviation is more than half of their value, or of their size."""
+        sizes = {name: max(abs(value), self.sizes.get(name, 0.0)) for name, value in self.constants.items()}
+        return tuple(name for name, size in sizes.items() if not self.deviations[name] <= _VAGUE * size)
 
     @property
     def tied(self) -> tuple[tuple[str, str, float], ...]:

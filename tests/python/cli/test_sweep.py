@@ -59,7 +59,8 @@ def test_jobs_of_a_table(deck):
         (["--jobs", "missing.csv"], "the jobs cannot be read"),
         (["--jobs", "ragged.csv"], "this is no table of jobs"),
         ([], "a sweep varies nothing"),
-        (["--vary", "E=1e6", "--processes", "0"], "processes"),
+        (["--vary", "E=1e6", "--processes", "0"], "where:  --processes"),
+        (["--vary", "E=1e6", "--measure", "force:mx"], "where:  --measure"),
     ],
 )
 def test_what_makes_no_sweep_is_said_before_anything_runs(deck, words, said):

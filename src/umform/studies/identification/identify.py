@@ -235,6 +235,7 @@ def _identified(search: _Search, values: Floats, at_bound: Floats, before: Float
         dict(zip(names, spread.tolist(), strict=True)),
         float(np.sqrt(np.mean(residual**2))),
         correlation,
+        {name: one.size for name, one in search.sought.items()},
     )
     return Identified(
         fit=fit,

@@ -81,6 +81,12 @@ class Sought:
             return 0.5 * (self.high - self.low)
         return abs(start) or 1.0
 
+    @property
+    def size(self) -> float:
+        """Standard deviation of all values between bounds of both signs; 0 for other bounds."""
+        both = self.low < 0.0 < self.high and math.isfinite(self.high - self.low)
+        return (self.high - self.low) / math.sqrt(12.0) if both else 0.0
+
 
 def _wrong(path: str, value: Any, cause: str) -> InvalidValue:
     return InvalidValue(

@@ -15,6 +15,7 @@ from umform.errors import InvalidValue
 MOST_VALUES = 10_000
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _RANGE = re.compile(rf"\s*({_NUMBER}):({_NUMBER}):({_NUMBER})\s*")
+_PART_OF_RANGE = re.compile(rf"\s*{_NUMBER}(?::{_NUMBER})+\s*")
 _OPENING, _CLOSING = "[{", "]}"
 
 
@@ -52,13 +53,21 @@ def read_values(text: str, key: str) -> list[Written]:
     Raises
     ------
     InvalidValue
-        There is no value, one is empty, or a range is infinite.
+        There is no value, one is empty, or a range is infinite or has no step.
     """
     values: list[Written] = []
     for piece in _pieces(text):
         found = _RANGE.fullmatch(piece)
         if found:
             values += _range(*map(Decimal, found.groups()), where=f"--vary {key}", text=piece)
+        elif _PART_OF_RANGE.fullmatch(piece):
+            raise InvalidValue(
+                "a range has a first and a last number and a step",
+                where=f"--vary {key}",
+                value=text,
+                cause="a decimal comma, or the step is missing",
+                remedy="write first:last:step, as 0.8:1.2:0.1",
+            )
         else:
             values.append(Written(piece.strip()))
     if not all(value.text for value in values):

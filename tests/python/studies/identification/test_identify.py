@@ -57,6 +57,16 @@ def test_exact_measurements_give_the_constants(tension):
     assert found.subject == found.values
 
 
+def test_a_number_near_zero_is_determined_beside_its_bounds(tension):
+    def offset(more):
+        return bar(200.0 + more, 2000.0)
+
+    for sought, answer in (((-50.0, 50.0), "yes"), (uf.Sought(start=1.0), "no")):
+        found = uf.identify(offset, {"more": sought}, [curve(tension, deviation=1.0)])
+        assert abs(found.values["more"]) < 0.01 < found.deviations["more"] < 1.0
+        assert found.table[1][-1] == answer
+
+
 def test_constants_lie_within_two_standard_errors_as_often_as_they_should(tension):
     inside, distances = 0, []
     for seed in range(30):

@@ -41,7 +41,7 @@ def test_a_number_is_text_where_the_key_takes_text():
     assert not is_text("mesh.thickness", BEND)
 
 
-@pytest.mark.parametrize("text", ["", "1,,2", "1:2:0", "1:2:-0.1", "0:1:1e-9"])
+@pytest.mark.parametrize("text", ["", "1,,2", "1:2:0", "1:2:-0.1", "0:1:1e-9", "1:2", "1,8:2,0:0,1"])
 def test_what_is_no_row_of_values_is_refused(text):
     with pytest.raises(InvalidValue, match="key"):
         read_values(text, "key")
