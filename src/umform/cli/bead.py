@@ -65,7 +65,7 @@ def bead(
     law, note = metal.law(given["thickness"])
     case = DrawBead(**given, material=law)
     if deck:
-        print_deck(studies.compensated(case))
+        print_deck(studies.in_deck(case))
         return
     several = studies.extrapolates(extrapolate)
     studies.check(case)

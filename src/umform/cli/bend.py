@@ -151,7 +151,7 @@ def bend(
         return
     said: list[str] = []
     place = None if deck else results_folder(out, "bend", RESULTS, overwrite=overwrite, say=said.append)
-    case = studies.compensated(case)
+    case = studies.in_deck(case) if deck else studies.compensated(case)
     if place is None:
         print_deck(goal.with_stroke(case))
         return

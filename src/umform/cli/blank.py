@@ -13,6 +13,7 @@ from umform.cli.options import SHEET, All, option
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.root import Debug, Overwrite, Verbose, app, printing
 from umform.cli.warnings import print_warnings_once
+from umform.errors import InvalidValue
 
 _HELD, _PART = "What holds the sheet", "Part"
 #: Coefficient of friction of lubricated sheet.
@@ -78,11 +79,23 @@ def blank(
     friction = (0.0 if clamped else _LUBRICATED) if friction is None else friction
     case = Blank(law, thickness, rolling, holder_force, friction, bead, gap, clamped)
     place = results_folder(out, "blank", FILES, overwrite=overwrite)
-    if coarse and size is None:
-        size = coarse_size(part, scale)
+    if coarse:
+        size = _coarse(coarse_size(part, scale), size)
     found = estimated(part, case, scale=scale, weld=weld, size=size, offset=offset)
     with staging(place, FILES):
         with printing(f"the files of the blank are in {place}"):
             show_outcome(found, note=note, everything=everything)
         files = write_files(place, found, note)
     say_written(place, files)
+
+
+def _coarse(found: float | None, size: float | None) -> float:
+    """Side of coarse triangles; refused beside another one, and of a file that has its own triangles."""
+    if found is None or size is not None:
+        raise InvalidValue(
+            "coarse triangles are those of a CAD file without a size",
+            where="--coarse",
+            cause="a file that has triangles" if found is None else "--size beside it",
+            remedy="leave it out; --size is the largest side of a triangle",
+        )
+    return found

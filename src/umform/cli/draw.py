@@ -122,7 +122,7 @@ def cup(
     radii = {radius: typed[name] and 0.5 * typed[name] for radius, name in Cup.diameters.items()}
     case = Cup(**given | radii | {"holder_force": given["holder_force"] or None}, material=law)
     if deck:
-        print_deck(studies.compensated(case))
+        print_deck(studies.in_deck(case))
         return
     _run(
         case,
@@ -179,7 +179,7 @@ def u(
     law, note = metal.law(given["thickness"])
     case = UBend(**given, material=law)
     if deck:
-        print_deck(studies.compensated(case))
+        print_deck(studies.in_deck(case))
         return
     several = studies.extrapolates(extrapolate, usual=not coarse)
     how = extrapolated if several else draw

@@ -119,6 +119,18 @@ class Studies:
         self.found = compensate(case, wanted(self.want), paths, bounds=bounds)
         return self.found.subject
 
+    def in_deck(self, case: Any) -> Any:
+        """The case with parameters for the wanted results, for its deck; studies of its run are refused."""
+        if self.derive or self.scatter:
+            raise InvalidValue(
+                "a deck is printed without a run, which has derivatives or scatter",
+                where="--print-deck",
+                value=", ".join(name for name in self.typed if name != "--want"),
+                cause="both options",
+                remedy="leave one out; `umform derive` and `umform sigma` take the deck",
+            )
+        return self.compensated(case)
+
     def added_to(
         self,
         outcome: _Outcome,

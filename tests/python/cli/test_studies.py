@@ -27,3 +27,11 @@ def test_an_extrapolation_beside_a_study_is_refused_before_the_run(command, tmp_
     assert done.exit_code == 1
     assert "--extrapolate" in done.stderr and "--scatter" in done.stderr
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("command", [["bead"], ["draw", "u"], ["draw", "cup"], ["bend", "--stroke", "6"]])
+def test_a_deck_is_printed_without_studies_of_a_run(command):
+    for study in (["--scatter", "thickness=1%"], ["--derive", "thickness"]):
+        done = CliRunner().invoke(app, [*command, "--print-deck", *study])
+        assert done.exit_code == 1
+        assert study[0] in done.output and "`umform derive` and `umform sigma` take the deck" in done.output

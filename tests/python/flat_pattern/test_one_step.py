@@ -226,6 +226,8 @@ def test_files_of_a_blank(tmp_path):
     page = (out / "blank.html").read_text(encoding="utf-8")
     assert "one-step estimate" in page
     assert (out / "flat.png").stat().st_size > 10_000
+    done = CliRunner().invoke(cli.app, ["blank", str(tmp_path / "cup.stl"), "--coarse", "--out", str(tmp_path / "no")])
+    assert done.exit_code == 1 and "a file that has triangles" in str(done.exception) + done.output
 
 
 @pytest.mark.parametrize("suffix", [".step", ".iges"])
