@@ -212,7 +212,15 @@ def _bend_map(
 
 
 def _allowed(skin: Skin, place: int, found: Allowance) -> Allowance:
-    """Refuse an allowance that leaves no flat length between the tangent lines of the drawing."""
+    """Refuse an allowance that leaves no flat length between the tangent lines of the drawing, and what is none."""
+    if not isinstance(found, Allowance):
+        raise InvalidValue(
+            "the function of the flat lengths returns an Allowance",
+            where="allowance",
+            value=found,
+            cause=f"a value of type {type(found).__name__}",
+            remedy='Allowance(length, "our table", radius)',
+        )
     if found.length > 0.0:
         return found
     raise InvalidValue(

@@ -116,6 +116,8 @@ def test_a_table_gives_the_allowance_and_is_not_extrapolated(tmp_path, step):
             AllowanceTable.read(path)
     with pytest.raises(ValueError, match="DIN 6935"):
         KFactor(44)
+    with pytest.raises(ValueError, match="returns an Allowance"):
+        flat(step("l"), allowance=lambda angle, radius, thickness: 4.4)
 
 
 def test_a_table_of_bend_table_gives_deductions(tmp_path, step):

@@ -109,7 +109,8 @@ def derivatives(
     >>> round(found["tip_force", "E"].relative, 6)
     1.0
     """
-    check_value(derivatives, "frames", frames)
+    for name, value in {"by": by, "of": each(of), "hold": hold, "frames": frames}.items():
+        check_value(derivatives, name, value)
     thing = subject_of(subject, by, options, solver)
     known = {one.path: one for one in thing.parameters()}
     held = held_by(hold or {}, known)
@@ -117,7 +118,7 @@ def derivatives(
     parameters = list({one.path: one for one in (known_parameter(name, known) for name in names)}.values())
     if parameters and {one.path for one in parameters} <= set(held.values()):
         refuse_followers(parameters, held, "by")
-    of = each(of)
+    of = None if of is None else list(dict.fromkeys(each(of)))
     lead = thing.build()
     shadows, sizes = {}, {}
     for one in parameters:

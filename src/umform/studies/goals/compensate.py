@@ -113,8 +113,9 @@ def compensate(
     >>> found.reached, len(found.trials) <= 4
     (True, True)
     """
+    for name, value in {"want": want, "by": by, "bounds": bounds, "most": most}.items():
+        check_value(compensate, name, value)
     _check_wanted(want)
-    check_value(compensate, "most", most)
     start = _steady(subject_of(subject, by, options, solver))
     known = {one.path: one for one in start.parameters()}
     parameters = [known_parameter(name, known) for name in names_of(start, by)]

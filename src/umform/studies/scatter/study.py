@@ -15,7 +15,7 @@ from umform.analysis.run import Result
 from umform.errors import InvalidValue, UmformError
 from umform.progress import Show
 from umform.results.quantity import Quantity
-from umform.spec import Scalar, each
+from umform.spec import Scalar, check_value, each
 from umform.studies.derivatives import Derivatives, derivatives
 from umform.studies.derivatives.derive import held_by, known_parameter, names_of, subject_of
 from umform.studies.derivatives.subjects import Subject
@@ -164,6 +164,9 @@ class Plan:
         InvalidValue
             A parameter does not exist; a scatter, correlation or limit is invalid.
         """
+        given = {"sources": sources, "of": each(of), "correlations": correlations, "limits": limits, "hold": hold}
+        for name, value in (given | {"values": values}).items():
+            check_value(scatter, name, value)
         allowed = {name: Limits.of(one) for name, one in (limits or {}).items()}
         thing = subject_of(subject, values, settings.get("options"), settings.get("solver"))
         if values is not None:

@@ -13,7 +13,7 @@ from umform.errors import InvalidValue, UmformError
 from umform.pool import run_all
 from umform.progress import Show, progress_bar
 from umform.results.outcome import Outcome
-from umform.spec import About, Scalar, check_fields, each, takes
+from umform.spec import About, Scalar, check_fields, check_value, each, takes
 from umform.studies.derivatives.derive import known_parameter, names_of, subject_of
 from umform.studies.derivatives.responses import responses
 from umform.studies.derivatives.subjects import OfFunction, Subject, refuse_same_model
@@ -59,7 +59,7 @@ def slopes(
     by : str, sequence of str, or mapping of str to float
         Paths of numbers, or their ends; parameters with their values for a function, which runs in this process.
     of : str, or sequence of str or callable, optional
-        As for `derivatives`, each with a name of its own; with a process, names of its quantities.
+        Results as for `derivatives`, each with a name of its own; with a process, names of its quantities.
     process : callable, optional
         Runs a case, as `hemming` and `air_bending`; a function of a module. An angle that is a goal stays one.
     base : Outcome, optional
@@ -90,6 +90,8 @@ def slopes(
     >>> found = uf.slopes(Hemming(form="rope"), ["thickness"], process=hemming)  # doctest: +SKIP
     >>> found["roll_in", "thickness"].value, found["roll_in", "thickness"].band  # doctest: +SKIP
     """
+    for name, value in {"by": by, "of": each(of)}.items():
+        check_value(slopes, name, value)
     thing, wanted, of = subject_of(subject, by), SlopeOptions(**options), each(of)
     planned = planned_runs(subject, by, **options)
     if process is None:

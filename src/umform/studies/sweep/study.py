@@ -15,7 +15,7 @@ from umform.errors import InvalidValue
 from umform.notebook import Display, InNotebook
 from umform.pool import check_processes, run_all
 from umform.progress import Tick, progress_bar
-from umform.spec import each
+from umform.spec import check_value, each
 from umform.spec.display import value_text
 
 if TYPE_CHECKING:
@@ -188,6 +188,7 @@ def sweep(
     check_processes(processes)
     _check_executor(executor, processes)
     measures = each(measures)
+    check_value(sweep, "vary", vary)
     base = deck if isinstance(deck, Problem) else load(deck)
     wanted = [Measure.of(measure) for measure in measures]
     functions = tuple(measure for measure in measures if not isinstance(measure, str))

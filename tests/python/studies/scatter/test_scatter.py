@@ -239,6 +239,9 @@ def test_how_a_scatter_is_written(text, expected):
         ({"E": "3%"}, {"limits": {"force": "89,5:91"}}, "limits", "a decimal comma"),
         ({"E": "3%"}, {"limits": {"force": 210.0}}, "limits", "limits are two numbers"),
         ({"E": "3%"}, {"limits": {"angle": "89:91"}}, "limits", "the run has no such quantity"),
+        (["E"], {}, "sources", "must be a dictionary"),
+        ({"E": "3%"}, {"hold": ["force"]}, "hold", "must be a dictionary"),
+        ({"E": "3%"}, {"of": 5}, "of", "must be a text or an array"),
     ],
 )
 def test_refusals(sources, rest, where, words):
