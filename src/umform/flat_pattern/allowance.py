@@ -137,11 +137,13 @@ class AllowanceTable:
 
     def __call__(self, angle: float, radius: float, thickness: float) -> Allowance:
         """The allowance of a bend; its radius and thickness must be in the table, its angle within it."""
-        fits = sorted(
-            (a, length)
-            for a, r, t, length in self.rows
+        nearest_last = sorted(self.rows, key=lambda row: -abs(row[1] - radius) - abs(row[2] - thickness))
+        near = {
+            a: length
+            for a, r, t, length in nearest_last
             if abs(r - radius) <= _ROW * radius and abs(t - thickness) <= _ROW * thickness
-        )
+        }
+        fits = sorted(near.items())
         if not fits or not fits[0][0] - 1e-6 <= angle <= fits[-1][0] + 1e-6:
             have = (
                 f"it has {fits[0][0]:g} to {fits[-1][0]:g} degrees" if fits else "no row of this radius and thickness"

@@ -96,6 +96,8 @@ def test_a_table_gives_the_allowance_and_is_not_extrapolated(tmp_path, step):
     assert made.size.max() == pytest.approx(70.0 + 4.4, abs=1e-6)
     assert table(75.0, 2.0, 2.0).length == pytest.approx(3.75)
     assert made.bends[0].allowance.source == "table bends.csv"
+    close = AllowanceTable(((90.0, 2.0, 2.0, 4.4), (90.0, 2.01, 2.0, 4.5)), "close")  # rows of nearly one radius
+    assert [close(90.0, radius, 2.0).length for radius in (2.0, 2.01)] == [4.4, 4.5]
     for bend in ((130.0, 2.0, 2.0), (90.0, 3.0, 2.0), (90.0, 2.0, 1.0)):
         with pytest.raises(ValueError, match="no allowance for this bend"):
             table(*bend)
