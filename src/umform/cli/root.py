@@ -73,7 +73,7 @@ class Commands(TyperGroup):
                 return super().invoke(ctx)
         except UmformError as error:
             _show_traceback(ctx)
-            command = self.get_command(ctx, ctx.invoked_subcommand or "")
+            command = ctx.meta.get("command") or self.get_command(ctx, ctx.invoked_subcommand or "")
             say_of(error, message(error, options_of(command) if command else {}))
             raise typer.Exit(1) from error
         except KeyboardInterrupt as error:
@@ -197,6 +197,7 @@ def _write_csv_as(ctx: typer.Context, name: str) -> str:
 
 
 def _remember_debug(ctx: typer.Context, wanted: bool) -> bool:
+    ctx.meta["command"] = ctx.command  # the innermost one is read last: messages name its options
     ctx.meta["debug"] = wanted or ctx.meta.get("debug", False)
     return wanted
 

@@ -18,6 +18,7 @@ TYPED = [
     ("metal show S690", 1, ["where:  umform metal show", "umform metal list"]),
     ("bend --stroke 3 --material DC04 --yield-stress 200", 1, ["cause:", "leave one of them out"]),
     ("bend --stroke 3 --swift 520,0.004", 1, ["2 numbers are given", "520,0.004,0.22"]),
+    ("bend correct --material DC04 --stroke 3 --measured-angle 193", 1, ["where:  --measured-angle"]),
     ("bend --stroke 3,0", 2, ["where:  --stroke", "a decimal comma", "write 3.0"]),
     ("bend --stroke 3mm", 2, ["write 3;"]),
     ("bend --layers 1.5", 2, ["a whole number", "cause:"]),
