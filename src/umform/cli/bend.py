@@ -12,7 +12,7 @@ import typer
 
 from umform.cli import bend_correct, bend_table  # noqa: F401  (they add their commands)
 from umform.cli.bend_commands import alone, bends
-from umform.cli.bend_goals import BendGoal, check_budgeted, check_flat_only, check_length, check_measured, check_no_goal
+from umform.cli.bend_goals import BendGoal, check_flat_only, check_length, check_measured, check_no_goal
 from umform.cli.check import Force
 from umform.cli.deflection import deflected, press_brake
 from umform.cli.drawn_tools import drawn_tools, named_tools
@@ -24,6 +24,7 @@ from umform.cli.options import (
     SOLUTION,
     All,
     PrintDeck,
+    check_idle,
     option,
     print_deck,
 )
@@ -109,11 +110,19 @@ def bend(
     brake_frame = press_brake(given, length, sequence=sequence is not None, bottoming=given["bottoming"])
     goal = BendGoal.of(given, table, angles, several=sequence is not None)
     check_length(length)
+    check_idle(
+        context,
+        processes=(budget, "--budget"),
+        width_elements=(given["width"] is not None, "--width"),
+        tolerance=(
+            goal.name == "angle" or bool(goal.angles) or sequence is not None,
+            "--angle, --angles or --sequence",
+        ),
+    )
     if processes is not None:
         from umform.pool import check_processes  # the import is slow
 
         check_processes(processes)
-        check_budgeted(processes, budget)
     law, note = metal.law(given["thickness"])
     given = named_tools(context, given, punch, die)
     tools = drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer)

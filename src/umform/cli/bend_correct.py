@@ -7,11 +7,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
+import typer
+
 from umform.cli.bend_commands import bends
 from umform.cli.bend_table import StoreFolder, check_jobs, checked_formats, files_of, issue
 from umform.cli.folders import results_folder
 from umform.cli.metal import by_name
-from umform.cli.options import SHEET, SOLUTION, option
+from umform.cli.options import SHEET, SOLUTION, check_idle, option
 from umform.cli.outcome_screen import print_table
 from umform.cli.plausible import refuse_implausible
 from umform.cli.root import Debug, Overwrite, Verbose, console
@@ -28,6 +30,7 @@ _OMITTED = ("material", "punch_section", "die_section", "on_top", "bottoming")
 @bends.command("correct")
 @given_by(AirBending, omit=_OMITTED)
 def bend_correct(
+    context: typer.Context,
     material: Annotated[str, option("Card to correct: a metal of the library, or a file.", SHEET)],
     angle: Annotated[
         str, option("Angle after springback in degrees, such as 91.7+-.1.", _MEASURED, "--measured-angle")
@@ -68,6 +71,8 @@ def bend_correct(
         "force": measured(force, "--measured-force"),
         "radius": measured(radius, "--measured-radius"),
     }
+    again = (table is not None, "--issue-again")
+    check_idle(context, width_elements=(given["width"] is not None, "--width"), formats=again, store=again, jobs=again)
     names = checked_formats(formats)
     check_jobs(jobs)
     with by_name("--material"):

@@ -185,18 +185,6 @@ def check_no_goal(option: str, *goals: object) -> None:
         )
 
 
-def check_budgeted(processes: int, budget: bool) -> None:
-    """Refuse a number of runs at a time without an error budget, whose runs alone are independent."""
-    if not budget:
-        raise InvalidValue(
-            "only the runs of an error budget go side by side",
-            where="--processes",
-            value=processes,
-            cause="--budget is missing",
-            remedy="--budget beside it, or leave it out",
-        )
-
-
 def check_flat_only(flat_only: bool) -> None:
     """Refuse the option of outside dimensions without their file."""
     if flat_only:

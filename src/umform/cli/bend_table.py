@@ -11,7 +11,7 @@ import typer
 from umform.cli.bend_commands import bends
 from umform.cli.folders import results_folder, say_written
 from umform.cli.metal import by_name
-from umform.cli.options import SHEET, SOLUTION, option
+from umform.cli.options import SHEET, SOLUTION, check_idle, option
 from umform.cli.outcome_screen import print_table
 from umform.cli.plausible import refuse_implausible
 from umform.cli.root import Debug, Overwrite, Verbose, say
@@ -34,6 +34,7 @@ _NONE = ("stroke", "bottoming")
 @bends.command("table")
 @given_by(AirBending, omit=(*_OTHERS, *_NONE))
 def bend_table(
+    context: typer.Context,
     material: Annotated[str, option("Metals of the library: DC04,1.4301.", SHEET)],
     thickness: Annotated[str, option("Thicknesses in mm: 1,1.5,2, or first:last:step.", SHEET)],
     opening: Annotated[str, option("Openings of dies in mm: 8,12.", _TOOLS)],
@@ -64,6 +65,7 @@ def bend_table(
     from umform.studies.bend_table import setups
 
     print_warnings_once()
+    check_idle(context, width_elements=(given["width"] is not None, "--width"))
     names = checked_formats(formats)
     check_jobs(jobs)
     lists = {

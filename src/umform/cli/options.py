@@ -6,6 +6,8 @@ from typing import Annotated, Any
 
 import typer
 
+from umform.errors import InvalidValue
+
 #: Panels.
 SHEET, SOLUTION = "Sheet", "Solution"
 
@@ -19,6 +21,28 @@ def is_typed(context: typer.Context, name: str) -> bool:
     """Whether an option stands on the command line."""
     source = context.get_parameter_source(name)
     return source is not None and source.name == "COMMANDLINE"
+
+
+def check_idle(context: typer.Context, **needed: tuple[bool, str]) -> None:
+    """Refuse options on the command line that do nothing, because what they belong to is missing.
+
+    Parameters
+    ----------
+    context : typer.Context
+        Tells which options were given by hand.
+    **needed : tuple of bool and str
+        For an option, whether what it belongs to is given, and its name.
+    """
+    for one in context.command.params:
+        if one.name in needed and not needed[one.name][0] and is_typed(context, one.name):
+            owner = needed[one.name][1]
+            raise InvalidValue(
+                f"the option does nothing without {owner}",
+                where=one.opts[0],
+                value=context.params[one.name],
+                cause=f"{owner} is missing",
+                remedy=f"{owner} beside it, or leave it out",
+            )
 
 
 All = Annotated[

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import logging
+import re
 from collections.abc import Iterable
 
 from umform.cli.root import say
 from umform.report.repeats import counted, without_place
+
+#: The bend of a part, which the log does not name.
+_BEND = re.compile(r"^bend \d+: ")
 
 
 class _Warnings(logging.Handler):
@@ -39,5 +43,5 @@ def echo_warnings(warnings: Iterable[str]) -> None:
     """Print the remaining warnings of a result, and the number of repetitions."""
     known = {text for handler in logging.getLogger("umform").handlers for text in getattr(handler, "known", ())}
     for warning in counted(warnings):
-        if without_place(warning) not in known:
+        if without_place(_BEND.sub("", warning)) not in known:
             say(warning)

@@ -241,7 +241,11 @@ class Mesh:
 
     def _chosen(self, predicate: Callable[[Floats, Floats, Floats], ArrayLike]) -> NDArray[np.bool_]:
         """Whether a predicate holds at each node, shape (n,)."""
-        found = np.asarray(predicate(*self.points.T))
+        try:
+            found = np.asarray(predicate(*self.points.T))
+        except Exception as error:
+            error.add_note("in a predicate of x, y, z, arrays over all nodes: lambda x, y, z: (x > 9.99) & (z < 0)")
+            raise
         if found.dtype != bool or found.shape not in ((), (len(self.points),)):
             raise InvalidValue(
                 "a predicate of x, y, z returns True or False for each node",

@@ -324,7 +324,7 @@ class Model(ShownModel):
         """
         everything = isinstance(nodes, str) and nodes == "all"
         ids = np.arange(len(self.mesh.points), dtype=np.int32) if everything else self.mesh.nodes(nodes)
-        gone = [instead_of] if isinstance(instead_of, Support) else list(instead_of)
+        gone: Sequence[Support] = instead_of if isinstance(instead_of, Sequence) else [instead_of]
         dofs = gauge_dofs(self.system, ids, gone)
         return self.supports.wait(unique(dofs // 3).astype(np.int32), dofs, name)
 
@@ -371,8 +371,7 @@ class Model(ShownModel):
         InvalidValue
             If the tools do not face each other, are already nearer, or move apart from each other.
         """
-        other = to if isinstance(to, Tool) else to.tool
-        press = self.tools.press_of(force)
+        other, press = self.tools.own(to), self.tools.press_of(force)
         check_arguments(Model.keep_gap, gap=gap)
         at, below = stop_at_gap(self.system, press, other, gap)
         self.tools.stop(force, at, below=below)

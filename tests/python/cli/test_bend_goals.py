@@ -94,6 +94,8 @@ GPA = ["--young", "210", "--poisson", "0.3", "--curve", "Swift,520,0.004,0.22"]
         (["--stroke", "4", "--find", "E", "--scatter", "thickness=1%"], "--scatter"),
         (["--stroke", "4", "--find", "E", "--timing"], "--all or --timing beside it"),
         (["--stroke", "4", "--processes", "2"], "--budget is missing"),
+        (["--stroke", "4", "--width-elements", "5"], "--width is missing"),
+        (["--stroke", "4", "--tolerance", "0.1"], "--angle, --angles or --sequence is missing"),
         (
             ["draw", "u", "--want", "theta1=90+-1", "--by", "friction", "--limit-curve", "no.csv"],
             "forming limit cannot",

@@ -110,6 +110,7 @@ def test_derivatives_of_a_part(one_bend):
     done = CliRunner().invoke(app, [*one_bend, "--derive", "strength", "--timing"], env={"COLUMNS": "160"})
     assert done.exit_code == 0, done.output
     assert "Where the time went" in done.stdout
+    assert done.stderr.count("times as many increments") == 1  # during the run, and not again as a warning of bend 1
     assert "bend 1: angle is constant: bends.0.stroke follows" in done.stdout
     assert "derivatives-history.csv" in done.stdout
     assert "bends.0.stroke" in Path("results/sequence/derivatives.csv").read_text()

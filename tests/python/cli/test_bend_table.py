@@ -131,6 +131,22 @@ def test_a_wrong_measurement_is_refused(typed):
     assert done.exit_code == 1 and "remedy" in done.stderr
 
 
+@pytest.mark.parametrize(
+    ("typed", "owner"),
+    [
+        (f"{SMALL} --width-elements 4", "--width"),
+        ("bend correct --material DC04 --stroke 5 --measured-angle 107 --width-elements 4", "--width"),
+        ("bend correct --material DC04 --stroke 5 --measured-angle 107 --format csv", "--issue-again"),
+        ("bend correct --material DC04 --stroke 5 --measured-angle 107 --store bends", "--issue-again"),
+    ],
+)
+def test_an_option_that_does_nothing_is_refused(typed, owner):
+    done = umform(typed)
+    assert (
+        done.exit_code == 1 and f"where:  {typed.split()[-2]}" in done.stderr and f"{owner} is missing" in done.stderr
+    )
+
+
 def test_an_option_before_the_name_of_a_command_is_refused():
     done = umform("bend --stroke 3 table")
     assert done.exit_code == 1 and "stand behind its name" in done.stderr and "--stroke" in done.stderr

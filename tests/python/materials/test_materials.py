@@ -458,5 +458,6 @@ def test_curves_that_are_none_are_refused(make, error):
 
 def test_a_model_wants_a_material(build):
     mesh = build.bar()[0].mesh
-    with pytest.raises(InvalidValue, match="material law"):
-        Model(mesh, material={"E": 210e3, "nu": 0.3})
+    for other in ({"E": 210e3, "nu": 0.3}, "DC04", mt.SVK):
+        with pytest.raises(InvalidValue, match=r"material law[\s\S]*sheet_metals.get\('DC04'\).law"):
+            Model(mesh, material=other)

@@ -157,6 +157,9 @@ def test_predicates_return_truth_values(predicate):
     for select in (made.nodes, made.face_set):
         with pytest.raises(InvalidValue, match="returns True or False for each node"):
             select(predicate)
+        with pytest.raises(ValueError, match="ambiguous") as caught:
+            select(lambda x, y, z: x > 1.0 and y > 1.0)
+        assert "(x > 9.99) & (z < 0)" in caught.value.__notes__[0]
 
 
 @pytest.mark.parametrize("cell", CELLS)

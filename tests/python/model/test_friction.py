@@ -427,6 +427,16 @@ def test_a_slip_that_is_not_positive_is_refused():
         model.contact("lower", Plane((0, 0, -0.5)), friction=0.1, slip=0.0)
 
 
+def test_a_slip_without_friction_is_refused():
+    """With a coefficient of zero it is kept, so that a study may vary the coefficient alone."""
+    model = Model(strip(4.0, 3.0, 1.0, (3, 2)), material=ELASTIC)
+    with pytest.raises(InvalidFriction, match=r"contact tool1, slip[\s\S]*give friction"):
+        model.contact("lower", Plane((0, 0, -0.5)), slip=0.01)
+    with pytest.raises(InvalidFriction, match="give friction"):
+        model.self_contact("lower", slip=0.01)
+    model.contact("lower", Plane((0, 0, -0.5)), friction=0.0, slip=0.01)
+
+
 @pytest.mark.parametrize("answer", [math.nan, -1.0, "rough", np.zeros(2)])
 def test_a_function_that_answers_nonsense_is_named(answer):
     model, ways = block(friction=lambda p, s, z: answer if p > 5.0 else 0.1 * p, slip=None)

@@ -276,6 +276,8 @@ def test_to_hold_something_twice_does_no_harm():
     ("wrong", "message"),
     [
         (lambda model: model.fix("x0", "x", axes=AROUND), "no such direction"),
+        (lambda model: model.hold_director("x0", (0, 0, 1)), "no such direction"),
+        (lambda model: model.hold_director("x0", 2), "no such direction"),
         (lambda model: model.fix("x0", normals=(1.0, 0.0)), "one normal"),
         (lambda model: model.fix("x0", normals=(0.0, 0.0, 0.0)), "have a length"),
         (lambda model: model.fix("x0", "r", axes=cylindrical(model.mesh.points[0], "y")), "on the axis"),

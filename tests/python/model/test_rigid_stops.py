@@ -114,6 +114,9 @@ def test_what_makes_no_sense_is_refused():
     aside = model.press(model.tools[1], "x", "aside")
     with pytest.raises(InvalidValue, match="face each other"):
         model.keep_gap(aside, die, 0.9)
+    for other in (None, uf.Plane((0, 0, -1.0), (0, 0, 1))):
+        with pytest.raises(InvalidValue, match="no such tool"):
+            model.keep_gap(hold, other, 0.9)
     model.stop(hold, -0.2)
     with pytest.raises(InvalidValue, match="no way between"):
         model.stop(hold, -0.1, below=True)

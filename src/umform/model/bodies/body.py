@@ -102,8 +102,10 @@ class Body(Term):
         if not isinstance(material, Material) or isinstance(material, type):
             raise InvalidValue(
                 "material must be a material law",
+                where=name,
                 value=type(material).__name__,
-                remedy="SVK, NeoHooke, NeoHookePower, J2 or Metal",
+                cause="none, a class, or a sheet metal or its name in place of its law",
+                remedy="SVK, NeoHooke, NeoHookePower, J2 or Metal; umform.sheet_metals.get('DC04').law",
             )
         self.material = material
         if getattr(material, "directional", False) and rolling is None:

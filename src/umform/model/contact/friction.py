@@ -219,6 +219,18 @@ AnyFriction = Annotated[
 ]
 
 
+def refuse_slip_alone(friction: AnyFriction | None, slip: float | None) -> None:
+    """Refuse an allowed elastic slip without friction; a coefficient of zero is friction."""
+    if friction is None and slip is not None:
+        raise InvalidFriction(
+            "an elastic slip is allowed to friction only",
+            where="slip",
+            value=slip,
+            cause="no friction beside it",
+            remedy="give friction, or leave slip out",
+        )
+
+
 def friction_kernel(friction: AnyFriction, where: str = "friction") -> _core.FrictionLaw:
     """A friction law in the form of the kernels.
 

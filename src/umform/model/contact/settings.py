@@ -16,7 +16,7 @@ from umform.errors import InvalidPenalty, InvalidValue
 from umform.mesh import Mesh, Selector
 from umform.model.contact.cells import MOST, RIPPLE, cells_for, refuse_points_and_cells, ripple_of
 from umform.model.contact.encounter import Encounter, Layer, sheet_thickness
-from umform.model.contact.friction import AnyFriction, friction_kernel
+from umform.model.contact.friction import AnyFriction, friction_kernel, refuse_slip_alone
 from umform.model.contact.own_law import AnyContactLaw
 from umform.model.contact.own_stiffness import measured, refuse_beside
 from umform.model.contact.penalised import PenaltySettings
@@ -96,6 +96,7 @@ class ContactOptions:
                 remedy="leave one of them out; with augmented=True both may be given",
             )
         refuse_points_and_cells(self.points, self.cells)
+        refuse_slip_alone(self.friction, self.slip)
         if self.ripple is not None and self.cells != "auto":
             raise InvalidValue(
                 "a ripple can be wanted only of cells whose number follows from it",

@@ -70,7 +70,7 @@ class Tools(list[Tool]):
         ToolMotion
             The control whose value (a length) steps move; its force is that of the tool on the sheet along it.
         """
-        tool = self._own(tool)
+        tool = self.own(tool)
         way = ToolMotion(
             name or self.controls.free_name(tool.name), direction=unit_vector(direction, "drive"), tool=tool
         )
@@ -98,7 +98,7 @@ class Tools(list[Tool]):
         ToolTurn
             The control whose value (an angle in radians) steps move; its force is the moment of the tool on the sheet.
         """
-        tool = self._own(tool)
+        tool = self.own(tool)
         way = turn_of(name or self.controls.free_name(f"{tool.name}_turn"), tool, axis, about)
         refuse_given_and_found([press.way for press in tool.presses], way, way.name)
         self.controls.add(way)
@@ -129,7 +129,7 @@ class Tools(list[Tool]):
         InvalidValue
             If the tool is driven, pressed or sprung along this direction already.
         """
-        tool = self._own(tool)
+        tool = self.own(tool)
         name = name or self.controls.free_name(f"{tool.name}_press")
         return self._pressed(ToolMotion(f"{name}_way", direction=unit_vector(direction, "press"), tool=tool), name)
 
@@ -154,7 +154,7 @@ class Tools(list[Tool]):
         ToolForce
             The control whose value (a moment on the tool) steps move.
         """
-        tool = self._own(tool)
+        tool = self.own(tool)
         name = name or self.controls.free_name(f"{tool.name}_moment")
         return self._pressed(turn_of(f"{name}_way", tool, axis, about), name)
 
@@ -181,7 +181,7 @@ class Tools(list[Tool]):
         ToolForce
             A control of a further force on the tool along the same direction.
         """
-        tool = self._own(tool)
+        tool = self.own(tool)
         name = name or self.controls.free_name(f"{tool.name}_spring")
         check_arguments(Tools.spring, f"spring {name}", stiffness=stiffness, preload=preload)
         way = ToolMotion(f"{name}_way", direction=unit_vector(direction, "spring"), tool=tool)
@@ -242,7 +242,7 @@ class Tools(list[Tool]):
         InvalidValue
             If the tool already follows it, or the control belongs to another model.
         """
-        tool = self._own(tool)
+        tool = self.own(tool)
         if way not in self.controls or not isinstance(way, ToolWay) or tool in way.tools:
             raise InvalidValue(
                 "a tool follows the way of another tool of the model, once",
@@ -298,7 +298,7 @@ class Tools(list[Tool]):
         about : array_like, shape (3,)
             Point of the tool about which it rotates.
         """
-        tool = self._own(tool)
+        tool = self.own(tool)
         if not callable(motion):
             raise InvalidValue(
                 "a motion in time is a function",
@@ -310,7 +310,7 @@ class Tools(list[Tool]):
         point = forces.vector3(about, "about")
         tool.motion, tool.reference_point = motion, point
 
-    def _own(self, tool: Contact | Tool) -> Tool:
+    def own(self, tool: Contact | Tool) -> Tool:
         """The tool of a pair, or a tool; one of another model is refused."""
         own = tool.tool if isinstance(tool, Contact) else tool
         if own not in self:

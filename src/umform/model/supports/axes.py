@@ -5,6 +5,7 @@ The directions are those of the undeformed mesh, one frame for each node. docs/t
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -166,8 +167,8 @@ def turned(x: Direction, y: Direction) -> Turned:
 
 def directions_at(axes: Axes, letters: str, points: Floats) -> list[tuple[str, Floats]]:
     """The unit vectors (n, 3) at points for each letter; unknown letters are refused."""
-    for letter in letters:
-        if letter not in axes.letters:
+    for letter in letters if isinstance(letters, Iterable) else [letters]:
+        if letter not in tuple(axes.letters):
             raise InvalidValue(
                 "the axes have no such direction",
                 where="supports",

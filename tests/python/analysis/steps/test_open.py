@@ -232,8 +232,9 @@ def test_six_degrees_of_freedom_take_the_place_of_a_support_of_the_same_nodes(ed
     assert np.abs(reactions).max() < 1e-9
     assert result["elastic_energy"][-1] < 1e-16
     assert result["elastic_energy"][0] > 1e-6
-    with pytest.raises(InvalidValue, match="supports that act"):
-        model.hold_rigid("x0", instead_of=clamp)
+    for wrong in (clamp, None, pull):
+        with pytest.raises(InvalidValue, match="supports that act"):
+            model.hold_rigid("x0", instead_of=wrong)
 
 
 def test_what_cannot_be_opened_is_refused():

@@ -14,7 +14,7 @@ from umform.errors import InvalidPenalty, InvalidValue
 from umform.mesh import Ids, Mesh
 from umform.model.contact.cells import MOST, refuse_points_and_cells
 from umform.model.contact.encounter import Layer, bending_stress
-from umform.model.contact.friction import AnyFriction, friction_kernel
+from umform.model.contact.friction import AnyFriction, friction_kernel, refuse_slip_alone
 from umform.model.contact.penalised import PenaltySettings
 from umform.model.contact.settings import ALLOWED, POINTS
 from umform.model.contact.sheets.faces import Depth, depth_of
@@ -64,6 +64,7 @@ class SheetContactOptions:
     def __post_init__(self) -> None:
         check_fields(self)
         refuse_points_and_cells(self.points, self.cells)
+        refuse_slip_alone(self.friction, self.slip)
 
 
 @dataclass(frozen=True, kw_only=True)
