@@ -194,8 +194,17 @@ class Element:
                     cause="a number in place of a tuple",
                     remedy=f'with the comma: Tying("{row.component}", r=(0.0,), s=(-1.0, 1.0))',
                 )
-            if any(len(set(abscissae)) != len(abscissae) or not abscissae for abscissae in (row.r, row.s)):
-                raise InvalidValue("the abscissae of a tying row must be distinct", where=self.name, value=row)
+            if any(
+                len(set(abscissae)) != len(abscissae) or not abscissae or not np.isfinite(abscissae).all()
+                for abscissae in (row.r, row.s)
+            ):
+                raise InvalidValue(
+                    "the abscissae of a tying row are finite numbers, one at least, each once",
+                    where=self.name,
+                    value=row,
+                    cause="an empty tuple, a number twice, or a division by zero",
+                    remedy=f'natural coordinates: Tying("{row.component}", r=(0.0,), s=(-1.0, 1.0))',
+                )
         if self.surface_points == 0:
             object.__setattr__(self, "surface_points", 2 if self.cell == "hex8" else 3)
         if self.width_points == 0:
@@ -223,6 +232,17 @@ class Element:
                 where=self.name,
                 value=mode,
                 remedy="components: " + ", ".join(COMPONENTS),
+            )
+        powers = [power for part in mode.polynomials for power in (part.a, part.b, part.c)]
+        if not all(isinstance(power, int | np.integer) and power >= 0 for power in powers) or not all(
+            np.isfinite(part.factor) for part in mode.polynomials
+        ):
+            raise InvalidValue(
+                "a mode is a polynomial: powers of whole numbers from 0 on, and a finite factor",
+                where=self.name,
+                value=mode,
+                cause="a sign, a fraction, or a factor in place of a power",
+                remedy='Mode("11", 1) for r; Mode("11", 2) + Mode("11", factor=-1 / 3) for r^2 - 1/3',
             )
         for component in components:
             mean = sum(part.mean(self.surface_rule) for part in mode.polynomials if part.component == component)

@@ -15,7 +15,7 @@ from umform.errors import InvalidValue
 from umform.materials.back_stress import BackStress, Chaboche, YoshidaUemori
 from umform.materials.hardening import Hardening
 from umform.materials.j2 import Plastic
-from umform.materials.material import Material
+from umform.materials.material import Material, check_material
 from umform.materials.rate_factor import Factor, RateFactor
 from umform.materials.user_law import Floats
 from umform.materials.yield_functions import Function, Mises
@@ -228,6 +228,9 @@ class LogarithmicSpace:
     small: Material
     """Any law, also one of your own; it receives ln(C)/2 in place of the Green-Lagrange strain, with engineering
     shears, in the axes of the sheet. SVK becomes Hencky's law."""
+
+    def __post_init__(self) -> None:
+        check_material(self.small, "LogarithmicSpace")
 
     @property
     def thickness_points(self) -> int | None:

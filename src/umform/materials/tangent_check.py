@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from umform.errors import InvalidValue
-from umform.materials.material import Material
+from umform.materials.material import Material, check_material
 from umform.materials.user_law import Floats, UserLaw
 
 
@@ -74,10 +74,19 @@ def check_law(
     >>> look < 1e-8, look.asymmetry < 1e-12
     (True, True)
     """
+    check_material(material, "check_law")
     if isinstance(material, UserLaw):
         material = replace(material, symmetric=False)  # allow an asymmetric tangent, to measure its asymmetry
     law = material.law()
     E = np.ascontiguousarray(E, dtype=float)
+    if E.ndim != 2 or E.shape[1] != 6:
+        raise InvalidValue(
+            "strains at points must have shape (n, 6)",
+            where="check_law",
+            value=E.shape,
+            cause="one strain in place of rows, or tensors of 3 x 3",
+            remedy="rows of 11 22 33 12 23 13: [[1e-3, 0.0, 0.0, 2e-3, 0.0, 0.0]]",
+        )
     frame = None if axes is None else np.ascontiguousarray(axes, dtype=float)
     history = np.tile(law.initial(), (len(E), 1)) if state is None else np.ascontiguousarray(state, dtype=float)
     sizes, shape = (len(E), law.state_size), np.shape(history)

@@ -111,6 +111,23 @@ class UserLaw:
     state: Mapping[str, int] = field(default_factory=dict, hash=False)
 
     def __post_init__(self) -> None:
+        if not callable(self.function):
+            raise InvalidValue(
+                "a law of one's own is a function of strain and history",
+                where="UserLaw",
+                value=type(self.function).__name__,
+                cause="what the function returns, or a law",
+                remedy="UserLaw(function), which returns stress, tangent and new history",
+            )
+        points = self.thickness_points
+        if points is not None and (isinstance(points, bool) or not isinstance(points, int) or points < 1):
+            raise InvalidValue(
+                "thickness_points is a whole number",
+                where=self.name,
+                value=points,
+                cause="a fraction, or a sign",
+                remedy="a number such as 5, or leave it out",
+            )
         initial = tuple(float(value) for value in self.initial)
         state = dict(self.state) or ({"history": len(initial)} if initial else {})
         if any(isinstance(size, bool) or not isinstance(size, int) or size < 1 for size in state.values()):

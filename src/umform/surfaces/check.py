@@ -8,7 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from umform.surfaces.tool import Surface
+from umform.errors import InvalidValue
+from umform.spec import check_arguments
+from umform.spec.types import Positive
+from umform.surfaces.tool import Surface, check_is_surface
 
 Floats = NDArray[np.float64]
 
@@ -51,7 +54,7 @@ def differences(
     return dg, dn
 
 
-def check_surface(surface: Surface, x: ArrayLike, step: float) -> SurfaceCheck:
+def check_surface(surface: Surface, x: ArrayLike, step: Positive) -> SurfaceCheck:
     """Compare the normal and Hessian of a surface with central differences. eq. (4.20)
 
     Parameters
@@ -69,8 +72,18 @@ def check_surface(surface: Surface, x: ArrayLike, step: float) -> SurfaceCheck:
     >>> uf.check_surface(uf.Sphere((0, 0, 0), 5), [(0.0, 3.0, 4.5)], step=1e-4).ok(1e-6)
     True
     """
+    check_is_surface(surface, "check_surface")
+    check_arguments(check_surface, step=step)
     kernel = surface.kernel()
     x = np.ascontiguousarray(x, dtype=float)
+    if x.ndim != 2 or x.shape[1] != 3:
+        raise InvalidValue(
+            "points in space must have shape (n, 3)",
+            where="check_surface",
+            value=x.shape,
+            cause="one point in place of rows",
+            remedy="rows of x, y, z: [(0.0, 3.0, 4.5)]",
+        )
     _, n, H = kernel.gap(x)
     dg, dn = differences(kernel.gap, x, step)
     size = max(float(np.abs(H).max()), 1e-300)

@@ -29,6 +29,18 @@ class Surface(Protocol):
         """The surface as the kernels take it."""
 
 
+def check_is_surface(tool: object, where: str) -> None:
+    """Refuse what is no surface of a tool."""
+    if isinstance(tool, type) or not callable(getattr(tool, "kernel", None)):
+        raise InvalidValue(
+            "a tool must be a surface",
+            where=where,
+            value=type(tool).__name__,
+            cause="a function or a class in place of a surface, or what tool() returned",
+            remedy="a tool of umform.surfaces, VDie or Cylinder for instance, or UserSurface(function)",
+        )
+
+
 class Tool(ABC):
     """A rigid tool that can be transformed and drawn."""
 

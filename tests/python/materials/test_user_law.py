@@ -352,3 +352,20 @@ def test_check_law_finds_a_wrong_tangent_wrong(rng):
     assert check_law(UserLaw(lambda E, state: (E @ C, 1.01 * hooke(E, state)[1], state)), E) == pytest.approx(
         0.01 / 1.01, rel=1e-3
     )
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        (lambda: UserLaw(hooke(np.zeros((1, 6)), np.zeros((1, 0)))), "a function of strain and history"),
+        (lambda: UserLaw(hooke, thickness_points=0), "thickness_points is a whole number"),
+        (lambda: UserLaw(hooke, thickness_points=3.5), "thickness_points is a whole number"),
+        (lambda: check_law(hooke, np.zeros((2, 6))), r"material law[\s\S]*UserLaw\(function\)"),
+        (lambda: check_law(UserLaw(hooke), np.zeros(6)), r"shape \(n, 6\)"),
+        (lambda: check_law(UserLaw(hooke), np.zeros((2, 3, 3))), r"shape \(n, 6\)"),
+        (lambda: mt.LogarithmicSpace(hooke), r"material law[\s\S]*LogarithmicSpace"),
+    ],
+)
+def test_what_is_no_law_is_refused_where_it_is_given(call, said):
+    with pytest.raises(InvalidValue, match=said):
+        call()

@@ -130,6 +130,20 @@ def test_surfaces_that_are_none_are_refused(make, error):
         make().kernel()
 
 
+@pytest.mark.parametrize(
+    ("surface", "x", "step", "said"),
+    [
+        (lambda x: x, [(0, 0, 1)], 1e-4, r"must be a surface[\s\S]*UserSurface\(function\)"),
+        (Sphere, [(0, 0, 1)], 1e-4, "must be a surface"),
+        (SURFACES["plane"], (0, 0, 1), 1e-4, r"shape \(n, 3\)"),
+        (SURFACES["plane"], [(0, 0, 1)], 0.0, "positive"),
+    ],
+)
+def test_a_check_of_no_surface_or_without_points_or_step_is_refused(surface, x, step, said):
+    with pytest.raises(InvalidValue, match=said):
+        check_surface(surface, x, step)
+
+
 def spoiled(function, part, change):
     def wrong(x):
         answer = list(function(x))

@@ -5,16 +5,24 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
 from umform.analysis.steps.pace import Pace
 from umform.errors import InvalidValue, NotFinite
 from umform.model.terms.control import Control
-from umform.spec import check_fields, names_its_words
+from umform.spec import About, check_fields, names_its_words
 from umform.spec.types import Cuts, Duration, Growth, Increments
 
+#: One or several controls.
+Moved = Annotated[
+    Control | Sequence[Control],
+    About(
+        cause="its name, a tool, or a missing value",
+        remedy="what prescribe(), force(), pressure() or drive() of the model returned, or a list of it",
+    ),
+]
 #: Value of a control as a function of another one: a function, or pairs of both.
 Law = Callable[[float], float] | Sequence[tuple[float, float]]
 
@@ -38,7 +46,7 @@ class Move:
     ['stroke', 'hold']
     """
 
-    control: Control | Sequence[Control]
+    control: Moved
     """What moves, one or several: a prescribed displacement, a load factor, a pressure, a tool."""
     to: float | Callable[[float], float] | Sequence[float | Callable[[float], float]]
     """End value, or a function of the fraction (0 ... 1) of the step, one for each control."""
@@ -59,11 +67,20 @@ class Move:
         check_fields(self)
         for target in self.targets():
             if not callable(target) and not (isinstance(target, int | float | np.number) and math.isfinite(target)):
-                raise InvalidValue("a control is moved to a finite number or along a function", value=target)
+                raise InvalidValue(
+                    "a control is moved to a finite number or along a function",
+                    where="Move, to",
+                    value=target,
+                    cause="a missing value, or a division by zero",
+                    remedy="-15.0, or lambda fraction: -15.0 * fraction",
+                )
         if len(self.targets()) != len(self._given()):
             raise InvalidValue(
                 "give one target for each control",
+                where="Move, to",
                 value=f"{len(self._given())} controls, {len(self.targets())} targets",
+                cause="a list of values that one control takes, or a control without a value",
+                remedy="a step for each value; a list with one value for each control of a list",
             )
         if not isinstance(self.follow, Mapping):
             raise InvalidValue(
@@ -121,10 +138,10 @@ class Move:
             One value for each control, followers included.
         """
         given = [
-            target(fraction) if callable(target) else start + fraction * (target - start)
-            for start, target in zip(starts, self.targets(), strict=False)
+            _called(target, fraction, control) if callable(target) else start + fraction * (target - start)
+            for start, target, control in zip(starts, self.targets(), self._given(), strict=False)
         ]
-        given += [_at(law, _number(given[0])) for law in self.follow.values()]
+        given += [_at(law, _number(given[0]), control) for control, law in self.follow.items()]
         values = [_number(value) for value in given]
         for control, value, found in zip(self.moved(), values, given, strict=True):
             if not math.isfinite(value):
@@ -138,10 +155,19 @@ class Move:
         return values
 
 
-def _at(law: Law, value: float) -> Any:
+def _called(function: Callable[[float], float], value: float, control: Control) -> Any:
+    """Value of a function; an exception in it names the control."""
+    try:
+        return function(value)
+    except Exception as error:
+        error.add_note(f"in the function that moves {control.name}, called as function({value:g})")
+        raise
+
+
+def _at(law: Law, value: float, control: Control) -> Any:
     """Value of a follower for the value of the first control."""
     if callable(law):
-        return law(value)
+        return _called(law, value, control)
     places, values = np.array(sorted(law), dtype=float).T
     return np.interp(value, places, values)
 

@@ -16,6 +16,7 @@ from umform.elements import element as catalogue_element
 from umform.elements import thickness_rule as make_thickness_rule
 from umform.errors import InvalidValue, WrongCellType
 from umform.materials import Material
+from umform.materials.material import check_material
 from umform.mesh import Mesh
 from umform.model.bodies.failing_point import at_failing_point
 from umform.model.bodies.selected_cells import Cells, cell_numbers
@@ -99,14 +100,7 @@ class Body(Term):
         self.name = name
         wanted = BodyOptions(**options)
         made = catalogue_element(element, **wanted.of_element())
-        if not isinstance(material, Material) or isinstance(material, type):
-            raise InvalidValue(
-                "material must be a material law",
-                where=name,
-                value=type(material).__name__,
-                cause="none, a class, or a sheet metal or its name in place of its law",
-                remedy="SVK, NeoHooke, NeoHookePower, J2 or Metal; umform.sheet_metals.get('DC04').law",
-            )
+        check_material(material, name)
         self.material = material
         if getattr(material, "directional", False) and rolling is None:
             raise InvalidValue(

@@ -23,6 +23,7 @@ from umform.model.contact.penalised import PenaltySettings
 from umform.spec import About, check_fields
 from umform.spec.types import ContactPoints, Positive
 from umform.surfaces import Surface
+from umform.surfaces.tool import check_is_surface
 
 log = logging.getLogger("umform.contact")
 
@@ -158,13 +159,7 @@ def contact_settings(
     InvalidPenalty, InvalidValue
         If the tool is no surface, or nothing can be estimated.
     """
-    if not isinstance(tool, Surface):
-        raise InvalidValue(
-            "a tool must be a surface",
-            where=where,
-            value=type(tool).__name__,
-            remedy="a tool of umform.surfaces, VDie or Cylinder for instance, or UserSurface(function)",
-        )
+    check_is_surface(tool, where)
     rows = mesh.face_set(faces)
     thickness = sheet_thickness(mesh, rows)
     penalty, ripple, augmented, slip = options.penalty, options.ripple, options.augmented, options.slip

@@ -12,7 +12,6 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.errors import InvalidValue
 from umform.model.terms.control import Control, Twins
 from umform.model.terms.dead_load import Load
 from umform.model.terms.forces import vector3
@@ -24,6 +23,7 @@ from umform.model.tools.tool_controls import ToolMotion, ToolTurn, ToolWay
 from umform.ranks import Ranks
 from umform.surfaces import Surface
 from umform.surfaces.directions import rotation_matrix
+from umform.surfaces.tool import check_is_surface
 
 Floats = NDArray[np.float64]
 Pose = tuple[Floats, Floats]
@@ -73,14 +73,7 @@ class Tool(Term):
     nodal = ("vector",)
 
     def __init__(self, name: str, surface: Surface, now: Now) -> None:
-        if not isinstance(surface, Surface):
-            raise InvalidValue(
-                "a tool must be a surface",
-                where=f"tool {name}",
-                value=type(surface).__name__,
-                cause="a function or a class in place of a surface",
-                remedy="a tool of umform.surfaces, VDie or Cylinder for instance, or UserSurface(function)",
-            )
+        check_is_surface(surface, f"tool {name}")
         self.name, self.surface = name, surface
         self.kernel, self.now = surface.kernel(), now
         self.pairs: list[Any] = []

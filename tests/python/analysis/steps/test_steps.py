@@ -363,6 +363,9 @@ def test_lift_off_and_zero_force_are_told_apart(build):
     [
         (lambda pull: Move([pull, pull], [0.1, 0.2], 2), "a step moves a control once"),
         (lambda pull: Move(pull, lambda fraction: "a", 2), "the function that moves pull is not finite"),
+        (lambda pull: Move("pull", 0.1, 2), r"prescribe\(\), force\(\)"),
+        (lambda pull: Move(pull, [0.1, 0.2], 2), r"Move, to[\s\S]*1 controls, 2 targets[\s\S]*a step for each value"),
+        (lambda pull: Move(pull, [math.nan], 2), r"Move, to[\s\S]*nan[\s\S]*lambda"),
         (lambda pull: Move([], [], 2, follow={pull: [(0.0, 1.0)]}), "a step moves a control once"),
         (lambda pull: Move(pull, 0.1, 2, follow={"pull": [(0.0, 1.0)]}), "followers are controls"),
         (lambda pull: Move(pull, 0.1, 2, follow={pull: "text"}), "a table of pairs"),
@@ -374,6 +377,13 @@ def test_steps_that_make_no_sense_are_refused(build, wrong, message):
     model, pull = build.bar()
     with pytest.raises(InvalidValue, match=message):
         solve(model, wrong(pull), frames=0)
+
+
+def test_a_function_that_fails_names_its_control(build):
+    model, pull = build.bar()
+    with pytest.raises(TypeError) as caught:
+        solve(model, Move(pull, lambda: 1.0, 2), frames=0)
+    assert "in the function that moves pull, called as function(0.5)" in caught.value.__notes__
 
 
 def test_a_control_of_another_model_is_refused(build):

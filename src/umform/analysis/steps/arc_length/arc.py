@@ -17,6 +17,7 @@ from umform.analysis.steps.arc_length.critical import CriticalPoints
 from umform.analysis.steps.arc_length.equation import Line
 from umform.analysis.steps.arc_length.path import Path
 from umform.analysis.steps.increment import last_residuals
+from umform.analysis.steps.move import Moved
 from umform.analysis.steps.run_state import Run, Take
 from umform.analysis.steps.thinned import thinned
 from umform.errors import InvalidValue, NoConvergence
@@ -63,7 +64,7 @@ class Arc:
     1.0
     """
 
-    control: Control | Sequence[Control]
+    control: Moved
     """Loads, pressures, prescribed displacements or tools to move, one or several."""
     to: float | Sequence[float]
     """End value for each control."""
@@ -92,11 +93,20 @@ class Arc:
         if len(self.targets()) != len(self.moved()) or len(set(self.moved())) != len(self.moved()):
             raise InvalidValue(
                 "give one target for each control, and each control once",
+                where="Arc, to",
                 value=f"{len(self.moved())} controls, {len(self.targets())} targets",
+                cause="a list of values that one control takes, or a control that is named twice",
+                remedy="a step for each value; a list with one value for each control of a list",
             )
         for target in self.targets():
             if not (np.isscalar(target) and np.isrealobj(target) and np.isfinite(target)):
-                raise InvalidValue("a control is moved to a finite number", value=target)
+                raise InvalidValue(
+                    "a control is moved to a finite number",
+                    where="Arc, to",
+                    value=target,
+                    cause="a missing value, or a division by zero",
+                    remedy="to=1.0",
+                )
 
     def moved(self) -> list[Control]:
         """The controls of the step."""
