@@ -297,7 +297,15 @@ class Mesh:
 
     def displaced(self, u: Floats) -> Floats:
         """The points (n, 3) after a displacement, three components of each node in one row."""
-        points: Floats = self.points + u.reshape(-1, 3)
+        if np.size(u) != self.points.size:
+            raise InvalidValue(
+                "a displacement has three components for each node",
+                where="Mesh.displaced",
+                value=f"{np.size(u)} numbers, {len(self.points)} nodes",
+                cause="a translation, or the displacement of another mesh",
+                remedy="model.u; mesh.moved(translation) shifts all points",
+            )
+        points: Floats = self.points + np.reshape(u, self.points.shape)
         return points
 
     def moved(self, translation: ArrayLike) -> Mesh:

@@ -383,6 +383,8 @@ def test_a_mesh_moves_and_follows_a_displacement():
             mesh.moved(translation)
     u = np.arange(3.0 * len(mesh.points))
     assert np.array_equal(mesh.displaced(u), mesh.points + u.reshape(-1, 3))
+    with pytest.raises(InvalidValue, match="3 numbers, 12 nodes"):
+        mesh.displaced(np.array([0.0, 0.0, 1.0]))
     model = Model(mesh, material=SVK(E=1.0, nu=0.0))
     model.u = u
     assert np.array_equal(model.positions, mesh.displaced(u))

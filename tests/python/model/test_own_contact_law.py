@@ -119,6 +119,8 @@ def test_what_check_contact_law_sees():
     softens = uf.ContactLaw(lambda gap: (-gap * (1.0 + 10.0 * gap), -1.0 - 20.0 * gap))
     assert uf.check_contact_law(softens, [-0.09, -0.01]).rises > 0.9
     assert str(good).startswith("deviation ")
+    with pytest.raises(InvalidValue, match=r"ContactLaw\(function"):
+        uf.check_contact_law(lambda gap: (-gap, -1.0 + 0.0 * gap), [-0.1])
     with pytest.raises(InvalidValue, match="within its reach"):
         uf.check_contact_law(LAYER, [0.1])
 

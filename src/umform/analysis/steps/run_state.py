@@ -140,7 +140,11 @@ class Run:
         forces = [f"{c.name} {row[c.name]:.5g}, force {row[f'{c.name}_force']:.5g}" for c in controls]
         self.tick(name, fraction, "; ".join([*forces, f"{row['iterations']} iterations"]))
         if self.on_increment is not None and self.model.system.ranks.rank == 0:
-            self.on_increment(self.result)
+            try:
+                self.on_increment(self.result)
+            except Exception as error:
+                error.add_note("in on_increment, called with the result so far after each increment")
+                raise
             self.model.system.revert()  # what evaluations of the user have tried
 
     def call(self, function: Callable[[Any], object] | None) -> None:

@@ -208,6 +208,14 @@ def check_contact_law(law: AnyContactLaw, gaps: ArrayLike, step: float | None = 
     >>> bool(check < 1e-7), check.jump, check.rises
     (True, 0.0, 0.0)
     """
+    if not isinstance(law, AnyContactLaw):
+        raise InvalidValue(
+            "a check of a contact law needs a law",
+            where="check_contact_law",
+            value=type(law).__name__,
+            cause="a function, or a class, in place of a law",
+            remedy="ContactLaw(function, reach=0.05)",
+        )
     at, kernel = np.atleast_1d(np.asarray(gaps, dtype=float)), law.kernel()
     step = 1e-6 * float(law.reach - at.min(initial=0.0)) if step is None else step
     if not at.size or not (at + step <= law.reach).all():
