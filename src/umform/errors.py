@@ -7,6 +7,7 @@ The command line prints the message; Python users catch the class.
 from __future__ import annotations
 
 import sys
+import sysconfig
 import traceback
 from pathlib import Path
 from typing import Any
@@ -281,3 +282,16 @@ class FileProblem(UmformError, OSError):
     id = "file"
 
     __str__ = UmformError.__str__
+
+
+def own_code(error: BaseException) -> str:
+    """File and line of the code of the user, called by umform, in which an error arose; empty if there is none."""
+    installed = [Path(sysconfig.get_path(name)) for name in ("stdlib", "platlib")]
+    place, below = "", False
+    for frame in traceback.extract_tb(error.__traceback__):
+        file = Path(frame.filename)
+        if file.is_relative_to(_PACKAGE):
+            below = True
+        elif below and file.is_file() and not any(file.is_relative_to(one) for one in installed):
+            place = f"{file}, line {frame.lineno}"
+    return place

@@ -18,7 +18,7 @@ import umform
 from umform.cli import INTERRUPTED
 from umform.cli.option_names import message, options_of
 from umform.cli.usage import is_usage_error, usage_problem
-from umform.errors import FileProblem, InvalidValue, UmformError
+from umform.errors import FileProblem, InvalidValue, UmformError, own_code
 from umform.io.atomic import write_problem
 
 
@@ -92,8 +92,13 @@ class Commands(TyperGroup):
             if type(error).__module__.split(".")[0] in ("typer", "click"):
                 raise  # regular exits
             _show_traceback(ctx)
-            say_of(error, f"an error that nobody expected: {type(error).__name__}: {error}")
-            typer.echo("  remedy: report it, with the command and what it prints with --debug", err=True)
+            what, place = f"{type(error).__name__}: {error}", own_code(error)
+            if place:
+                remedy = "correct it there; --debug shows the traceback"
+                say_of(error, f"an error in code of yours: {what}\n  where:  {place}\n  remedy: {remedy}")
+            else:
+                say_of(error, f"an error that nobody expected: {what}")
+                typer.echo("  remedy: report it, with the command and what it prints with --debug", err=True)
             raise typer.Exit(1) from error
 
 

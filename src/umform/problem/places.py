@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from umform.errors import UmformError
+from umform.errors import UmformError, own_code
 from umform.problem.errors import ANY_CAUSE, ANY_REMEDY, DeckKey
 from umform.problem.lines import Path
 from umform.problem.source import Source
@@ -44,11 +44,12 @@ def placed(error: Exception, path: Path, source: Source) -> UmformError:
         The deck.
     """
     if not isinstance(error, UmformError):
+        own = own_code(error)
         return DeckKey(
             "nothing can be built from this",
             where=source.place(path),
-            cause=str(error) or type(error).__name__,
-            remedy="look at the size of its numbers",
+            cause=f"{type(error).__name__}: {error}, in {own}" if own else str(error) or type(error).__name__,
+            remedy="correct it there" if own else "look at the size of its numbers",
         )
     error.cause, error.remedy = error.cause or ANY_CAUSE, error.remedy or ANY_REMEDY
     table = _value(source.data, path)

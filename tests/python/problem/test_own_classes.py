@@ -174,3 +174,15 @@ def test_commands_ask_for_trust(deck):
 def test_a_text_is_trusted_by_its_reader(deck):
     text, folder = deck(CURVE).read_text(encoding="utf-8"), deck(CURVE).parent
     assert Problem.read(text, folder=folder, trust=True).source.trust
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"), [("1 / 0, ", "cause:  ZeroDivisionError"), ("[].pop(), ", "in code of yours: IndexError")]
+)
+def test_an_error_in_code_of_the_user_names_its_line(deck, tmp_path, wrong, said):
+    path = deck('law = "own_laws:Softer"\nE = 210e3\nnu = 0.3\nrolling = "x"')
+    (tmp_path / "own_laws.py").write_text(LAWS.replace("return uf.SVK(", f"return uf.SVK({wrong}"), encoding="utf-8")
+    failed = CliRunner().invoke(cli.app, ["check", "--trust", str(path)])
+    line = next(number for number, text in enumerate(LAWS.splitlines(), start=1) if "return uf.SVK(" in text)
+    assert failed.exit_code == 1 and said in failed.stderr
+    assert f"{tmp_path / 'own_laws.py'}, line {line}" in failed.stderr and "correct it there" in failed.stderr
