@@ -84,14 +84,21 @@ SOURCE = Path(umform.__file__).parent
 FILES = [
     *sorted(SOURCE.glob("materials/*.py")),
     *sorted(SOURCE.glob("surfaces/*.py")),
-    *(SOURCE / "model/supports" / f"{name}.py" for name in ("axes", "support", "supports", "ties")),
-    *(SOURCE / "model" / f"{name}.py" for name in ("tools/tool", "contact/contacts")),
+    *(SOURCE / "model/supports" / f"{name}.py" for name in ("axes", "held", "support", "supports", "ties")),
+    *(SOURCE / "model/bodies" / f"{name}.py" for name in ("bodies", "body", "selected_cells")),
+    *(SOURCE / "model" / f"{name}.py" for name in ("terms/forces", "tools/tool", "contact/contacts", "contact/tools")),
+    *(SOURCE / "mesh" / f"{name}.py" for name in ("blanks", "generators", "mesh")),
+    *(
+        SOURCE / "analysis" / f"{name}.py"
+        for name in ("run/checked", "run/stages", "steps/move", "steps/arc_length/arc")
+    ),
+    SOURCE / "elements/technology.py",
 ]
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: f"{file.parent.name}/{file.stem}")
 def test_what_users_meet_first_is_refused_with_place_cause_and_remedy(file):
-    """Parameters of materials, tools and supports: each refusal says where, why, and what to do."""
+    """Meshes, elements, materials, tools, supports and steps: each refusal says where, why, and what to do."""
     for node in ast.walk(ast.parse(file.read_text())):
         if (
             isinstance(node, ast.Raise)

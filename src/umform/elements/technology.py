@@ -176,7 +176,13 @@ class Element:
 
     def __post_init__(self) -> None:
         if self.cell not in ("hex8", "hex18"):
-            raise InvalidValue("an element stands on hex8 or hex18 cells", where=self.name, value=self.cell)
+            raise InvalidValue(
+                "an element stands on hex8 or hex18 cells",
+                where=self.name,
+                value=self.cell,
+                cause="a cell of another program",
+                remedy="hex8, or hex18 with 9 nodes on a face",
+            )
         tied = [row.component for row in self.tying]
         for row in self.tying:
             if row.component not in COMPONENTS or tied.count(row.component) > 1:
@@ -184,6 +190,7 @@ class Element:
                     "a tying row belongs to one component, and a component has one row",
                     where=self.name,
                     value=row.component,
+                    cause="the indices exchanged, or two rows of one component",
                     remedy="components: " + ", ".join(COMPONENTS),
                 )
             if any(np.ndim(abscissae) != 1 for abscissae in (row.r, row.s)):
@@ -231,6 +238,7 @@ class Element:
                 "a mode is one of a strain component",
                 where=self.name,
                 value=mode,
+                cause="the indices exchanged, or a component of a stress",
                 remedy="components: " + ", ".join(COMPONENTS),
             )
         powers = [power for part in mode.polynomials for power in (part.a, part.b, part.c)]

@@ -131,7 +131,13 @@ def ring(
     _check_cells(cells)
     check_arguments(ring, inner=inner, outer=outer, thickness=thickness, part=part, layers=layers)
     if not inner < outer:
-        raise InvalidValue("the outer radius of a ring is larger than the inner one", value=f"{inner:g}, {outer:g}")
+        raise InvalidValue(
+            "the outer radius of a ring is larger than the inner one",
+            where="ring",
+            value=f"inner {inner:g}, outer {outer:g}",
+            cause="the two exchanged, or a width in place of a radius",
+            remedy="inner=10.0, outer=30.0",
+        )
     around, rings = cells
     order = order_of(cell)
     angles = np.linspace(0.0, 0.5 * math.pi, around * order + 1)
@@ -212,10 +218,22 @@ def stacked(
 def order_of(cell: str) -> int:
     """Order of the element sides of a cell type."""
     if cell not in ("hex8", "hex18"):
-        raise WrongCellType("unknown cell type", value=cell, remedy="hex8 or hex18")
+        raise WrongCellType(
+            "unknown cell type",
+            where="cell",
+            value=cell,
+            cause="a typing mistake, or a name of another program",
+            remedy="hex8 or hex18",
+        )
     return 1 if cell == "hex8" else 2
 
 
 def _check_cells(cells: tuple[int, int]) -> None:
     if not isinstance(cells, tuple | list) or len(cells) != 2 or min(cells) < 1:
-        raise InvalidValue("cells are two numbers, both at least 1", value=cells)
+        raise InvalidValue(
+            "cells are two numbers, both at least 1",
+            where="cells",
+            value=cells,
+            cause="one number for both directions, or none along one",
+            remedy="cells=(8, 6)",
+        )

@@ -70,12 +70,24 @@ def grid(x: Lines, y: Lines, z: Lines, cell: str = "hex8", thickness: Positive |
         except (TypeError, ValueError):  # words, for instance
             values = np.empty(0)
         if values.ndim != 1 or len(values) < 2 or not (np.diff(values) > 0).all():
-            raise InvalidValue("grid lines must increase", where=name, value=given)
+            raise InvalidValue(
+                "grid lines must increase",
+                where=name,
+                value=given,
+                cause="a length in place of lines, one line, or a value twice",
+                remedy="two lines or more, such as [0.0, 5.0, 10.0]",
+            )
         lines.append(values)
     if thickness is not None and thickness != np.ptp(lines[2]):
         lines[2] = lines[2][0] + (lines[2] - lines[2][0]) * (thickness / np.ptp(lines[2]))
     if cell not in ("hex8", "hex18"):
-        raise WrongCellType("unknown cell type", value=cell, remedy="hex8 or hex18")
+        raise WrongCellType(
+            "unknown cell type",
+            where="cell",
+            value=cell,
+            cause="a typing mistake, or a name of another program",
+            remedy="hex8 or hex18",
+        )
     per_cell = 1 if cell == "hex8" else 2
     if per_cell == 2:
         for axis in (0, 1):
@@ -150,9 +162,21 @@ def strip(
         Ratio of the last to the first element size, along x and y.
     """
     if not isinstance(cells, tuple | list) or len(cells) != 2:
-        raise InvalidValue("cells are two numbers, along x and y", value=cells, remedy="cells=(24, 1)")
+        raise InvalidValue(
+            "cells are two numbers, along x and y",
+            where="cells",
+            value=cells,
+            cause="one number for both directions, or one through the thickness, which is layers",
+            remedy="cells=(24, 1)",
+        )
     if np.shape(grading) != (2,):
-        raise InvalidValue("gradings are two numbers, along x and y", value=grading, remedy="grading=(2.0, 1.0)")
+        raise InvalidValue(
+            "gradings are two numbers, along x and y",
+            where="grading",
+            value=grading,
+            cause="one number for both directions",
+            remedy="grading=(2.0, 1.0)",
+        )
     check_arguments(strip, layers=layers)
     return grid(
         graded(length, cells[0], grading[0]),

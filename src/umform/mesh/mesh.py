@@ -79,30 +79,46 @@ class Mesh:
     def __post_init__(self) -> None:
         points = np.ascontiguousarray(self.points, dtype=float)
         if points.ndim != 2 or points.shape[1] != 3:
-            raise InvalidValue("points must have shape (n, 3)", value=points.shape)
+            raise InvalidValue(
+                "points must have shape (n, 3)",
+                where="Mesh",
+                value=points.shape,
+                cause="points of a plane, or coordinates as rows",
+                remedy="a row x, y, z for each node: np.column_stack([x, y, z])",
+            )
         if not np.isfinite(points).all():
             node = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
             raise NotFinite(
                 "a node has no finite position",
                 where=f"node {node}",
                 value=points[node],
+                cause="a division by zero, or a file that was cut",
                 remedy="look at what wrote the mesh",
             )
         named = isinstance(self.cells, Mapping)
         if not named or len(self.cells) != 1 or next(iter(self.cells)) not in ("hex8", "hex18"):
             raise WrongCellType(
                 "a mesh has cells of one type, hex8 or hex18",
+                where="Mesh",
                 value=(", ".join(self.cells) or "none") if named else type(self.cells).__name__,
+                cause="an array in place of a mapping, cells of several types, or of another one",
                 remedy="give cells={'hex8': ids} or cells={'hex18': ids}",
             )
         name, raw = next(iter(self.cells.items()))
         if not np.issubdtype(np.asarray(raw).dtype, np.integer):
-            raise InvalidValue("node ids of cells must be integers", value=np.asarray(raw).dtype)
+            raise InvalidValue(
+                "node ids of cells must be integers",
+                where="Mesh",
+                value=np.asarray(raw).dtype,
+                cause="coordinates in place of ids, or ids that were read as real numbers",
+                remedy="ids.astype(int), counted from 0",
+            )
         cells = np.ascontiguousarray(raw, dtype=np.int32)
         nodes = 8 if name == "hex8" else 18
         if cells.ndim != 2 or cells.shape[1] != nodes or len(cells) == 0:
             raise WrongCellType(
                 f"{name} cells must have shape (m, {nodes}) with m > 0",
+                where="Mesh",
                 value=np.shape(raw),
                 cause="cells of another type",
                 remedy="an 8-node hexahedron is hex8, a solid-shell with 9 nodes a face is hex18",
@@ -114,6 +130,7 @@ class Mesh:
                 where=f"cell {cell}",
                 value=cells[cell],
                 cause="node numbers that start at 1, or a cut file",
+                remedy=f"0 to {len(points) - 1}",
             )
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "cells", {name: cells})
@@ -171,6 +188,7 @@ class Mesh:
         if len(ids) == 0:
             raise EmptySet(
                 "a set selects no node",
+                where="nodes",
                 value=selector if isinstance(selector, str) else "predicate or list",
                 cause="it is empty, or its metal was cut off" if isinstance(selector, str) else "",
                 remedy="another set" if isinstance(selector, str) else _LOOK,
@@ -223,6 +241,7 @@ class Mesh:
         if len(rows) == 0:
             raise EmptySet(
                 "a set selects no face",
+                where="faces",
                 value=selector if isinstance(selector, str) else "predicate or list",
                 cause="it is empty, or its metal was cut off"
                 if isinstance(selector, str)
@@ -235,6 +254,7 @@ class Mesh:
                 "a face is a pair (cell, number of the face)",
                 value=rows[bad][0].tolist(),
                 where=f"mesh of {len(self.connectivity)} cells",
+                cause="cells that are counted from 1, or those of another mesh",
                 remedy="faces are numbered " + ", ".join(f"{k} {name}" for k, name in enumerate(FACES)),
             )
         return rows
@@ -249,7 +269,9 @@ class Mesh:
         if found.dtype != bool or found.shape not in ((), (len(self.points),)):
             raise InvalidValue(
                 "a predicate of x, y, z returns True or False for each node",
+                where="a set by a predicate",
                 value=f"{found.dtype} of shape {found.shape}",
+                cause="a coordinate, or ids, in place of a comparison",
                 remedy="lambda x, y, z: x > 9.99",
             )
         return np.broadcast_to(found, len(self.points))
@@ -269,7 +291,9 @@ class Mesh:
         if (rows[:, 1] > 1).any():
             raise InvalidValue(
                 "contact and pressure act on lower and upper faces only",
+                where="faces",
                 value=FACES[int(rows[:, 1].max())],
+                cause="a set of lateral faces",
                 remedy="choose a set of lower or upper faces",
             )
         half = self.connectivity.shape[1] // 2
@@ -345,6 +369,8 @@ def _as_ids(selector: ArrayLike, count: int, where: str = "") -> Ids:
             "a set is a name, a predicate of x, y, z, integer ids, or a mask over all nodes",
             where=where,
             value=f"{array.dtype} of shape {array.shape}",
+            cause="coordinates in place of ids, or a mask of another mesh",
+            remedy='"x0", lambda x, y, z: x < 1e-6, or [0, 7]',
         )
     return array.astype(np.int32)
 
@@ -357,6 +383,8 @@ def _as_rows(faces: ArrayLike, where: str = "") -> Ids:
             "faces are a set by its name, a predicate of x, y, z, or pairs (cell, number of the face)",
             where=where,
             value=f"{array.dtype} of shape {array.shape}",
+            cause="ids of nodes or cells in place of pairs",
+            remedy='"lower", lambda x, y, z: z > 0.49, or [(0, 1)]',
         )
     rows = array.astype(np.int32).reshape(-1, 2)
     _, first = np.unique(rows, axis=0, return_index=True)

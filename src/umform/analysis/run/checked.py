@@ -47,7 +47,13 @@ def check_step(model: Model, steps: Sequence[Step], number: int) -> None:
     if isinstance(step, Arc):
         refuse_on_an_arc(model, where)
     if not isinstance(step, Step):
-        raise InvalidValue("a step is a Move, a Release, an Arc, a Free or a Close", where=where, value=step)
+        raise InvalidValue(
+            "a step is a Move, a Release, an Arc, a Free or a Close",
+            where=where,
+            value=step,
+            cause="a control, a class in place of its step, or nothing",
+            remedy="Move(control, to=-1.0, steps=10)",
+        )
     if isinstance(step, Free):
         _refuse_to_free(model, step, earlier, where)
         return

@@ -52,6 +52,7 @@ def ready(
             "options are those of Newton's method",
             where="options",
             value=options,
+            cause="a mapping, or a class in place of its options",
             remedy="NewtonOptions(residual=1e-9)",
         )
     model, timing = result.model, result.timing

@@ -50,6 +50,7 @@ class Stage:
         if not re.fullmatch(r"[\w-]+", self.name):
             raise InvalidValue(
                 "the name of a stage has letters, digits, hyphens and underscores",
+                where="Stage",
                 value=self.name,
                 cause="it is the name of its checkpoint, too",
                 remedy="a name such as draw or trim-1",
@@ -72,7 +73,11 @@ class StagedResult:
         """Result of a stage."""
         if name not in self.results:
             raise InvalidValue(
-                "the run has no such stage", value=name, remedy="one of " + (", ".join(self.results) or "none so far")
+                "the run has no such stage",
+                where="stage",
+                value=name,
+                cause="a typing mistake, or a stage that was not reached",
+                remedy="one of " + (", ".join(self.results) or "none so far"),
             )
         return self.results[name]
 
@@ -135,7 +140,13 @@ def solve_stages(
     """
     names = [stage.name for stage in stages]
     if not names or len(set(names)) < len(names):
-        raise InvalidValue("stages have different names, and there is one at least", value=", ".join(names))
+        raise InvalidValue(
+            "stages have different names, and there is one at least",
+            where="solve_stages",
+            value=", ".join(names),
+            cause="a name is given twice, or the list is empty",
+            remedy='[Stage("press", press), Stage("open", open)]',
+        )
     reached, before = StagedResult(), None
     for number, stage in enumerate(stages, start=1):
         file = None if checkpoints is None else Path(checkpoints) / f"{number}-{stage.name}.h5"

@@ -87,6 +87,7 @@ class Move:
                 "followers are controls with their tables",
                 where="Move, follow",
                 value=self.follow,
+                cause="a list, or a control in place of a mapping",
                 remedy="{hold: table}",
             )
         for control, law in self.follow.items():

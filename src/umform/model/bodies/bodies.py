@@ -25,7 +25,13 @@ class Bodies(list[Body]):
             If a cell belongs to no body or to two, or two bodies have the same name.
         """
         if not isinstance(bodies, list | tuple) or any(not isinstance(body, Body) for body in bodies):
-            raise InvalidValue("bodies are a list of bodies", where="Model", value=bodies, remedy="bodies=[Body(...)]")
+            raise InvalidValue(
+                "bodies are a list of bodies",
+                where="Model",
+                value=bodies,
+                cause="one body, or a material in place of a body",
+                remedy="bodies=[Body(...)]",
+            )
         made = cls()
         try:
             for body in bodies:
@@ -41,7 +47,13 @@ class Bodies(list[Body]):
         """Refuse equal names, and cells of no body or of two."""
         names = [body.name for body in self]
         if len(set(names)) < len(names):
-            raise InvalidValue("two bodies have the same name", value=", ".join(names), remedy="Body(..., name=...)")
+            raise InvalidValue(
+                "two bodies have the same name",
+                where="Model, bodies",
+                value=", ".join(names),
+                cause="no names were given, or one twice",
+                remedy="Body(..., name=...)",
+            )
         count = np.zeros(len(mesh.connectivity), dtype=int)
         for body in self:
             count[body.cells] += 1
@@ -51,6 +63,7 @@ class Bodies(list[Body]):
                 "each cell belongs to one body",
                 where=f"cell {wrong[0]} (one of {len(wrong)})",
                 value=f"{count[wrong[0]]} bodies",
+                cause="predicates that overlap, or leave a gap",
                 remedy="choose the cells of the bodies so that they share none and leave none out",
             )
 
@@ -70,7 +83,9 @@ class Bodies(list[Body]):
         if len(self) != 1:
             raise ModelError(
                 "the model has several bodies",
+                where="Model.bodies",
                 value=", ".join(body.name for body in self),
+                cause="what each of them has was asked of the model",
                 remedy="ask the bodies themselves: model.bodies",
             )
         return self[0]

@@ -117,6 +117,7 @@ class Body(Term):
         if self.thickness_points < least:
             raise InvalidValue(
                 f"thickness order {least - 1} needs at least {least} thickness points",
+                where="thickness_points",
                 value=self.thickness_points,
                 cause="fewer points cannot see the highest mode",
                 remedy=f"thickness_points={least} or more",
@@ -149,6 +150,8 @@ class Body(Term):
         if self.element.cell != mesh.cell:
             raise WrongCellType(
                 f"{self.element.name} stands on {self.element.cell} cells, the mesh has {mesh.cell}",
+                where="element",
+                cause="a mesh that was made for another element",
                 remedy=f"make the mesh with cell={self.element.cell!r}, or take an element for {mesh.cell}",
             )
         self.mesh = mesh
@@ -201,6 +204,7 @@ class Body(Term):
                 raise
             raise InvalidValue(
                 str(error),
+                where="rolling",
                 cause="a direction along the normal of the sheet",
                 remedy="a vector in the plane of the sheet, or one for each cell",
             ) from error

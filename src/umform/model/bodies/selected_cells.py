@@ -41,7 +41,13 @@ def cell_numbers(mesh: Mesh, cells: Cells | None, name: str) -> Numbers:
         cells = inside[mesh.connectivity].all(axis=1)
     chosen = np.asarray(cells)
     if chosen.dtype == bool and chosen.shape != (count,):
-        raise InvalidValue("a mask of cells has one entry for each cell", where=f"body {name}", value=chosen.shape)
+        raise InvalidValue(
+            "a mask of cells has one entry for each cell",
+            where=f"body {name}",
+            value=chosen.shape,
+            cause="a mask of nodes, or of another mesh",
+            remedy=f"shape ({count},)",
+        )
     if chosen.size and chosen.dtype != bool and not np.issubdtype(chosen.dtype, np.integer):
         raise InvalidValue(
             "cells of a body are whole numbers, a mask, a predicate, or the name of a set",
@@ -52,7 +58,12 @@ def cell_numbers(mesh: Mesh, cells: Cells | None, name: str) -> Numbers:
         )
     numbers = np.flatnonzero(chosen) if chosen.dtype == bool else np.unique(chosen.astype(np.int64))
     if len(numbers) == 0:
-        raise EmptySet("a body has no cell", where=f"body {name}", remedy="look at its predicate or its numbers")
+        raise EmptySet(
+            "a body has no cell",
+            where=f"body {name}",
+            cause="a comparison of real numbers without a tolerance, or an empty list",
+            remedy="look at its predicate or its numbers",
+        )
     if numbers[0] < 0 or numbers[-1] >= count:
         raise InvalidValue(
             "a cell of a body does not exist",

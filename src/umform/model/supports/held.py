@@ -163,11 +163,18 @@ class Held:
                 "a support holds in one direction at least",
                 where="supports",
                 value="''",
+                cause="an empty word",
                 remedy="letters such as xz; without directions it holds in all",
             )
         taken = {support.name for support in self._holders} | {control.name for control in self.controls}
         if name in taken:
-            raise InvalidValue("the name of a support is taken", value=name, remedy="give it another name")
+            raise InvalidValue(
+                "the name of a support is taken",
+                where="supports",
+                value=name,
+                cause="two supports, or a support and a control, with one name",
+                remedy="give it another name",
+            )
         free = next(text for k in count(1) if (text := f"support{k}") not in taken)
         return Support(name or free, kind, directions or "all", nodes, base=self.now.u.copy() if base else None)
 

@@ -29,9 +29,21 @@ def vector3(values: Vector, where: str) -> Floats:
     except (TypeError, ValueError):  # a letter, for instance
         vector = np.empty(0)
     if vector.shape != (3,):
-        raise InvalidValue("a vector needs three components", where=where, value=values, remedy="(0.0, 0.0, -1.0)")
+        raise InvalidValue(
+            "a vector needs three components",
+            where=where,
+            value=values,
+            cause="one number, a letter, or a vector of a plane",
+            remedy="(0.0, 0.0, -1.0)",
+        )
     if not np.isfinite(vector).all():
-        raise NotFinite("a vector must be finite", where=where, value=values)
+        raise NotFinite(
+            "a vector must be finite",
+            where=where,
+            value=values,
+            cause="a missing value, or a division by zero",
+            remedy="(0.0, 0.0, -1.0)",
+        )
     return vector
 
 
@@ -88,11 +100,19 @@ def edge_forces(mesh: Mesh, faces: Selector, side: str, line_load: ArrayLike) ->
     """
     rows, vector = mesh.face_set(faces), vector3(line_load, "line load")
     if side not in ("lower", "upper"):
-        raise InvalidValue("an edge lies on the lower or on the upper face", value=side)
+        raise InvalidValue(
+            "an edge lies on the lower or on the upper face",
+            where="line load, side",
+            value=side,
+            cause="the name of a set, or the load in its place",
+            remedy='line_load("x1", "upper", (0.0, 0.0, -1.0))',
+        )
     if (rows[:, 1] < 2).any():
         raise InvalidValue(
             "an edge belongs to a lateral face",
+            where="line load, faces",
             value=FACES[int(rows[:, 1].min())],
+            cause="lower or upper faces",
             remedy="choose faces like x0, x1, y0, y1",
         )
     edges = np.sort(mesh.corners_of(rows).reshape(-1, 2, 2), axis=2).astype(np.int64)

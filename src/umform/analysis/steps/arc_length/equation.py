@@ -39,7 +39,11 @@ class Line(Global):
         super().__init__("load parameter", {control: end - start for control, (start, end) in self.ends.items()})
         if not any(self.rates.values()):
             raise InvalidValue(
-                "an arc needs a control that moves", value=controls, cause="it stands at its target already"
+                "an arc needs a control that moves",
+                where="Arc, to",
+                value=", ".join(control.name for control in controls),
+                cause="it stands at its target already",
+                remedy="another value of to",
             )
 
     def at(self, fraction: float) -> dict[Control, float]:
