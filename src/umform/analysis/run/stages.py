@@ -162,7 +162,20 @@ def solve_stages(
 
 
 def _result_of(stage: Stage, before: Result | None, file: Path | None, options: dict[str, Any]) -> Result:
-    model, steps = stage.build(before)
+    try:
+        made: object = stage.build(before)
+    except Exception as error:
+        error.add_note(f"in the function of stage {stage.name}, called as build(result of the stage before, or None)")
+        raise
+    if not isinstance(made, tuple) or len(made) != 2:
+        raise InvalidValue(
+            "the function of a stage returns the model and its steps",
+            where=f"stage {stage.name}",
+            value=type(made).__name__,
+            cause="a return that is missing, or the model alone",
+            remedy="return model, [Move(control, to=-1.0, steps=10)]",
+        )
+    model, steps = made
     if file is not None and file.exists():
         return resume(file, model, steps, **options)
     return solve(model, steps, checkpoint=file, **options)

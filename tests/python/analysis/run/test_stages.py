@@ -89,6 +89,12 @@ def test_what_does_not_fit_is_refused():
         solve_stages([Stage("a", bend), Stage("a", bend)])
     with pytest.raises(InvalidValue, match="letters"):
         Stage("a/b", bend)
+    with pytest.raises(InvalidValue, match=r"stage a[\s\S]*NoneType[\s\S]*return model"):
+        solve_stages([Stage("a", lambda before: None)])
+    for wrong in (3, lambda: None):
+        with pytest.raises(TypeError) as caught:
+            solve_stages([Stage("a", wrong)])
+        assert "in the function of stage a, called as build" in caught.value.__notes__[0]
     other = uf.Model(strip(20.0, 2.0, 1.0, (8, 1)), material=STEEL)
     with pytest.raises(InvalidValue, match="mesh and the bodies"):
         continued(other, result["bend"])
