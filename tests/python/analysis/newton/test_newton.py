@@ -238,11 +238,12 @@ class Scalar(OneUnknown):
     def __init__(self, residual, slope, start=0.0, active=lambda x: [], scale=1.0):
         super().__init__(start)
         self.residual, self.slope, self.active, self.scale = residual, slope, active, scale
-        self.calls = []
+        self.calls, self.kept = [], []
 
     def evaluate(self, x, du=None, *, tangent=True, keep=False):
         at = float(x[0])
         self.calls.append("evaluate" if tangent else "forces")
+        self.kept.append(keep)
         return Evaluated(
             x=x, residual=np.array([self.residual(at)]), values=np.array([self.slope(at)]), predictor=np.zeros(1),
             force_scale=self.scale, failed=4 if abs(at) > 1e6 else -1, failure="is out of its domain", round_off=0.0,
@@ -274,6 +275,20 @@ def test_no_state_converges_with_points_that_are_kept():
     assert len(kept.iterations) == 2
     assert not kept.evaluation.kept
     assert len(Newton(system).solve(None, np.zeros(1)).iterations) == 1
+
+
+def test_kept_points_stay_kept_while_the_line_search_shortens_their_correction():
+    """A part of the correction leaves them open."""
+    system = arc_tangent(3.0)
+    converged = Newton(system, NewtonOptions(line_search=True)).solve(None, np.full(1, -9.5), keep=True)
+    assert abs(converged.x[0]) < 1e-6
+    shortened = [record.step_length < 1.0 for record in converged.iterations]
+    assert True in shortened and not shortened[-1]
+    # The predictor keeps them, and each trial; a correction at full length does not, and after it none.
+    assert system.kept[0] and not system.kept[1] and system.kept[2]
+    last = len(system.kept) - system.kept[::-1].index(True)
+    assert system.calls[: system.calls.index("shorten")].count("evaluate") == 2
+    assert not any(system.kept[last:]) and len(system.kept) > last
 
 
 def test_a_sheet_that_springs_back_is_solved_like_an_elastic_one():
