@@ -35,9 +35,13 @@ class Curves {
     return this.labels[name] ?? name;
   }
 
-  text(row, precision = 6) {
-    const x = element("curves-x").value;
-    return `${this.label(x)} ${digits(Number(Number(this.table.columns[x][row]).toPrecision(precision)))}`;
+  text(row, name = element("curves-x").value, precision = 6) {
+    return `${this.label(name)} ${digits(Number(Number(this.table.columns[name][row]).toPrecision(precision)))}`;
+  }
+
+  // Where a row lies, with the first curve there: a released sheet has the stroke of the drawn one, and no force.
+  place(row) {
+    return [element("curves-x").value, this.shown[0]].map((name) => this.text(row, name, 4)).join(", ");
   }
 
   // The step of a row, such as the release after a stroke; empty if there is only one.

@@ -243,7 +243,7 @@ class ShapeView {
     element("shape-frame").value = this.frame;
     const { curves } = window.umform;
     element("shape-step").textContent = curves.step(row);
-    element("shape-time").textContent = `${curves.text(row, 4)} · state ${this.frame} of ${this.count - 1}`;
+    element("shape-time").textContent = `${curves.place(row)} · state ${this.frame} of ${this.count - 1}`;
     element("shape-time").dataset.row = row;
     document.dispatchEvent(new CustomEvent("frame", { detail: row }));
     this.draw();
