@@ -18,6 +18,7 @@ NEW = '''    crown: Length = 0.25
 PROGRAM = """
 import json
 from typer.testing import CliRunner
+from umform.bench.form_check import look
 from umform.bench.library import library
 from umform.bench.wanted import Wanted
 from umform.cli import app

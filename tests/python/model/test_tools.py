@@ -14,7 +14,6 @@ from umform.analysis.steps import Move
 from umform.errors import InvalidValue, NoConvergence
 from umform.mesh import strip
 from umform.model import Model
-from umform.model.contact.pair import Contact
 from umform.surfaces import Cylinder, Plane
 
 STEEL = mt.J2(E=210e3, nu=0.3, hardening=mt.Linear(160.0, 500.0))
@@ -81,18 +80,6 @@ def test_rows_columns_and_corner_of_the_border_are_derivatives(moved, friction, 
     column = (ahead - behind) / (2 * step)
     np.testing.assert_allclose(border.columns[0], column[:dofs], atol=1e-6 * np.abs(column).max())
     assert border.corner[0, 0] == pytest.approx(column[-1], rel=1e-7)
-
-
-def test_the_rate_of_a_contact_comes_with_its_forces(monkeypatch):
-    """A pressed tool needs the rate with its travel: the points of the contact are evaluated once."""
-    calls, evaluate = [], Contact.evaluate
-    monkeypatch.setattr(Contact, "evaluate", lambda *given: (calls.append(1), evaluate(*given))[1])
-    model, punch = beam(mt.SVK(E=210e3, nu=0.3), friction=0.3)
-    model.press(punch, "z", "press")
-    model.evaluate(model.system.x)
-    assert len(calls) == 1
-    model.evaluate(model.system.state, tangent=False)
-    assert len(calls) == 2
 
 
 def test_tools_of_another_model_are_refused():

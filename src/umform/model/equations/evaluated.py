@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -122,8 +122,7 @@ class Evaluated(Assembled):
         into = Into(np.zeros(dofs), values, np.zeros(dofs), assembly.scatters, self._positions, self.ranks, border)
         into = replace(into, pattern=assembly.whole_pattern)
         if not unknowns:
-            for term in self.terms:
-                self._evaluate_term(term, at, into)
+            self._evaluate_terms(self.terms, at, into)
         else:
             self._evaluate_with_scalars(at, into)
         if (self.supports.ties or self.supports.rows) and values is not None:
@@ -131,29 +130,23 @@ class Evaluated(Assembled):
                 values = assembly.reduce(values)
         return self._evaluation(state, at, into, values)
 
-    def _evaluate_term(self, term: Term, at: At, into: Into) -> None:
-        with self.timing.of(term.timed_as):
-            into.found[term] = term.evaluate(at, into)
+    def _evaluate_terms(self, terms: Iterable[Term], at: At, into: Into) -> None:
+        for term in terms:
+            with self.timing.of(term.timed_as):
+                into.found[term] = term.evaluate(at, into)
 
     def _evaluate_with_scalars(self, at: At, into: Into) -> None:
         """Terms with scalar unknowns come last: they sum over the ranks, all of which must take part."""
-        problem, border = None, into.border
-        points: dict[Term, tuple[At, Into]] = {}
+        local = [term for term in self.terms if not term.unknowns]
+        problem, moving = None, (at, into)
         try:
             if into.values is not None:
-                points = self._move(at, into)
-            for term in self.terms:
-                if not term.unknowns:
-                    self._evaluate_term(term, *points.get(term, (at, into)))
-            for (_, unknown), rate in into.moved.items():
-                if unknown is not None:
-                    border.columns[border.number(unknown)] += rate
+                moving = self._move(at, into)
+            self._evaluate_terms(local, *moving)
         except UmformError as error:
             problem = error
         self.ranks.agree(problem)
-        for term in self.terms:
-            if term.unknowns:
-                self._evaluate_term(term, *points.get(term, (at, into)))
+        self._evaluate_terms([term for term in self.terms if term.unknowns], *moving)
 
     def _evaluation(self, state: State, at: At, into: Into, values: Floats | None) -> Evaluation:
         """Sums of the contributions and results of the terms."""
@@ -185,34 +178,31 @@ class Evaluated(Assembled):
             number=self._evaluations,
         )
 
-    def _move(self, at: At, into: Into) -> dict[Term, tuple[At, Into]]:
+    def _move(self, at: At, into: Into) -> tuple[At, Into]:
         """Rates of the residual with each scalar unknown at fixed nodal unknowns. eq. (5.47)
 
-        Without a predictor, terms add the rate with one unknown together with their forces, at the returned points: all
-        of them for a single unknown and no tool that needs the rate of each pair, else those that move with it.
+        For a single unknown, without a predictor and without tools that need the rate of each pair, the terms add the
+        rates together with their forces at the returned point.
         """
         border = into.border
         if len(border.unknowns) == 1 and at.du is None and not any(tool.unknowns for tool in self.tools):
             rates, unused = border.unknowns[0].rates, replace(border, predictor=np.zeros(1))
-            moving = replace(at, du=self.supports.displacement(rates), rates=rates)
-            return dict.fromkeys(self.terms, (moving, replace(into, predictor=border.columns[0], border=unused)))
-        points: dict[Term, tuple[At, Into]] = {}
+            along = self.supports.displacement(rates)
+            return replace(at, du=along, rates=rates), replace(into, predictor=border.columns[0], border=unused)
         for column, unknown in zip(into.border.columns, into.border.unknowns, strict=True):
             along = self.supports.displacement(unknown.rates)
             supports = bool(along.any())
             for term in self.terms:
                 moves = term.moves_with(unknown.rates)
-                if moves and at.du is None and not (supports or term.unknowns or term in points):
-                    rate = into.moved[term, unknown] = np.zeros(at.u.size)
-                    points[term] = replace(at, du=along, rates=unknown.rates), replace(into, predictor=rate)
-                elif moves:
-                    into.moved[term, unknown] = self._rate(term, at, into, along, unknown.rates)
-                elif supports and term.couples():
-                    column += self._rate(term, at, into, along, unknown.rates)
+                if moves or (supports and term.couples()):
+                    part = self._rate(term, at, into, along, unknown.rates)
+                    column += part
+                    if moves:
+                        into.moved[term, unknown] = part
         for pair in self.pairs_of_tools():
             if pair.moves_with(at.rates):
                 into.moved[pair, None] = self._rate(pair, at, into, np.zeros(at.u.size), at.rates)
-        return points
+        return at, into
 
     @staticmethod
     def _rate(term: Term, at: At, into: Into, along: Floats, rates: Mapping[Control, float]) -> Floats:

@@ -83,7 +83,7 @@ def test_increments_near_a_saddle_are_doubled_until_the_slope_has_fallen():
         ranks=SimpleNamespace(dot=lambda a, b: float(a @ b)),
         shorten=shortened.append,
         state_at=lambda u, goal: u,
-        evaluate=lambda u: SimpleNamespace(residual=u**3 - u, failed=-1, x=u, force_scale=1.0),
+        evaluate=lambda u, keep=False: SimpleNamespace(residual=u**3 - u, failed=-1, x=u, force_scale=1.0),
     )
     u, du = np.array([0.01]), np.array([0.02])
     evaluation, length = lengthened(system, None, u, du, u**3 - u, system.evaluate(u + du), 1.0)

@@ -56,10 +56,9 @@ def test_an_exception_in_it_ends_the_run():
         uf.solve(model, steps(tip), progress=False, on_increment=enough)
     assert stopped.value.result["tip"][-1] == -2.0
     assert tip.value == -2.0
-    for wrong in (3, lambda: None):
-        with pytest.raises(TypeError) as caught:
-            uf.solve(model, uf.Move(tip, -2.1, steps=1), progress=False, on_increment=wrong)
-        assert "called with the result so far" in caught.value.__notes__[0]
+    with pytest.raises(TypeError) as caught:
+        uf.solve(model, uf.Move(tip, -2.1, steps=1), progress=False, on_increment=lambda: None)
+    assert "called with the result so far" in caught.value.__notes__[0]
 
 
 @pytest.mark.parametrize("rows", [2, 5])
