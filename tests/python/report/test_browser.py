@@ -252,6 +252,14 @@ def test_values_at_the_cursor_are_those_of_the_history(visit, result):
     assert page.locator("#curves-plot .name").text_content() == "time"
 
 
+def test_a_state_has_its_place_and_the_first_curve_there(visit, result):
+    for number, frame in enumerate(result.frames):
+        visit.slide(number)
+        values = {name: float(f"{result[name][frame.number]:.4g}") + 0.0 for name in ("punch", "punch_force")}
+        place = ", ".join(f"{name} {value:.6g}" for name, value in values.items()).replace("_", " ")
+        assert visit.text("#shape-time") == f"{place} · state {number} of {len(result.frames) - 1}"
+
+
 def test_the_mouse_finds_the_nearest_point_and_a_click_its_frame(visit, result):
     """The history turns back, so that one x has two points."""
     page = visit.page
