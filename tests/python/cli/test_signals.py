@@ -15,6 +15,7 @@ from command_line import umform
 
 from umform import cli
 from umform.analysis.newton.newton import Newton
+from umform.cli.reached import what_was_reached
 from umform.problem.templates import write_template
 from umform.processes.air_bending.brake import Brake
 
@@ -193,6 +194,17 @@ def test_ctrl_c_keeps_what_an_operation_has_reached(words, states, monkeypatch, 
     assert f"results so far are in {place}: history.csv, {states}" in run.stderr
     assert len((place / "history.csv").read_text().splitlines()) > 2 and (place / states).is_file()
     assert umform(*words, "--material", "DC04", "--out", place).exit_code == 1  # they are not overwritten
+
+
+def test_a_whole_run_leaves_no_history_of_one_that_was_stopped(tmp_path):
+    history = tmp_path / "history.csv"
+    history.write_text("half")
+    with pytest.raises(KeyboardInterrupt), what_was_reached(tmp_path, "bend.vtkhdf"):
+        raise KeyboardInterrupt
+    assert history.exists()
+    with what_was_reached(tmp_path, "bend.vtkhdf"):
+        pass
+    assert not history.exists()
 
 
 def test_a_handler_of_the_program_is_left_alone():
