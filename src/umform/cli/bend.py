@@ -16,6 +16,7 @@ from umform.cli.bend_goals import BendGoal, check_flat_only, check_length, check
 from umform.cli.check import Force
 from umform.cli.deflection import deflected, press_brake
 from umform.cli.drawn_tools import drawn_tools, named_tools
+from umform.cli.early_end import say_kept, what_was_reached
 from umform.cli.folders import out_option, results_folder, say_written
 from umform.cli.identify import MOST, Find, Quantities, identify_case
 from umform.cli.metal import SheetMetal, with_metal
@@ -30,7 +31,6 @@ from umform.cli.options import (
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.plausible import refuse_implausible
-from umform.cli.reached import say_kept, what_was_reached
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, printing, say
 from umform.cli.sequence import run_sequence
 from umform.cli.spec_options import Given, given_by

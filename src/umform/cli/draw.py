@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from umform.cli.early_end import what_was_reached
 from umform.cli.folders import results_folder, say_written
 from umform.cli.metal import SheetMetal, with_metal
 from umform.cli.options import (
@@ -21,7 +22,6 @@ from umform.cli.options import (
 )
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.plausible import refuse_implausible
-from umform.cli.reached import what_was_reached
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, printing, say
 from umform.cli.spec_options import Given, given_by
 from umform.cli.studies import Studies, with_studies

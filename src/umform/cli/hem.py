@@ -10,12 +10,12 @@ from typing import Annotated
 import typer
 
 from umform.cli.drawn_tools import named_tools
+from umform.cli.early_end import what_was_reached
 from umform.cli.folders import out_option, results_folder, say_written
 from umform.cli.metal import SheetMetal, with_metal
 from umform.cli.options import All, option
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.plausible import refuse_implausible
-from umform.cli.reached import what_was_reached
 from umform.cli.root import Csv, Debug, Overwrite, Verbose, app, printing
 from umform.cli.spec_options import Given, given_by
 from umform.cli.studies import Studies, with_studies

@@ -15,7 +15,7 @@ from command_line import umform
 
 from umform import cli
 from umform.analysis.newton.newton import Newton
-from umform.cli.reached import what_was_reached
+from umform.cli.early_end import what_was_reached
 from umform.problem.templates import write_template
 from umform.processes.air_bending.brake import Brake
 
