@@ -140,12 +140,17 @@ class EarProfile:
 
     def _extremes(self, sign: float) -> Floats:
         """Peaks, or valleys, of the sum of the counted harmonics, at least as prominent as the smallest ear."""
-        from scipy.signal import find_peaks  # slow to import
-
         angle = 2.0 * np.pi / _STEPS * np.arange(_STEPS)
         height = sum((self._waves[n] * np.exp(-1j * n * angle) for n in self._counted), np.zeros(_STEPS)).real
-        peaks, _ = find_peaks(np.tile(sign * height, 3), prominence=2.0 * (1.0 - 1e-3) * self.smallest_ear)
-        return np.asarray(360.0 / _STEPS * (peaks[(peaks >= _STEPS) & (peaks < 2 * _STEPS)] - _STEPS))
+        rises = np.roll(height, -1) > height
+        turns = np.flatnonzero(rises != np.roll(rises, 1))  # peaks and valleys in turn
+        while turns.size:  # the least step between neighbours is removed, until all are large
+            steps = np.abs(height[np.roll(turns, -1)] - height[turns])
+            least = int(steps.argmin())
+            if steps[least] >= 2.0 * (1.0 - 1e-3) * self.smallest_ear:
+                break
+            turns = np.delete(turns, [least, (least + 1) % turns.size])
+        return np.asarray(360.0 / _STEPS * turns[sign * (np.roll(height, -1) - height)[turns] <= 0.0])
 
     @cached_property
     def _counted(self) -> list[int]:

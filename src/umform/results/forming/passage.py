@@ -65,8 +65,6 @@ def largest_force(
     InvalidValue
         If the way is not positive.
     """
-    from scipy.signal import savgol_filter  # slow to import
-
     far = np.maximum.accumulate(stroke)
     last = np.append(np.diff(far) > 0.0, True)
     s, f = far[last], force[last]
@@ -77,7 +75,7 @@ def largest_force(
     step = min(way, s[-1] - s[0]) / _PLACES
     at = s[0] + step * np.arange(int((s[-1] - s[0]) / step + 1e-9) + 1)
     own = np.interp(at, s, f)
-    mean = savgol_filter(own, _PLACES, 1, mode="interp")
+    mean = _mean_over_passages(own)
     first, end = (float(np.clip(place, at[0], at[-1])) for place in between)
     wanted = np.flatnonzero((at >= first) & (at <= end))
     if not wanted.size:  # a part of the stroke between two places
@@ -86,6 +84,15 @@ def largest_force(
     near = wanted[np.abs(at[wanted] - at[top]) <= step * _PLACES]
     above = f[(s >= between[0]) & (s <= between[1])].max(initial=mean[top]) - mean[top]
     return LargestForce(float(mean[top]), max(float(np.abs(own - mean)[near].max()), float(above)), float(at[top]))
+
+
+def _mean_over_passages(values: Floats) -> Floats:
+    """Mean over the passage around each place; near the ends the line through the first and the last whole passage."""
+    mean, half, x = np.convolve(values, np.full(_PLACES, 1.0 / _PLACES), "same"), _PLACES // 2, np.arange(_PLACES)
+    for end, outer in ((slice(None, _PLACES), slice(None, half)), (slice(-_PLACES, None), slice(half + 1, None))):
+        line = np.polynomial.Polynomial.fit(x, values[end], 1)
+        mean[end][outer] = line(x[outer])
+    return mean
 
 
 def longest_element(cut: Section, ends: Floats, first: float) -> float:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scipy.signal import sawtooth
+from scipy.signal import savgol_filter, sawtooth
 
 import umform as uf
 from umform.errors import InvalidValue
@@ -63,6 +63,14 @@ def test_a_travel_that_stands_still_or_is_shorter_than_a_passage():
     assert (still.value, still.ripple, still.stroke) == (4.0, 0.0, 0.0)
     with pytest.raises(InvalidValue, match="has a length"):
         largest_force(STROKE, SMOOTH, 0.0)
+
+
+def test_means_at_the_ends_are_those_of_the_line_through_a_whole_passage():
+    force = np.random.default_rng(3).normal(size=STROKE.size)
+    mean = savgol_filter(force, 21, 1, mode="interp")
+    for place in (0, 4, 9, 10, 11, 200, 389, 390, 391, 395, 400):
+        at = (STROKE[place] - 1e-9, STROKE[place] + 1e-9)
+        assert largest_force(STROKE, force, 2.1, between=at).value == pytest.approx(mean[place])
 
 
 @pytest.mark.parametrize("cell", ["hex8", "hex18"])

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.signal import find_peaks
 
 import umform as uf
 from umform.errors import InvalidValue
@@ -107,6 +108,19 @@ def test_ears_are_waves_above_a_threshold(waves, ears):
     numbers = profile.waves()
     for number in (2, 4, 6, 8):
         assert numbers[f"amplitude of {number} waves"] == pytest.approx(abs(waves.get(number, 0.0)), abs=1e-9)
+
+
+def test_ears_are_the_prominent_peaks_of_their_waves():
+    random, angle = np.random.default_rng(2), np.radians(0.5 * np.arange(720))
+    for _ in range(20):
+        waves = {
+            n: (random.uniform(0.2, 1.0), random.uniform(0.0, 360.0 / n)) for n in random.choice(np.arange(2, 9), 3)
+        }
+        profile = _wavy(waves, nodes=97, until=360.0)
+        height = sum(size * np.cos(n * (angle - np.radians(crest))) for n, (size, crest) in waves.items())
+        for sign, found in ((1.0, profile.ears()), (-1.0, profile.valleys())):
+            peaks, _ = find_peaks(np.tile(sign * height, 3), prominence=2.0 * profile.smallest_ear)
+            np.testing.assert_allclose(found, 0.5 * (peaks[(peaks >= 720) & (peaks < 1440)] - 720), atol=0.6)
 
 
 def test_ears_between_the_axes_of_a_whole_cup():
