@@ -57,7 +57,7 @@ def run(build: Build, increments: int, mixed: bool) -> tuple[int, int, float]:
     """Increments, evaluations (those of increments that were cut too), CPU seconds."""
     model, steps = build(increments)
     start = time.process_time()
-    result = uf.solve(model, steps, options=NewtonOptions(mixed=mixed, factor_cost=0.0), frames=0, progress=False)
+    result = uf.solve(model, steps, options=NewtonOptions(mixed=mixed), frames=0, progress=False)
     return len(result) - 1, result.timing.elements.calls, time.process_time() - start
 
 

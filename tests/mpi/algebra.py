@@ -14,7 +14,7 @@ from umform.analysis.ranks.outline import Outline
 from umform.analysis.ranks.run import hand_out
 from umform.errors import NotFinite, SingularMatrix
 from umform.mesh import strip
-from umform.model import Body, Term
+from umform.model import Term
 from umform.model.terms.term import Found, Global
 from umform.parallel.mpi_ranks import world
 from umform.parallel.solver import Petsc
@@ -120,18 +120,6 @@ class Alone(Nothing):
         """Nothing has been taken out."""
 
 
-def efforts():
-    """What an evaluation costs, in the whole and here: all ranks must decide alike."""
-    halves = [
-        Body(material=ELASTIC, cells=np.arange(18), name="thin"),
-        Body(material=ELASTIC, cells=np.arange(18, 36), name="thick", thickness_points=9),
-    ]
-    whole = uf.Model(strip(20.0, 4.0, 0.2, (12, 3)), bodies=halves)
-    whole.fix("x0")
-    effort = shared(whole).effort
-    return [whole.system.effort, *world().comm.allgather(effort)]
-
-
 def message(run):
     try:
         run()
@@ -175,7 +163,6 @@ def main():
     steel = strut(material=uf.J2(kappa=175e3, mu=80.77e3, hardening=uf.Linear(160.0, 500.0)))
     part, flat = shared(steel), flattened(steel)
     answer["failed"] = [steel.evaluate(flat).failed, part.evaluate(flat[dofs(part)]).failed]
-    answer["effort"] = efforts()
     answer["tool"] = [refused_tool(press) for press in (False, True)]
     answer["runs"] = [message(run) for run in refused_runs()]
     loose, rigid = Petsc(), shared(strut(clamped=False))

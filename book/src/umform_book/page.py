@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
@@ -114,12 +114,10 @@ class Page:
 
     def solve(self, label: str, model: Model, steps: Sequence[Step] | Step, **options: Any) -> Result:
         """Solve a nonlinear problem and enter its balance of work and forces, and the order of Newton's method."""
-        from umform.analysis.newton.options import NewtonOptions
         from umform.analysis.run import solve
 
-        newton = replace(options.pop("options", NewtonOptions()), factor_cost=0.0)  # the order is Newton's own
         try:
-            result = solve(model, steps, progress=False, options=newton, **{"frames": 0, **options})
+            result = solve(model, steps, progress=False, **{"frames": 0, **options})
         except UmformError as error:  # what was reached counts too
             reached: Result = error.result  # type: ignore[attr-defined]
             self.balances.append(balance_row(self.case.name, f"{label} (ended early)", reached))

@@ -12,7 +12,7 @@ _PARTS = {
     "supports": "all_supports constrained groups hold_again holders pairs rows ties unknown_count wait",
     "tools": "press_of",
     "system.whole": "described elsewhere node_number owned sum_at_nodes",
-    "system": "begin check coefficients commit effort elastic extend extent follow free largest_entry mechanism now "
+    "system": "begin check coefficients commit elastic extend extent follow free largest_entry mechanism now "
     "others pairs_of_tools pattern prepare ranks recover repeat restore restrict resultants revert shorten smooth "
     "snapshot stand state_at terms thickness time timing too_deep unknowns with_term x",
 }

@@ -125,14 +125,6 @@ def test_mixed(run):
     assert 0.9 < numbers["an evaluation of ANS3DEAS, over one with the consistent tangent"] < 1.5
 
 
-def test_reuse(run):
-    lines, _ = run("reuse", "--cells", "3", "--case", "plate")
-    new, reused = lines[-2:]
-    assert new.split()[:2] == ["plate", "new"]
-    assert reused.split()[:2] == ["plate", "reused"]
-    assert last(new, 1) == pytest.approx(last(reused, 1), rel=1e-6)  # the force does not lean on the factors
-
-
 def test_dome(run, tmp_path):
     picture, page = tmp_path / "dome.png", tmp_path / "page.md"
     page.write_text("before\n<!-- dome -->\nold\n<!-- /dome -->\nafter\n")

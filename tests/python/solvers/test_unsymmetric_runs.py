@@ -7,7 +7,6 @@ import pytest
 
 import umform as uf
 from umform.analysis.newton.newton import Newton
-from umform.analysis.newton.options import NewtonOptions
 from umform.solvers import pardiso
 
 needs_mkl = pytest.mark.skipif(not pardiso.available(), reason="MKL is not installed")
@@ -42,18 +41,6 @@ def test_a_follower_pressure_with_each_solver(solver):
     reference, pressure = plate()
     uf.solve(reference, uf.Move(pressure, to=1.0, steps=4), solver="superlu", frames=0, progress=False)
     np.testing.assert_allclose(model.u, reference.u, atol=1e-9 * np.abs(reference.u).max())
-
-
-@pytest.mark.parametrize("solver", GENERAL)
-def test_old_factors_of_an_unsymmetric_tangent(solver):
-    """Residuals of solutions are checked against the matrix of the factors, not that of the present iteration."""
-    model, pressure = plate()
-    options = NewtonOptions(factor_cost=5.0)
-    result = uf.solve(
-        model, uf.Move(pressure, to=1.0, steps=4), solver=solver, options=options, frames=0, progress=False
-    )
-    assert result.timing.factorisation.calls < result.timing.solve.calls
-    assert result.iterations[-1][-1].residual <= 1e-9
 
 
 def test_the_banded_solver_leaves_it_to_others():

@@ -137,7 +137,7 @@ class Newton:
         search = self.options.line_search
         if search is None:  # in elastic sheets, whose energy is a narrow curved valley, it is too slow
             search = friction or not self._elastic
-        return IterationMode(search, True, self.mixed and not consistent, indefinite, extended, grows)
+        return IterationMode(search, self.mixed and not consistent, indefinite, extended, grows)
 
     def solve(
         self,
@@ -287,11 +287,10 @@ class Newton:
                 solver = self.ready_solver()
                 tangent.use(solver)
             longest = guard.longest_step(evaluation, norm, iterations)
-            evaluation = tangent.factor(goal, evaluation, residual, increment, iterations, moved=moved)
+            evaluation = tangent.factor(goal, evaluation, residual, iterations)
             du = system.extend(solver.solve(-r))
             energy = abs(system.ranks.dot(r, system.coefficients(du)))
             recorder.add(evaluation, residual, increment, energy, length, tangent.pivots)
-            tangent.plan(evaluation)
             evaluation = evaluation.without_tangent()  # factors exist: release the memory of the tangent
             evaluation, length = self._advanced(goal, evaluation, du, r, mode, longest, tangent)
             increment = length * self._relative(du, evaluation)

@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 from annotated_types import Le, Lt
 
 from umform.spec import About, check_fields
-from umform.spec.types import Count, NotNegative, Positive
+from umform.spec.types import Count, Positive
 
 
 @dataclass(frozen=True)
@@ -41,10 +41,6 @@ class NewtonOptions:
     """Predictor: 0 from the tangent; 1 from the last increment of the step, extrapolated; 2 from the parabola through
     the last three states, also across the end of a move if the next one continues its direction. eq. (5.50) The
     parabola suits smooth paths: many increments, and contact at many points."""
-    factor_cost: NotNegative | None = None
-    """Cost of a factorisation relative to an evaluation with a solve. If it is large, factors are reused, see
-    :mod:`umform.analysis.newton.factor_reuse`; 0 never reuses them; default: an estimate from the entries of the
-    factors."""
     mixed: bool | None = None
     """Compute the geometric stiffness from the stress predicted by the last increment, not from the present one: thin
     elastic sheets then allow larger steps and need fewer iterations. eq. (5.39) Default: if no law has a history."""
@@ -79,8 +75,6 @@ class IterationMode:
     ----------
     line_search : bool
         Whether to shorten increments that are too long. eq. (5.12)
-    reuses : bool
-        Whether the factors of the previous iteration may be reused.
     mixed : bool
         Whether the geometric stiffness is that of the stress predicted by the last increment. eq. (5.39)
     indefinite : IndefiniteTangent
@@ -92,7 +86,6 @@ class IterationMode:
     """
 
     line_search: bool
-    reuses: bool
     mixed: bool
     indefinite: IndefiniteTangent = IndefiniteTangent.IGNORED
     extended: bool = False

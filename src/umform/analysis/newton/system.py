@@ -119,10 +119,6 @@ class System(Protocol):
         """Sparse pattern of the tangent at the nodes."""
 
     @property
-    def effort(self) -> float:
-        """Cost of an evaluation per equation; 1 for 8-node elements with 20 points."""
-
-    @property
     def extent(self) -> float:
         """Largest extent of the undeformed body along an axis."""
 

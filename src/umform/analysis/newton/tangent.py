@@ -1,14 +1,19 @@
-"""The tangent of the iterations of one increment: when it is evaluated, factorised, reused, shifted."""
+"""The tangent of the iterations of one increment: when it is evaluated, factorised, shifted."""
 
 from __future__ import annotations
 
+import math
+
 from umform.analysis.newton.bordered import Bordered
 from umform.analysis.newton.divergence_guard import DivergenceGuard
-from umform.analysis.newton.factor_reuse import Reuse
 from umform.analysis.newton.options import IterationMode, NewtonOptions
 from umform.analysis.newton.shift import Shift
 from umform.analysis.newton.system import Evaluation, State, System
 from umform.results.records import First, Iteration
+
+#: The factors of a predictor reduce its residual, which is quadratic in the change of the tangent, by so many times the
+#: square root of it; 2 in theory.
+_FALL = 3.0
 
 
 class Tangent:
@@ -28,7 +33,7 @@ class Tangent:
     shifted : bool
         Whether the last factors are those of a shifted tangent. eq. (5.54)
     forces_first : bool
-        Whether the next evaluation is of forces only: where factors are expensive, they may serve again.
+        Whether the next evaluation is of forces only, as in a linear step: the factors of the predictor serve again.
     entry : float or None
         Largest entry of the tangent, for evaluations without one.
     """
@@ -43,38 +48,22 @@ class Tangent:
         first: First | None,
     ) -> None:
         self._system, self._solver, self._mode, self._guard = system, solver, mode, guard
-        self._options = options
-        self._reuse, self._shift = Reuse(options, system.pattern.n, system.effort), Shift(system)
-        self.pivots = None if first is None else self._reuse.remember(first.factors)
+        self._tolerance, self._shift = options.residual, Shift(system)
+        self.pivots = None if first is None else first.factors.negative_pivots
         self.entry = None if first is None else first.entry
-        self.shifted, self.forces_first = False, first is not None and self._saves
+        self.shifted, self.forces_first = False, first is not None and system.smooth and not self.searches
 
     def use(self, solver: Bordered) -> None:
         """Use a solver that has analysed the present pattern, after that has changed; it has no factors yet."""
-        system = self._system
-        self._solver, self._shift = solver, Shift(system)
-        self._reuse = Reuse(self._options, system.pattern.n, system.effort)
-
-    @property
-    def _saves(self) -> bool:
-        return self._reuse.dear and not self.searches and self._system.smooth
+        self._solver, self._shift = solver, Shift(self._system)
 
     @property
     def searches(self) -> bool:
         """Whether increments are shortened if they are too long."""
         return self._mode.line_search or self._guard.jumps
 
-    def factor(
-        self,
-        goal: State,
-        evaluation: Evaluation,
-        residual: float,
-        increment: float,
-        iterations: list[Iteration],
-        *,
-        moved: bool,
-    ) -> Evaluation:
-        """Factorise the tangent, unless the previous factors will do; return its evaluation.
+    def factor(self, goal: State, evaluation: Evaluation, residual: float, iterations: list[Iteration]) -> Evaluation:
+        """Factorise the tangent, unless the step is linear; return its evaluation.
 
         Parameters
         ----------
@@ -82,12 +71,10 @@ class Tangent:
             Time and controls of the increment.
         evaluation : Evaluation
             The present one, perhaps of forces only.
-        residual, increment : float
-            Without units, as :class:`umform.results.records.Iteration` has them.
+        residual : float
+            Relative to the forces.
         iterations : list of Iteration
             The previous ones.
-        moved : bool
-            Whether contact points have opened or closed, begun or ceased to slip.
 
         Raises
         ------
@@ -95,27 +82,22 @@ class Tangent:
             If the tangent is indefinite far from equilibrium.
         """
         system, guard = self._system, self._guard
-        if self._reuse.factors_will_do(residual, increment, settled=self._mode.reuses and not moved):
-            self.follow()
-            return evaluation
         if self.forces_first:
-            evaluation = system.evaluate(system.state_at(evaluation.x, goal))
-        pivots = self._reuse.remember(self._solver.factor(evaluation))
+            if _FALL * math.sqrt(residual) * residual <= self._tolerance:
+                system.follow()
+                return evaluation
+            evaluation, self.forces_first = system.evaluate(system.state_at(evaluation.x, goal)), False
+        pivots = self._solver.factor(evaluation).negative_pivots
         guard.check_pivots(pivots, residual, iterations)
         asked = guard.needs_symmetric_part(residual)
         self.pivots = self._shift.negative_pivots(evaluation, pivots, asked=asked)
         self.shifted = guard.shifts(self.pivots)
         if self.shifted:
             self._shift.factor(self._solver, evaluation)
-        self.entry = system.largest_entry(evaluation.values)
+        self.entry = None
         return evaluation
 
     def follow(self) -> None:
         """After an evaluation of forces only: let the next recovery use them."""
         if self.forces_first:
             self._system.follow()
-
-    def plan(self, evaluation: Evaluation) -> None:
-        """Choose what the next evaluation is of, from the present one."""
-        self.forces_first = self._saves and not evaluation.border.unknowns
-        self.entry = self.entry if self.forces_first else None

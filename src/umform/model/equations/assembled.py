@@ -211,20 +211,6 @@ class Assembled:
         """Sparse pattern of the tangent over the unknowns at nodes."""
         return self._assembly().pattern
 
-    @property
-    def effort(self) -> float:
-        """Cost of an evaluation per equation; 1 for 8-node elements with 20 points.
-
-        Each point adds to all entries of an element's matrix; in a regular mesh of one layer an element of 8 nodes has
-        one fibre per element, one of 18 nodes has four.
-        """
-        nodes = self.mesh.connectivity.shape[1]
-        fibres = 1 if nodes == 8 else 4
-        size = nodes / 8
-        points = self.ranks.sum(float(sum(body.block.points * len(body.cells) for body in self.bodies)))
-        cells = self.ranks.sum(float(sum(len(body.cells) for body in self.bodies)))
-        return float(points / max(cells, 1.0) / 20 * size * size / fibres)
-
     @cached_property
     def thickness(self) -> float:
         """Thickness of the undeformed sheet."""

@@ -20,7 +20,7 @@ class Evaluated(SimpleNamespace):
 class OneUnknown:
     """What Newton's method asks a system of one unknown besides its evaluation."""
 
-    effort = extent = 1.0
+    extent = 1.0
     elastic = smooth = False
     ranks = ONE
 

@@ -125,7 +125,7 @@ def rolled(mixed, element="ANS3DEAS", law=None, steps=5):
     model = Model(strip(10.0, 1.0, 0.1, cells, cell=cell), element, material=law or mt.SVK(E=1e5, nu=0.3))
     model.fix("x0")
     end = model.prescribe("x1_lower", "z", name="end")
-    result = solve(model, Move(end, 7.5, steps=steps), frames=0, options=NewtonOptions(mixed=mixed, factor_cost=0.0))
+    result = solve(model, Move(end, 7.5, steps=steps), frames=0, options=NewtonOptions(mixed=mixed))
     return model, result
 
 

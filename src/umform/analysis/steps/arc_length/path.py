@@ -208,7 +208,7 @@ class Path:
     @property
     def _mode(self) -> IterationMode:
         """Near a limit point the residual is no measure of an increment, and the tangent changes strongly."""
-        return IterationMode(line_search=False, reuses=False, mixed=self.newton.mixed)
+        return IterationMode(line_search=False, mixed=self.newton.mixed)
 
     def _goal(self, arc: float) -> State:
         """The converged state at the time of another length of the path."""
