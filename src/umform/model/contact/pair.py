@@ -64,13 +64,16 @@ class Contact(PairPoints):
             self.block.keep(last.status)
         scatter = into.scatters[self][0]
         scale = self.block.evaluate(at.u, scatter, into.residual, into.values, way, product)[1]
+        spins, until = self.tool.spins(at.rates, at), None if self.tool.motion is None else at.until
+        if into.rates_only and not spins and until is None:
+            return ContactFound(scale)
         found = self._found(scale, at.u, pose)
         if last is not None and bool((last.active & ~found.active).any()):
             found = replace(found, kept=True)
-        if at.until is not None and self.tool.motion is not None:
-            turned = self.tool.pose(at.values, at.until)[0] @ pose[0].T
+        if until is not None:
+            turned = self.tool.pose(at.values, until)[0] @ pose[0].T
             self._spread(found.forces @ (turned - np.eye(3)).T, into.predictor)
-        for spin, _ in self.tool.spins(at.rates, at):
+        for spin, _ in spins:
             self._spread(np.cross(spin, found.forces), into.predictor)
         return found
 

@@ -209,7 +209,7 @@ class Evaluated(Assembled):
         """Rate of the forces of one term with controls, shape (3 n,)."""
         part, forces = np.zeros(at.u.size), np.zeros(at.u.size)
         scratch = Into(forces, None, part, into.scatters, into.positions, into.ranks, into.border)
-        scratch = replace(scratch, pattern=into.pattern)
+        scratch = replace(scratch, pattern=into.pattern, rates_only=True)
         term.evaluate(At(at.u, at.time, at.values, at.step, along, rates, scalars=at.scalars), scratch)
         return part
 

@@ -151,6 +151,8 @@ class Into:
         controls.
     pattern : umform._core.Pattern
         Pattern of ``values``, for terms without scatter maps.
+    rates_only : bool
+        Whether only the predictor is read, not the residual and the results of the term.
     """
 
     residual: Floats
@@ -163,6 +165,7 @@ class Into:
     found: dict[Any, Any] = field(default_factory=dict)
     moved: dict[tuple[Any, Global | None], Floats] = field(default_factory=dict)
     pattern: Any = None
+    rates_only: bool = False
 
     def add(self, term: Any, connectivity: Ids, forces: Floats, tangents: Floats | None, at: At, kind: int = 0) -> None:
         """Add the forces and tangents of the parts of a term written in Python.
