@@ -107,7 +107,7 @@ nb::object point_stresses(const Input& E, const Input& S, const Input& frame, co
                           to_numpy(std::move(out[2]), {count, 6}));
 }
 
-nb::object energy(ShellBlock& block, const Input& u) {
+nb::object total_energy(ShellBlock& block, const Input& u) {
     const double* position = nodal(block, u);
     Energy total;
     {
@@ -240,7 +240,8 @@ void bind_blocks(nb::module_& m) {
             nb::sig("def cell_fields(self, u: NDArray[float64], scalar: int = -1) -> list[NDArray[float64]]"),
             "Means (elements, 6) of the Cauchy stress in global and local axes and of S in both; largest von Mises stress; mean and largest value of a number of the history.")
         .def(
-            "energy", &energy, nb::arg("u"), nb::sig("def energy(self, u: NDArray[float64]) -> tuple[float, float]"),
+            "energy", &total_energy, nb::arg("u"),
+            nb::sig("def energy(self, u: NDArray[float64]) -> tuple[float, float]"),
             "Elastic energy and plastic work of the block at the converged state u; NaN if the law does not know them.")
         .def("element", &element_matrix, nb::arg("e"), nb::arg("u"),
              nb::sig("def element(self, e: int, u: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]"),
