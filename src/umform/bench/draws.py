@@ -16,6 +16,7 @@ from umform.io.staging import staging
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.files import FILES, record, write_files
 from umform.processes.draw.u_bend import UBend
+from umform.processes.early_end import what_was_reached
 
 if TYPE_CHECKING:
     from umform.analysis.steps.run_state import Run
@@ -31,7 +32,7 @@ _ARC = 12
 
 
 def run_draw(folder: Path, title: str, wanted: Wanted) -> dict[str, Any]:
-    """Draw a part and write its files; a part that tears or wrinkles has its results up to there.
+    """Draw a part and write its files; one that tears, wrinkles or is stopped has its results up to there.
 
     Parameters
     ----------
@@ -51,12 +52,13 @@ def run_draw(folder: Path, title: str, wanted: Wanted) -> dict[str, Any]:
 
     case, note = wanted.draw(), wanted.law()[1]
     watch = Watch(folder, title, DrawProgress(case))
-    with staging(folder / RESULTS, FILES):
-        with watching(watch):
+    results = folder / RESULTS
+    with staging(results, FILES):
+        with watching(watch), what_was_reached(results, "draw.vtkhdf"):
             drawn = draw(case, progress=False)
-            watch.phase("files", _BEFORE_FILES)
-            watch.shape(drawn.result)
-        write_files(folder / RESULTS, drawn, note)
+        watch.phase("files", _BEFORE_FILES)
+        watch.shape(drawn.result)
+        write_files(results, drawn, note)
     watch.phase("end", 1.0)
     found = record(drawn)
     return {"note": note, "unfinished": drawn.released is None, **{name: found[name] for name in _SHOWN}}

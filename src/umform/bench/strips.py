@@ -16,12 +16,13 @@ from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.bend_sequence import BendSequence, Part, bend_sequence
 from umform.processes.bend_sequence import files as part_files
+from umform.processes.early_end import what_was_reached
 from umform.processes.hemming import Hem, Hemming, hemming
 from umform.processes.hemming import files as hem_files
 from umform.report.looks import MILLIMETRES
 
 #: Files of such jobs.
-FILES = (*part_files.FILES, *hem_files.FILES)
+FILES = (*part_files.RESULTS, *hem_files.RESULTS)
 #: Largest number of points of a profile on the page.
 _MOST = 400
 #: Entries of a record that the page shows unchanged.
@@ -71,7 +72,8 @@ def run_strip(folder: Path, title: str, wanted: Wanted, sheet: AirBending, note:
     watch = Watch(folder, title, progress, units=MILLIMETRES, force=progress.force)
     results = folder / RESULTS
     with staging(results, hem_files.FILES if hems else part_files.FILES), watching(watch):
-        done = hemming(case, progress=False) if isinstance(case, Hemming) else bend_sequence(case, progress=False)
+        with what_was_reached(results, "hem.vtkhdf" if hems else "part.vtkhdf"):
+            done = hemming(case, progress=False) if isinstance(case, Hemming) else bend_sequence(case, progress=False)
         watch.phase("files", 0.95)
         watch.shape(done.result if isinstance(done, Hem) else done.bends[-1].result)
         if isinstance(done, Hem):

@@ -27,13 +27,13 @@ from umform.bench.wanted import Wanted
 from umform.errors import UmformError
 from umform.io.atomic import write_text
 from umform.io.staging import staging
-from umform.io.tables import write_csv
 from umform.processes.air_bending.bottoming import press_to_force
 from umform.processes.air_bending.brake import FRAMES, Brake
 from umform.processes.air_bending.budget import error_budget
 from umform.processes.air_bending.case import air_bending
 from umform.processes.air_bending.files import FILES, record, write_files
 from umform.processes.air_bending.search import find_stroke
+from umform.processes.early_end import what_was_reached
 from umform.processes.plausible import accepted
 from umform.report.key_numbers import key_numbers
 from umform.report.looks import MILLIMETRES, Units
@@ -124,8 +124,9 @@ def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     progress = BendProgress(brake, angle, case.bottom_stroke if case.bottoming else case.stroke)
     watch = Watch(folder, order["title"], progress, units=MILLIMETRES, force=progress.force)
 
-    with staging(folder / RESULTS, FILES), watching(watch):
-        try:
+    results = folder / RESULTS
+    with staging(results, FILES), watching(watch):
+        with what_was_reached(results, "bend.vtkhdf", brake.run.result):
             if force is not None:
                 done = press_to_force(case, force, brake=brake, progress=False).bend
             elif case.stroke is not None:
@@ -133,17 +134,14 @@ def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
             else:
                 assert angle is not None
                 done = find_stroke(case, angle, tolerance=wanted.goal.tolerance, brake=brake, progress=False).bend
-        except (UmformError, KeyboardInterrupt):
-            if len(brake.run.result) > 1:
-                write_csv(folder / RESULTS / "history.csv", brake.run.result.table())
-            raise
-        if wanted.choices.budget:
-            watch.phase("budget", 0.75)
-            done = replace(done, budget=error_budget(done, progress=False))
-        watch.phase("files", 0.95)
-        watch.shape(done.result)
-        write_files(folder / RESULTS, done, note)
-    (folder / RESULTS / "history.csv").unlink(missing_ok=True)  # of a run that was stopped
+        try:
+            if wanted.choices.budget:
+                watch.phase("budget", 0.75)
+                done = replace(done, budget=error_budget(done, progress=False))
+        finally:  # even if the budget is stopped
+            watch.phase("files", 0.95)
+            watch.shape(done.result)
+            write_files(results, done, note)
     watch.phase("end", 1.0)
     needed = largest(computed_forces(wanted, case, {wanted.choices.work: done.measures.largest_force}))
     return {**record(done), "length": length, "note": note, "press": needed.over(length)}

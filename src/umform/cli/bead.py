@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from umform.cli.early_end import what_was_reached
 from umform.cli.folders import out_option, results_folder, say_written
 from umform.cli.metal import SheetMetal, with_metal
 from umform.cli.options import (
@@ -23,6 +22,7 @@ from umform.cli.studies import Studies, with_studies
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import print_warnings_once
 from umform.processes.draw_bead.spec import DrawBead
+from umform.processes.early_end import what_was_reached
 
 
 @app.command()

@@ -16,7 +16,6 @@ from umform.cli.bend_goals import BendGoal, check_flat_only, check_length, check
 from umform.cli.check import Force
 from umform.cli.deflection import deflected, press_brake
 from umform.cli.drawn_tools import drawn_tools, named_tools
-from umform.cli.early_end import say_kept, what_was_reached
 from umform.cli.folders import out_option, results_folder, say_written
 from umform.cli.identify import MOST, Find, Quantities, identify_case
 from umform.cli.metal import SheetMetal, with_metal
@@ -41,6 +40,7 @@ from umform.cli.warnings import print_warnings_once
 from umform.errors import UmformError
 from umform.processes.air_bending.goal import Goal
 from umform.processes.air_bending.spec import AirBending
+from umform.processes.early_end import say_kept, what_was_reached
 from umform.studies.deflection.press_brake import PressBrake
 
 if TYPE_CHECKING:

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from umform.cli.early_end import what_was_reached
 from umform.cli.folders import results_folder, say_written
 from umform.cli.metal import SheetMetal, with_metal
 from umform.cli.options import (
@@ -30,6 +29,7 @@ from umform.cli.warnings import print_warnings_once
 from umform.errors import InvalidValue
 from umform.processes.draw.cup import CLEARANCE, ESAFORM, Cup
 from umform.processes.draw.u_bend import NUMISHEET, UBend
+from umform.processes.early_end import what_was_reached
 from umform.spec import parameters
 
 if TYPE_CHECKING:

@@ -10,7 +10,6 @@ from typing import Annotated
 import typer
 
 from umform.cli.drawn_tools import named_tools
-from umform.cli.early_end import what_was_reached
 from umform.cli.folders import out_option, results_folder, say_written
 from umform.cli.metal import SheetMetal, with_metal
 from umform.cli.options import All, option
@@ -21,6 +20,7 @@ from umform.cli.spec_options import Given, given_by
 from umform.cli.studies import Studies, with_studies
 from umform.cli.warnings import print_warnings_once
 from umform.processes.air_bending.spec import AirBending
+from umform.processes.early_end import what_was_reached
 from umform.processes.hemming.spec import ACUTE, FOLDED, Hemming, acute, jumps
 from umform.spec import parameters
 

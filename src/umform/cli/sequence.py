@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 import typer
 
 from umform.cli.developed import sequence_of
-from umform.cli.early_end import what_was_reached
 from umform.cli.folders import results_folder, say_written
 from umform.cli.outcome_screen import show_outcome
 from umform.cli.plausible import refuse_implausible
 from umform.cli.root import printing, say
 from umform.cli.timing import show_timing
+from umform.processes.early_end import what_was_reached
 
 if TYPE_CHECKING:
     from umform.cli.studies import Studies

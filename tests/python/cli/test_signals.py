@@ -15,9 +15,13 @@ from command_line import umform
 
 from umform import cli
 from umform.analysis.newton.newton import Newton
-from umform.cli.early_end import what_was_reached
+from umform.analysis.run import run_steps
+from umform.analysis.run.open_run import OpenRun
+from umform.analysis.steps import Free, Move
 from umform.problem.templates import write_template
 from umform.processes.air_bending.brake import Brake
+from umform.processes.bend_sequence import run as sequence_run
+from umform.processes.early_end import what_was_reached
 
 SOURCE = Path(cli.__file__).parents[2]
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals")
@@ -196,15 +200,74 @@ def test_ctrl_c_keeps_what_an_operation_has_reached(words, states, monkeypatch, 
     assert umform(*words, "--material", "DC04", "--out", place).exit_code == 1  # they are not overwritten
 
 
+def interrupted_in(kind, monkeypatch):
+    """Ctrl-C in the second increment of the first run of a step of a kind."""
+    finish, solve, calls = run_steps._finish, Newton.solve, []
+
+    def noted(run, step):
+        calls.extend([0] * (not calls and isinstance(step, kind)))
+        return finish(run, step)
+
+    def interrupted(self, *arguments, **options):
+        calls.extend([1] * bool(calls))
+        if len(calls) == 3:
+            raise KeyboardInterrupt
+        return solve(self, *arguments, **options)
+
+    monkeypatch.setattr(run_steps, "_finish", noted)
+    monkeypatch.setattr(Newton, "solve", interrupted)
+
+
+def test_ctrl_c_while_the_tools_open_keeps_the_drawing(monkeypatch, tmp_path):
+    interrupted_in(Free, monkeypatch)
+    run = umform("draw", "u", "--coarse", "--stroke", 3, "--material", "DC04", "--out", tmp_path)
+    assert run.exit_code == cli.INTERRUPTED
+    with (tmp_path / "history.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert float(rows[0]["stroke"]) == 0.0 and float(rows[-1]["stroke"]) == pytest.approx(3.0)
+
+
+def test_ctrl_c_in_a_second_bend_keeps_the_first_one(monkeypatch, tmp_path):
+    bent = sequence_run._bent
+
+    def second_is_interrupted(sequence, number, *others):
+        if number == 1:
+            interrupted_in(Move, monkeypatch)
+        return bent(sequence, number, *others)
+
+    monkeypatch.setattr(sequence_run, "_bent", second_is_interrupted)
+    bends = "[[bends]]\nposition = 20.0\nstroke = 1.0\n[[bends]]\nposition = 40.0\nstroke = 2.0\n"
+    (tmp_path / "part.toml").write_text(f"length = 60.0\n{bends}")
+    typed = ["bend", "--sequence", tmp_path / "part.toml", "--material", "DC04", "--out", tmp_path / "out"]
+    run = umform(*typed)
+    assert run.exit_code == cli.INTERRUPTED and "in bend 2 of 2" in run.stderr
+    assert f"results so far are in {tmp_path / 'out'}: bend1.csv, history.csv, part.vtkhdf" in run.stderr
+    with (tmp_path / "out" / "bend1.csv").open() as file:
+        assert max(float(row["stroke"]) for row in csv.DictReader(file)) == pytest.approx(1.0)
+
+
+def test_ctrl_c_while_a_hem_is_flattened_keeps_its_first_bend(monkeypatch, tmp_path):
+    class Interrupted(OpenRun):
+        def take(self, *steps, **options):
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr("umform.processes.hemming.run.OpenRun", Interrupted)
+    run = umform("hem", "--thickness", 1, "--material", "DC04", "--out", tmp_path)
+    assert run.exit_code == cli.INTERRUPTED
+    assert f"results so far are in {tmp_path}: bend1.csv" in run.stderr and (tmp_path / "bend1.csv").is_file()
+
+
 def test_a_whole_run_leaves_no_history_of_one_that_was_stopped(tmp_path):
-    history = tmp_path / "history.csv"
-    history.write_text("half")
+    old = [tmp_path / name for name in ("history.csv", "bend1.csv")]
+    other = tmp_path / "bends.csv"
+    for path in (*old, other):
+        path.write_text("half")
     with pytest.raises(KeyboardInterrupt), what_was_reached(tmp_path, "bend.vtkhdf"):
         raise KeyboardInterrupt
-    assert history.exists()
+    assert all(path.exists() for path in old)
     with what_was_reached(tmp_path, "bend.vtkhdf"):
         pass
-    assert not history.exists()
+    assert list(tmp_path.iterdir()) == [other]
 
 
 def test_a_handler_of_the_program_is_left_alone():

@@ -26,7 +26,8 @@ _PAGE = "report.html"
 _DECKS = tuple(f"bend{number}.toml" for number in range(1, MOST_BENDS + 1))
 #: Files of a part.
 FILES = (*_DATA, *_DECKS, *_PICTURES, _PAGE)
-RESULTS = (*FILES, "history.csv")
+#: Those, and what a run that ends early leaves.
+RESULTS = (*FILES, "history.csv", *(f"bend{number}.csv" for number in range(1, MOST_BENDS + 1)))
 
 
 def write_files(out: str | Path, part: Part, note: str = "") -> list[Path]:

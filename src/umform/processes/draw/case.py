@@ -30,7 +30,8 @@ def draw(
 ) -> Drawn:
     """Draw a part and take it out of its tools.
 
-    A run that fails returns its last converged state; ``ending`` of the result has the cause.
+    A run that fails returns its last converged state; ``ending`` of the result has the cause. An exception that ends
+    the opening of the tools has the whole drawing as its attribute ``result``.
 
     Parameters
     ----------
@@ -78,6 +79,9 @@ def draw(
             released = solve(model, press.opening, options=case.newton, frames=2, solver=solver, progress=progress)
         except (SolveError, ModelError) as error:  # a wrinkled sheet may lie on the wrong side of a tool
             ending = ending or Ending("release", f"the part cannot be taken out of the tools: {error}")
+        except BaseException as error:
+            error.result = result  # type: ignore[attr-defined]
+            raise
         else:
             add_forming_fields(released, limit)
     return Drawn(case, limit, result, u, released, ending)

@@ -28,7 +28,8 @@ _DECKS = ("bend1.toml", "hem.toml")
 _GAPS = ("from the tip mm", "gap under load mm", "gap released mm")
 #: Files of a hem.
 FILES = (*_DATA, *_DECKS, *_PICTURES, _PAGE)
-RESULTS = (*FILES, "history.csv")
+#: Those, and what a run that ends early leaves.
+RESULTS = (*FILES, "history.csv", "bend1.csv")
 
 
 def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:

@@ -32,7 +32,8 @@ def hemming(case: Hemming, *, tolerance: float = 0.1, frames: int = FRAMES, prog
     InvalidValue
         If the first bend is out of reach.
     NoConvergence
-        If the run does not converge.
+        If the run does not converge. While the hem is flattened, the exception has the first bend as its attribute
+        ``bends``.
 
     Examples
     --------
@@ -46,13 +47,17 @@ def hemming(case: Hemming, *, tolerance: float = 0.1, frames: int = FRAMES, prog
     made = problem.build()
     model, edge, count = made.model, edge_of(case), loading_steps(case)
     run = OpenRun(model, options=OPTIONS, frames=max(1, frames // count))
-    with progress_bar(progress) as tick:
-        *moves, release = made.steps
-        for move, show in zip(moves, parts(tick, "flattening", [1.0] * count), strict=True):
-            run.take(move, tick=show)
-        loaded = Strip.of(model.mesh, model.u, edge)
-        force = run.result[FORCE] / case.sheet.thickness
-        run.take(release)
+    try:
+        with progress_bar(progress) as tick:
+            *moves, release = made.steps
+            for move, show in zip(moves, parts(tick, "flattening", [1.0] * count), strict=True):
+                run.take(move, tick=show)
+            loaded = Strip.of(model.mesh, model.u, edge)
+            force = run.result[FORCE] / case.sheet.thickness
+            run.take(release)
+    except BaseException as error:
+        error.bends = first.bends  # type: ignore[attr-defined]
+        raise
     released = Strip.of(model.mesh, model.u, edge)
     result = run.close()
     measures = measured(case, force, Strip.of(*start_of(case, first)[:2]), loaded, released)
