@@ -23,6 +23,8 @@ from umform.results.quantity import Quantity, list_columns, table
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from umform.problem.contents import Contents
+
 #: Table of all numbers.
 TABLE = "measures.csv"
 #: Numbers of a measure, and of all of them, on the first screen of a report.
@@ -191,6 +193,28 @@ class Taken:
         yield parts.table(header, rows)
         for name, measured in self.measures.items():
             yield parts.figure(self.pictures[name], f"{name}: {measured.caption}")
+
+
+def may_report(contents: Contents, name: str) -> bool:
+    """Whether a measure of a deck may have a number of this name: that of the measure, of the number, of the state."""
+    measure, _, rest = name.partition(".")
+    number, _, state = rest.rpartition(".")
+    wanted = contents.measures.get(measure)
+    return wanted is not None and number.startswith(wanted.numbers) and state in _states_of(contents)
+
+
+def names_begin(contents: Contents) -> list[str]:
+    """Names of the numbers of a deck for messages; three points are letters that the run knows."""
+    return [
+        f"{name}.{begin}{'' if begin.strip() == begin != '' else '...'}.{state}"
+        for name, measure in contents.measures.items()
+        for begin in measure.numbers
+        for state in _states_of(contents)
+    ]
+
+
+def _states_of(contents: Contents) -> list[str]:
+    return [FORMED, *[RELEASED] * (loading_steps(contents) < len(contents.steps))]
 
 
 def _named_as(measure: str, one: Quantity, state: str) -> str:

@@ -57,8 +57,13 @@ class Operation:
 
 def has_operations(case: Any) -> bool:
     """Whether a case is of a process of several operations: `BendSequence`, `Hemming`."""
-    folder = type(case).__module__.rpartition(".")[0]
-    return folder.startswith(__package__ or "") and find_spec(_module(case, "operations")) is not None
+    return _folder(case).startswith(__package__ or "") and find_spec(_module(case, "operations")) is not None
+
+
+def is_process_of(process: Callable[..., Any], case: Any) -> bool:
+    """Whether a function is in the folder of the process of a case."""
+    folder = _folder(case)
+    return folder.startswith(__package__ or "") and str(getattr(process, "__module__", "")).startswith(f"{folder}.")
 
 
 def operations_of(case: Any) -> Sequence[Operation]:
@@ -105,7 +110,11 @@ def quantities_named(case: Any) -> Collection[str] | None:
 
 
 def _module(case: Any, file: str) -> str:
-    return f"{type(case).__module__.rpartition('.')[0]}.{file}".lstrip(".")
+    return f"{_folder(case)}.{file}".lstrip(".")
+
+
+def _folder(case: Any) -> str:
+    return type(case).__module__.rpartition(".")[0]
 
 
 def _function(case: Any, file: str) -> Any:

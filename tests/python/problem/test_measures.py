@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+import umform as uf
 from umform.cli import app
 from umform.errors import InvalidValue
 from umform.problem import load
+from umform.problem.measured import may_report, names_begin
 from umform.problem.measures.hat import halves
 from umform.problem.templates import template, template_file
 from umform.problem.unloading import loading_steps
@@ -141,6 +143,28 @@ def _value(text):
     import tomllib
 
     return tomllib.loads(f"value = {text}")["value"]
+
+
+def test_names_of_numbers_are_known_before_the_run(run, numbers):
+    problem = load(run[0] / "as-run.toml")
+    for (measure, quantity), (formed, released, _) in numbers.items():
+        for state, value in {"formed": formed, "released": released}.items():
+            assert may_report(problem.contents, f"{measure}.{quantity}.{state}") or not value
+    for wrong in (
+        "strain",
+        "strain.largest",
+        "strain.largest major_lower.releasd",
+        "strain.mean.formed",
+        "ears.x.formed",
+    ):
+        with pytest.raises(InvalidValue, match="no such quantity") as refused:
+            uf.derivatives(problem, ["mesh.length"], of=[wrong], progress=False)
+        assert "strain.largest ....formed; strain.largest ....released" in refused.value.remedy
+
+
+def test_a_part_that_stays_in_its_tools_has_no_released_numbers():
+    contents = load(template_file("dome")).contents
+    assert not any("released" in name for name in names_begin(contents))
 
 
 def test_forces_are_sizes_along_the_stroke_and_the_punch_pushes(run, numbers):

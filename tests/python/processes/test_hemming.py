@@ -15,6 +15,7 @@ from umform.processes.hemming import Hemming, hemming
 from umform.processes.hemming.files import FILES, record, write_files
 from umform.processes.hemming.measures import clearances
 from umform.processes.hemming.operations import operations_of
+from umform.processes.hemming.outcome import names_of
 from umform.processes.hemming.problem import problem_of_hem
 from umform.processes.hemming.spec import acute
 from umform.results.quantity import GIVEN
@@ -45,6 +46,20 @@ def told():
 @pytest.fixture(scope="module")
 def hem(told):
     return hemming(COARSE, tolerance=5.0, frames=12, progress=lambda *tick: told.append(tick))
+
+
+def test_names_of_a_hem_are_known_before_its_run(hem):
+    assert {one.name for one in hem.quantities} <= set(names_of(hem.case))
+    with pytest.raises(InvalidValue, match="did you mean springback"):
+        uf.derivatives(hem.with_stroke, ["sheet.thickness"], of=["springbak"], progress=False)
+    with pytest.raises(InvalidValue, match="did you mean springback"):
+        uf.slopes(COARSE, ["sheet.thickness"], of=["springbak"], process=hemming, processes=1, progress=False)
+
+
+def test_a_stroke_that_leaves_the_flange_open_is_refused_before_it_is_flattened():
+    with pytest.raises(InvalidValue, match="closes to 70 degrees") as refused:
+        hemming(replace(COARSE, sheet=replace(SHEET, stroke=2.0)), progress=False)
+    assert refused.value.where == "sheet.stroke" and "which leaves 1" in refused.value.value
 
 
 def test_progress_is_told_for_each_increment_of_the_plate(hem, told):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -171,6 +171,9 @@ class Formed:
 
 class MeasurePart(Part):
     """Common base of the measures of a deck."""
+
+    #: What the names of its numbers begin with.
+    numbers: ClassVar[tuple[str, ...]] = ("",)
 
     def check(self, model: Model, *, released: bool) -> None:
         """Refuse before the run what cannot be measured.

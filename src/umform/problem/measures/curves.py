@@ -57,6 +57,8 @@ class Cut(MeasurePart):
 class SectionCurve(Cut):
     """A section of the part in the tools and released."""
 
+    numbers = ("length of the mid-surface", "largest displacement by the release")
+
     kind: Literal["section"]
 
     def take(self, name: str, part: Formed) -> Measured:
@@ -74,6 +76,8 @@ _CAPTION = "Section of the part at the end of forming and, if it is released, ou
 
 class Springback(Cut):
     """Angles and side-wall radius of a hat section as NUMISHEET 93 defines them."""
+
+    numbers = ("theta1", "theta2", "radius of the wall")
 
     kind: Literal["springback"]
     heights: _Three = HEIGHTS
@@ -111,6 +115,8 @@ class Springback(Cut):
 
 class DrawIn(MeasurePart):
     """Outline of an edge of the blank and how far it is drawn in, at the end of forming."""
+
+    numbers = ("draw-in, ",)
 
     kind: Literal["draw_in"]
     edge: Annotated[
@@ -150,6 +156,8 @@ class DrawIn(MeasurePart):
 
 class Ears(MeasurePart):
     """Ear profile of a cup about the z-axis."""
+
+    numbers = ("height, ", "amplitude of ", "ears count from an amplitude of", NUMBER_OF_EARS)
 
     kind: Literal["ears"]
     rim: Selection = "rim"

@@ -23,6 +23,8 @@ Floats = NDArray[np.float64]
 class Forces(MeasurePart):
     """Force of each tool over a travel, up to the end of forming, and the work of friction."""
 
+    numbers = ("largest force of ", "work of friction")
+
     kind: Literal["forces"]
     control: Name
     """Control of the abscissa, such as the stroke; forces are those along its direction, else along z."""

@@ -28,6 +28,8 @@ _THICKNESSES = 2.0
 class Angle(Cut):
     """Angle between the two ends of a section: the legs of a bend."""
 
+    numbers = ("angle", "springback", "bow of the legs")
+
     kind: Literal["angle"]
     leg: Positive | None = None
     """Length of the straight end of each leg in the undeformed sheet; default: two thicknesses, at least an element."""

@@ -23,6 +23,8 @@ Floats = NDArray[np.float64]
 class Distance(MeasurePart):
     """Distance of the part from a tool where it stands, and after the release where it stood last."""
 
+    numbers = ("least distance", "largest distance", "mean distance")
+
     kind: Literal["distance"]
     tool: Name
     """Name of the tool; a tool that no contact has stands where the deck puts it."""
@@ -70,6 +72,8 @@ class Distance(MeasurePart):
 
 class Gauge(MeasurePart):
     """The released part, laid as a rigid body into a gauge of its shape at the end of forming."""
+
+    numbers = ("largest distance from the gauge", "mean distance from the gauge")
 
     kind: Literal["gauge"]
     points: Annotated[list[Vector], Field(min_length=3, max_length=3)] | None = None
@@ -130,6 +134,8 @@ class Gauge(MeasurePart):
 
 class Map(MeasurePart):
     """A field of forming over the part."""
+
+    numbers = ("largest ", "least ")
 
     kind: Literal["map"]
     field: Literal[

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.elements import element
+from umform.errors import InvalidValue
 from umform.mesh import Mesh
 from umform.model.contact.encounter import Layer
 from umform.model.contact.settings import ContactOptions, contact_settings
@@ -20,7 +21,7 @@ from umform.processes.air_bending.loading import unloading_keys
 from umform.processes.air_bending.problem import touching
 from umform.processes.bend_sequence.part import Part
 from umform.processes.bend_sequence.sides import Strip
-from umform.processes.hemming.spec import Hemming
+from umform.processes.hemming.spec import LARGEST_ANGLE, Hemming
 from umform.surfaces import Plane
 
 #: Steps of the travel of the plate.
@@ -63,6 +64,7 @@ def start_of(case: Hemming, first: Part) -> tuple[Mesh, NDArray[np.float64], Rig
 
 def problem_of_hem(case: Hemming, first: Part) -> tuple[Problem, float]:
     """The bent strip on the table, flattened by the plate and released; and the travel of the plate to its height."""
+    _check_angle(case, first)
     before, (mesh, u, motion) = first.bends[0], start_of(case, first)
     strip = Strip.of(mesh, u)
     top = _top(case, strip)
@@ -101,6 +103,19 @@ def problem_of_hem(case: Hemming, first: Part) -> tuple[Problem, float]:
     goal = f"by {way:.6g} mm" if case.force is None else f"with {case.force:g} kN/m"
     about = f"A bent strip, flattened {goal} and released; in plane strain. Units: mm, N, MPa."
     return Problem.of(tables, [about], before.result), way
+
+
+def _check_angle(case: Hemming, first: Part) -> None:
+    """Refuse a first bend by a stroke that leaves its flange too far open."""
+    angle = first.bends[0].measures.angle
+    if case.sheet.stroke is not None and not angle <= LARGEST_ANGLE:
+        raise InvalidValue(
+            f"the first bend of a hem closes to {LARGEST_ANGLE:g} degrees at least",
+            where="sheet.stroke",
+            value=f"{case.sheet.stroke:g}, which leaves {angle:.4g} degrees",
+            cause="a small stroke: the plate would press the flange flat",
+            remedy="a larger stroke, or an angle in place of it",
+        )
 
 
 def _given(case: Hemming) -> dict[str, float | None]:

@@ -25,6 +25,8 @@ ACUTE: dict[str, float] = {
 }
 #: Mesh and element of a hem: small 8-node elements stay valid in a closed fold, where those with 18 nodes invert.
 FOLDED: dict[str, Any] = {"element": "ANS3DEAS", "elements_per_thickness": 4.0}
+#: Largest angle of the first bend in degrees that plates can flatten.
+LARGEST_ANGLE = 70.0
 #: Forms of a hem, and the gap that each has over the thickness where none is given.
 GAPS: dict[str, float] = {"flat": 0.0, "inner": 1.0, "insert": 1.0, "open": 1.0, "rope": 0.0}
 #: Forms whose results follow changes of sizes of some per cent smoothly (docs/bending-operations.md).
@@ -107,7 +109,7 @@ class Hemming:
     angle: Annotated[
         float,
         Ge(20.0),
-        Le(70.0),
+        Le(LARGEST_ANGLE),
         About(
             "degrees",
             cause="the angle of bending in place of that between the legs",

@@ -14,14 +14,14 @@ from umform.analysis.shadows.structure import other_structure
 from umform.analysis.steps import Step
 from umform.errors import InvalidValue
 from umform.model import Model
-from umform.problem.measured import Taken
+from umform.problem.measured import Taken, may_report, names_begin
 from umform.problem.prepared import Prepared
 from umform.problem.problem import Problem
 from umform.processes.problems import Operation, operations_of, outcome_of, problem_of, quantities_named
 from umform.progress import Show
 from umform.results.quantity import Quantity
 from umform.spec import Scalar, changed, scalars
-from umform.studies.derivatives.responses import refuse_unknown
+from umform.studies.sweep.foreseen import refuse_unknown
 from umform.studies.sweep.measures import Function
 
 
@@ -134,8 +134,9 @@ class OfProblem:
 
     def refuse_unknown(self, built: Built, wanted: Sequence[str | Function], where: str = "of") -> None:
         """Refuse what is neither of its measures nor of its history."""
-        known = [f"{name}." for name in self.problem.contents.measures]
-        refuse_unknown(wanted, known, built.model, built.steps, where)
+        contents = self.problem.contents
+        others = [one for one in wanted if not (isinstance(one, str) and may_report(contents, one))]
+        refuse_unknown(others, names_begin(contents), built.model, built.steps, where)
 
     def quantities(self, built: Built, *results: Result) -> list[Quantity]:
         """Its measures."""

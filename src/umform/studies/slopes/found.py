@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue, UmformError
 from umform.io.tables import write_csv
+from umform.problem.errors import slip
 from umform.results.outcome import Outcome
 from umform.results.quantity import Quantity
 from umform.spec import Scalar
@@ -46,15 +47,26 @@ class Found:
             It has no quantity of a wanted name.
         """
         known = {one.name: one for one in outcome.quantities if one.value is not None}
-        unknown = [one for one in wanted or () if one not in known]
-        if unknown:
+        refuse_unknown(wanted or (), known)
+        return cls(tuple(known[one] for one in wanted or known), tuple(outcome.main))
+
+
+def refuse_unknown(wanted: Sequence[Any], known: Collection[str]) -> None:
+    """Refuse what is none of the names of quantities of a process.
+
+    Raises
+    ------
+    InvalidValue
+    """
+    for one in wanted:
+        if one not in known:
             raise InvalidValue(
                 "the process has no such quantity",
                 where="of",
-                value=unknown[0],
+                value=one,
+                cause=slip(str(one), known, "another process, or a column of the history"),
                 remedy=f"one of {', '.join(known)}",
             )
-        return cls(tuple(known[one] for one in wanted or known), tuple(outcome.main))
 
 
 @dataclass(frozen=True)

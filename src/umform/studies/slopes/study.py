@@ -11,6 +11,7 @@ from annotated_types import Ge, Gt, Le
 
 from umform.errors import InvalidValue, UmformError
 from umform.pool import run_all
+from umform.processes.problems import is_process_of, quantities_named
 from umform.progress import Show, progress_bar
 from umform.results.outcome import Outcome
 from umform.spec import About, Scalar, check_fields, check_value, each, takes
@@ -18,7 +19,7 @@ from umform.studies.derivatives.derive import known_parameter, names_of, subject
 from umform.studies.derivatives.responses import responses
 from umform.studies.derivatives.subjects import OfFunction, Subject, refuse_same_model
 from umform.studies.own_case import refuse_other_case
-from umform.studies.slopes.found import Found, Run, Slopes
+from umform.studies.slopes.found import Found, Run, Slopes, refuse_unknown
 from umform.studies.sweep.measures import Function
 
 
@@ -96,6 +97,8 @@ def slopes(
     planned = planned_runs(subject, by, **options)
     if process is None:
         thing.refuse_unknown(thing.build(), of or ())
+    elif is_process_of(process, thing.given) and (names := quantities_named(thing.given)) is not None:
+        refuse_unknown(of or (), names)
     if base is not None:
         refuse_other_case(base, thing.given, "base")
     here = isinstance(thing, OfFunction)

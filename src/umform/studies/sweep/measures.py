@@ -22,7 +22,7 @@ Function = Callable[[Result], float | Quantity]
 #: Record of a job, as JSON.
 Record = Mapping[str, Any]
 
-_SPRINGBACK = "springback"
+SPRINGBACK = "springback"
 #: What a job reports besides its history.
 _KINDS = ("quantities", "checks")
 #: Significant digits of a number of the history.
@@ -73,7 +73,7 @@ class Measure:
         if not isinstance(wanted, str):
             return cls(wanted.__name__, function=True)
         column, colon, stat = wanted.partition(":")
-        if wanted == _SPRINGBACK:
+        if wanted == SPRINGBACK:
             return cls(wanted)
         if colon and stat not in _STATS:
             raise InvalidValue(
@@ -138,16 +138,21 @@ class Measure:
                 cause=slip(self.column, [*history, *known]),
                 remedy=f"one of {', '.join([*history, *known])}; finished jobs are kept: run the sweep again",
             )
-        if record[_SPRINGBACK] is None and not self.missing:
-            raise InvalidValue(
-                "a sweep without unloading has no springback",
-                where="measure",
-                value=self.name,
-                cause="no step of the kind release or free at the end, after another step",
-                remedy="such a step at the end of the deck, or leave the measure out",
-            )
-        number = record[_SPRINGBACK]
+        number = record[SPRINGBACK]
+        if number is None and not self.missing:
+            raise no_springback()
         return number
+
+
+def no_springback() -> InvalidValue:
+    """The error of a springback without unloading."""
+    return InvalidValue(
+        "a sweep without unloading has no springback",
+        where="measure",
+        value=SPRINGBACK,
+        cause="no step of the kind release or free at the end, after another step",
+        remedy="such a step at the end of the deck, or leave the measure out",
+    )
 
 
 def usual(records: Sequence[Record]) -> list[Measure]:
@@ -163,8 +168,8 @@ def usual(records: Sequence[Record]) -> list[Measure]:
         dict.fromkeys(one["name"] for record in records for one in record.get(kind, ())) for kind in _KINDS
     )
     measures = [Measure.of(f"{name}_force:peak") for name in controls]
-    if any(record[_SPRINGBACK] is not None for record in records):
-        measures.append(Measure(_SPRINGBACK))
+    if any(record[SPRINGBACK] is not None for record in records):
+        measures.append(Measure(SPRINGBACK))
     columns = [name for name in columns if name not in _COUNTS]
     more = [Measure.of(name) for name in (*quantities, *columns, "iterations:sum", *checks)]
     return [replace(measure, missing=True) for measure in (*measures, *more)]

@@ -180,6 +180,7 @@ def sweep(
     """
     from umform.io.staging import staging
     from umform.problem import Problem, load
+    from umform.studies.sweep.foreseen import refuse_measures
     from umform.studies.sweep.jobs_file import read_jobs
     from umform.studies.sweep.measures import Measure
     from umform.studies.sweep.plan import make_plan
@@ -196,6 +197,8 @@ def sweep(
     listed = read_jobs(jobs) if isinstance(jobs, str | PathLike) else jobs
     plan = make_plan(base, vary or {}, listed, changes or {}, Path(), **options)
     wanted = plan.beside(wanted)
+    for first in list(plan.jobs.values())[:1]:
+        refuse_measures(first.deck, [one for one in measures if isinstance(one, str)])
     default = Path("results") / f"{Path(base.source.name).stem}-sweep"
     folder = folder_of(out, default, plan.folders, overwrite=overwrite)
     if out is None and folder != default:

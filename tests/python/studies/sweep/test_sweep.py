@@ -322,13 +322,20 @@ def test_an_executor_of_the_user_runs_the_jobs(deck):
         uf.sweep(deck, vary, executor=executor, processes=2)
 
 
-def test_a_measure_that_is_not_there_is_refused_and_costs_no_run_twice(deck, ran):
+def test_a_measure_that_is_not_there_is_refused_before_the_first_job(deck, ran):
     with pytest.raises(InvalidValue, match="did you mean pull_force"):
         sweep(deck, {"E": [1e5, 2e5]}, measures=["pul_force:max"])
-    assert len(ran) == 1  # the first job has shown it
     with pytest.raises(InvalidValue, match="did you mean max"):
         sweep(deck, {"E": [1e5]}, measures=["pull_force:maxi"])
-    sweep(deck, {"E": [1e5, 2e5]}, measures=["pull_force:max"])
+    assert not ran
+    sweep(deck, {"E": [1e5, 2e5]}, measures=["pull_force:max", "drift of the energies"])
+    assert len(ran) == 2
+
+
+def test_a_measure_that_only_other_jobs_lack_is_refused_after_them(deck, ran):
+    moves = [{"kind": "move", "to": {"pull": 0.1}, "increments": 1}]
+    with pytest.raises(InvalidValue, match="no springback"):
+        sweep(deck, {"steps": [[*moves, {"kind": "release", "control": "pull"}], moves]}, measures=["springback"])
     assert len(ran) == 2
 
 
