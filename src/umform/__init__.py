@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from umform import processes as processes
     from umform import sheet_metals as sheet_metals
     from umform import surfaces as surfaces
-    from umform._core import set_threads as set_threads
     from umform._core import threads as threads
     from umform.analysis.newton.options import NewtonOptions as NewtonOptions
     from umform.analysis.run import Result as Result
@@ -96,13 +95,15 @@ if TYPE_CHECKING:
     from umform.surfaces import check_surface as check_surface
     from umform.surfaces import read_tool as read_tool
     from umform.surfaces import write_tool as write_tool
+    from umform.thread_count import set_threads as set_threads
 
 __version__ = "0.2.0"
 
 sys.meta_path.append(Moved())
 
 _HOME = {
-    "umform._core": ("set_threads", "threads"),
+    "umform._core": ("threads",),
+    "umform.thread_count": ("set_threads",),
     "umform.elements": ("Element", "Mode", "Tying", "rolling_at"),
     "umform.errors": ("UmformError",),
     "umform.mesh": ("Mesh",),

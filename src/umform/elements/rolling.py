@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from umform.errors import InvalidValue
+from umform.spec import check_arguments
 
 Floats = NDArray[np.float64]
 Vector = tuple[float, float, float]
@@ -42,6 +43,7 @@ def rolling_at(angle: float, line: ArrayLike = (0.0, 1.0, 0.0), normal: ArrayLik
     >>> rolling_at(0.0)
     (0.0, 1.0, 0.0)
     """
+    check_arguments(rolling_at, angle=angle)
     along, up = np.array(line, dtype=float), np.array(normal, dtype=float)
     across = np.cross(along, up) if along.shape == up.shape == (3,) else np.zeros(3)
     if not (np.isfinite(angle) and np.linalg.norm(across) > 0.0):

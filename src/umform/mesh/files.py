@@ -13,7 +13,7 @@ from umform.mesh.mesh import Floats, Mesh
 from umform.mesh.neighbours import Whole, outer_faces
 from umform.mesh.orient import orient
 from umform.mesh.thicken import thicken
-from umform.spec import takes
+from umform.spec import check_arguments, takes
 
 
 def read(path: str | Path, through: str | ArrayLike | None = None) -> Mesh:
@@ -42,6 +42,7 @@ def read(path: str | Path, through: str | ArrayLike | None = None) -> Mesh:
     MeshError
         If its cells make no sheet.
     """
+    check_arguments(read, path=path)
     from umform.io import meshes  # meshio is slow to import
 
     if through is None or Path(path).suffix.lower() in meshes.VTKHDF_SUFFIXES:

@@ -115,9 +115,23 @@ def export_state(
     >>> result = uf.solve(model, uf.Move(tip, to=-2.0, steps=4), progress=False)
     >>> state = uf.export_state(result, "part.k", units="mm, N, MPa")  # doctest: +SKIP
     """
+    if not isinstance(part, Model) and not isinstance(getattr(part, "model", None), Model):
+        raise InvalidValue(
+            "what is exported is a model or its run",
+            where="part",
+            value=type(part).__name__,
+            cause="a mesh, or a file, in place of them",
+            remedy="the result of solve(), or its model",
+        )
     program = PROGRAMS.get(to)
     if program is None:
-        raise InvalidValue("unknown program", where="to", value=to, remedy="one of " + ", ".join(PROGRAMS))
+        raise InvalidValue(
+            "unknown program",
+            where="to",
+            value=to,
+            cause="a typing error, or another program",
+            remedy="one of " + ", ".join(PROGRAMS),
+        )
     wanted = mesh or program.meshes[0]
     if wanted not in program.meshes:
         raise InvalidValue(

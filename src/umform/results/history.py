@@ -286,7 +286,11 @@ class History(InNotebook):
         """A column of the history."""
         if not self.rows or column not in self.rows[0]:
             raise InvalidValue(
-                "the history has no such column", value=column, remedy="one of " + ", ".join(self.columns())
+                "the history has no such column",
+                where="the history",
+                value=column,
+                cause="another name, or that of a measure" if self.rows else "a run without a row",
+                remedy="one of " + ", ".join(self.columns()) if self.rows else "a run with a step",
             )
         return np.array([row[column] for row in self.rows])
 

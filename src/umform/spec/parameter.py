@@ -13,6 +13,8 @@ from dataclasses import MISSING, Field, dataclass, field, fields
 from functools import cache, reduce
 from itertools import pairwise
 from numbers import Integral, Real
+from os import PathLike
+from pathlib import Path
 from types import UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
@@ -98,7 +100,7 @@ class Kind:
             return "true or false"
         by = {name: f"{limit:.15g}" for name, limit, _, _ in self.limits()}
         nouns: dict[Any, str] = {int: "a whole number", float: "a number", str: "a text", object: "an object"}
-        nouns |= {Collection: "an array", Mapping: "a dictionary", Callable: "a function"}
+        nouns |= {Collection: "an array", Mapping: "a dictionary", Callable: "a function", PathLike: "a path"}
         noun = nouns.get(self.type, f"an object {self.type.__name__}")
         if {"ge", "le"} <= set(by):
             return f"{noun} from {by['ge']} to {by['le']}"
@@ -328,6 +330,8 @@ def _kind(hint: Any, extras: tuple[Any, ...]) -> Kind:
         entries = tuple(_kind(*arm) for part in get_args(hint) if part is not ... for arm in _arms(part))
     elif get_origin(hint) in (dict, Mapping):
         known = Mapping
+    elif get_origin(hint) is PathLike or known is Path:
+        known = PathLike
     elif get_origin(hint) is Callable or (getattr(hint, "_is_protocol", False) and "__call__" in vars(hint)):
         known = Callable
     elif isinstance(known, _Named) and rules:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from umform.errors import InvalidValue
 from umform.io.atomic import PendingFile
+from umform.spec import check_arguments
 from umform.surfaces.tool import Tool
 from umform.surfaces.triangles import Box3, Triangles
 
@@ -51,6 +52,7 @@ def write_tool(tool: Tool | Mapping[str, Tool], path: str | Path, box: Box3 | No
     >>> tools = {"punch": uf.Punch(1.5, 84), "die": uf.VDie(16, 84, 2)}
     >>> uf.write_tool(tools, "bend.dxf")  # doctest: +SKIP
     """
+    check_arguments(write_tool, path=path)
     path = Path(path)
     suffix = path.suffix.lower()
     tools = tool if isinstance(tool, Mapping) else {path.stem: tool}

@@ -16,6 +16,23 @@ from umform.model.supports.support import Support
 from umform.model.terms.control import Control
 
 
+def needs_model(model: object) -> None:
+    """Reject what is no model in a run of one process.
+
+    Raises
+    ------
+    InvalidValue
+    """
+    if not isinstance(model, Model):
+        raise InvalidValue(
+            "there is no model",
+            where="solve(), resume() or OpenRun()",
+            value=model,
+            cause="another object, or None, which only ranks but the first may have, with the solver petsc",
+            remedy="the model first, then its steps; on ranks solver='petsc'",
+        )
+
+
 def checked(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
     """The steps, if they are valid for the model."""
     assert model is not None

@@ -9,18 +9,18 @@ from pathlib import Path
 from typing import Any
 
 from umform.analysis.newton.options import NewtonOptions
-from umform.analysis.run.checked import checked
+from umform.analysis.run.checked import checked, needs_model
 from umform.analysis.run.flush import touch_flush_sheet
 from umform.analysis.run.loose import carry_loose_sheet
 from umform.analysis.run.result import Result
 from umform.analysis.run.run_steps import checkpoints_of, go_on, loop_for, ready
 from umform.analysis.steps import Step
 from umform.analysis.steps.run_state import Follower, Run
-from umform.errors import InvalidValue
 from umform.model import Model
 from umform.progress import Show
 from umform.results.cells import tell_of_cells
 from umform.results.history import FRAMES
+from umform.spec import check_arguments
 from umform.timing import new_timing
 
 #: Called with the result so far.
@@ -229,6 +229,8 @@ def resume_followed(
     """Continue a run and those that follow it; parameters of :func:`resume`, and a function that makes these."""
     from umform.analysis.run.checkpoint import take_up  # imported late: few runs need it
 
+    check_arguments(resume, path=path)
+
     def work(model: Model, steps: Sequence[Step]) -> Result:
         timing = new_timing()
         with timing.run:
@@ -267,11 +269,6 @@ def _where(solver: str) -> Callable[[Model | None, Callable[[], Sequence[Step]],
 
 
 def _here(model: Model | None, steps: Callable[[], Sequence[Step]], work: _Work) -> Result:
-    if model is None:
-        raise InvalidValue(
-            "there is no model",
-            where="solve() or resume()",
-            cause="the first rank alone may have it only with the solver petsc",
-            remedy="solver='petsc', or a model",
-        )
+    needs_model(model)
+    assert model is not None
     return work(model, steps())

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.newton.strategy_statistics import StrategyStatistics
-from umform.analysis.run.checked import checked
+from umform.analysis.run.checked import checked, needs_model
 from umform.analysis.run.execute import OnIncrement
 from umform.analysis.run.result import Result
 from umform.analysis.run.run_steps import begun, taken
@@ -121,6 +121,7 @@ class OpenRun:
         frames: int = FRAMES,
         on_increment: OnIncrement | None = None,
     ) -> None:
+        needs_model(model)
         timing = new_timing()
         with timing.run:
             self.result = Result(model, timing)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from umform.errors import InvalidValue
 from umform.results.history import History
 from umform.results.run_record import run_record
+from umform.spec import check_arguments
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -62,6 +63,7 @@ class Result(History):
         FileProblem
             If the file cannot be written.
         """
+        check_arguments(Result.write, path=path)
         path = Path(path)
         if not self._writes:
             return path
@@ -132,4 +134,5 @@ class Result(History):
         """
         from umform.report.page import write_report
 
+        check_arguments(Result.report, path=path, deck=deck)
         return write_report(self, path, deck=deck) if self._writes else Path(path)

@@ -20,6 +20,7 @@ from umform.analysis.steps import Step
 from umform.errors import InvalidValue
 from umform.model import Model, Snapshot
 from umform.model.transfer.rigid_motion import RigidMotion
+from umform.spec import check_arguments
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,7 @@ class Stage:
     build: Callable[[Result | None], tuple[Model, Sequence[Step] | Step]]
 
     def __post_init__(self) -> None:
-        if not re.fullmatch(r"[\w-]+", self.name):
+        if not isinstance(self.name, str) or not re.fullmatch(r"[\w-]+", self.name):
             raise InvalidValue(
                 "the name of a stage has letters, digits, hyphens and underscores",
                 where="Stage",
@@ -138,6 +139,7 @@ def solve_stages(
     ...     return model, uf.Move(model.prescribe("x1_lower", "z", name="tip"), to=-0.1, steps=2)
     >>> result = uf.solve_stages([uf.Stage("press", press)])
     """
+    check_arguments(solve_stages, stages=stages)
     names = [stage.name for stage in stages]
     if not names or len(set(names)) < len(names):
         raise InvalidValue(

@@ -98,16 +98,18 @@ class Evaluated(Assembled):
         keep : bool
             Whether tools hold all points that they hold in the converged state, whatever the gap. eq. (4.230)
         """
-        state = state if isinstance(state, State) else self.state_at(state)
-        unknowns, dofs, x = self.unknowns, self.u.size, state.x
-        if x.shape != (dofs + len(unknowns),):
+        unknowns, dofs = self.unknowns, self.u.size
+        x = state.x if isinstance(state, State) else state
+        if not isinstance(x, np.ndarray) or x.shape != (dofs + len(unknowns),):
             raise InvalidValue(
                 "a state has the displacement and the scalar unknowns of its model",
                 where="evaluate",
-                value=f"shape {x.shape}",
-                cause="a row for each node, or the travels of pressed tools are missing",
-                remedy=f"shape ({dofs + len(unknowns)},): {dofs} displacements, {len(unknowns)} scalar unknowns",
+                value=f"shape {x.shape}" if isinstance(x, np.ndarray) else type(x).__name__,
+                cause="a row for each node, the travels of pressed tools are missing, or no array",
+                remedy=f"the state of the model, or an array of shape ({dofs + len(unknowns)},): {dofs} displacements, "
+                f"{len(unknowns)} scalar unknowns",
             )
+        state = state if isinstance(state, State) else self.state_at(x)
         u, rates = x[:dofs], rates or {}
         if [term for term in self.others if not term.covers(u)]:  # all of them are asked
             self.now.restructured()

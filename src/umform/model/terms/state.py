@@ -60,6 +60,14 @@ class State:
         InvalidValue
             The model had no control of a name, or a value is not finite.
         """
+        if not isinstance(controls, Mapping):
+            raise InvalidValue(
+                "new values of controls have their names",
+                where="toward",
+                value=controls,
+                cause="a value or a name alone",
+                remedy="state.toward({'punch': -2.0})",
+            )
         for name, value in controls.items():
             if name not in self.controls or not (isinstance(value, int | float | np.number) and math.isfinite(value)):
                 raise InvalidValue(

@@ -115,6 +115,13 @@ def derivatives(
     known = {one.path: one for one in thing.parameters()}
     held = held_by(hold or {}, known)
     names = list(dict.fromkeys([*names_of(thing, by), *held.values()]))
+    if not names:
+        raise InvalidValue(
+            "there is no parameter for derivatives",
+            where="by",
+            cause="an empty list",
+            remedy='by=["thickness"], for instance',
+        )
     parameters = list({one.path: one for one in (known_parameter(name, known) for name in names)}.values())
     if parameters and {one.path for one in parameters} <= set(held.values()):
         refuse_followers(parameters, held, "by")

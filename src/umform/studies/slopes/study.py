@@ -138,7 +138,12 @@ def planned_runs(
     """
     thing, wanted = subject_of(subject, by), SlopeOptions(**options)
     if not by:
-        raise InvalidValue("there is no parameter for slopes", where="by", remedy='by=["thickness"], for instance')
+        raise InvalidValue(
+            "there is no parameter for slopes",
+            where="by",
+            cause="an empty list",
+            remedy='by=["thickness"], for instance',
+        )
     parameters = _parameters(thing, by)
     steps = [step for step in range(-wanted.each_side, wanted.each_side + 1) if step]
     runs = [

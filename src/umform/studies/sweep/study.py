@@ -189,7 +189,8 @@ def sweep(
     check_processes(processes)
     _check_executor(executor, processes)
     measures = each(measures)
-    check_value(sweep, "vary", vary)
+    for name, value in {"deck": deck, "vary": vary}.items():
+        check_value(sweep, name, value)
     base = deck if isinstance(deck, Problem) else load(deck)
     wanted = [Measure.of(measure) for measure in measures]
     functions = tuple(measure for measure in measures if not isinstance(measure, str))
