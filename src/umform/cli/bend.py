@@ -60,7 +60,9 @@ def bend(
     given: Given,
     *,
     out: Annotated[str | None, out_option("tables, pictures, fields and report", "results/bend")] = None,
-    table: Annotated[str | None, option("Bending table at strokes first:last:step, such as 4:6:0.5.", _GOAL)] = None,
+    table: Annotated[
+        str | None, option("Bending table at strokes first:last:step, such as 4:6:0.5, or 4,5.5.", _GOAL)
+    ] = None,
     angles: Annotated[
         str | None, option("Bending table at angles first:last:step, such as 90:150:15, or 90,120.", _GOAL)
     ] = None,

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from umform.cli.bend_table import values_of
-from umform.cli.metal import numbers
 from umform.errors import InvalidValue
 from umform.processes.air_bending.goal import Goal, check_angle
 from umform.spec import check_value, parameters
@@ -243,22 +242,22 @@ def _check_alone(
 
 
 def _strokes_of(text: str) -> list[float]:
-    """Strokes of first:last:step, including the last one."""
-    first, last, step = numbers(text, ":", 3, "--table", "first:last:step as 4:6:0.5")
-    if not 0.0 < first <= last < math.inf or not 0.0 < step < math.inf:
+    """Strokes of a table, from the smallest one."""
+    strokes = sorted(set(values_of(text, "--table")))
+    if not 0.0 < strokes[0] <= strokes[-1] < math.inf:
         raise InvalidValue(
-            "a table goes from a positive stroke up to a larger one, in positive steps",
+            "the strokes of a table are positive",
             where="--table",
             value=text,
-            cause="a sign, the two exchanged, or a number that is not finite",
-            remedy="first:last:step as 4:6:0.5",
+            cause="a sign, or a number that is not finite",
+            remedy="4,5,6 or first:last:step such as 4:6:0.5",
         )
-    if not last - first < _MOST_ROWS * step:
+    if len(strokes) > _MOST_ROWS:
         raise InvalidValue(
             f"a table has at most {_MOST_ROWS} strokes",
             where="--table",
-            value=text,
+            value=f"{text}: {len(strokes)}",
             cause="the number of strokes in place of the step between them, or a step of another unit",
             remedy="first:last:step as 4:6:0.5",
         )
-    return [first + number * step for number in range(int((last - first) / step + 1e-9) + 1)]
+    return strokes

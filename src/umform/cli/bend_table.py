@@ -167,18 +167,16 @@ _ONE = {"thickness": "thicknesses", "opening": "openings", "punch_radius": "punc
 
 def values_of(text: str, where: str) -> list[float]:
     """Numbers of a list with commas, or of first:last:step with both ends."""
+    from umform.studies.sweep.values import read_values
+
+    values = read_values(text, where)
     try:
-        if ":" not in text:
-            return [float(one) for one in text.split(",")]
-        first, last, step = (float(one) for one in text.split(":"))
-        if step <= 0.0 or last < first or last - first > 1000.0 * step:
-            raise ValueError
-        return [round(first + number * step, 9) for number in range(int((last - first) / step + 1e-9) + 1)]
+        return [float(one.text) for one in values]
     except ValueError:
         raise InvalidValue(
             "this is no list of numbers",
             where=where,
             value=text,
-            cause="a letter, a decimal comma, or a step of the wrong sign",
+            cause="a letter, or another sign between the numbers",
             remedy="1,1.5,2 or first:last:step such as 30:150:15",
         ) from None

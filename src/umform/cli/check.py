@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from umform.cli.root import Debug, Verbose, app, console, say_of
+from umform.cli.root import Debug, Verbose, app, console, say, say_of
 from umform.errors import InvalidValue, UmformError
 
 if TYPE_CHECKING:
@@ -77,7 +77,13 @@ def read(path: Path, changes: Sequence[str], trust: bool) -> Problem:
     """The deck of a file with some changed values."""
     from umform.problem import load
 
-    return load(path, dict(_change(text) for text in changes), trust)
+    found: dict[str, Any] = {}
+    for text in changes:
+        key, value = _change(text)
+        if key in found:
+            say(f"--set {key} is given twice; the last value counts: {value}")
+        found[key] = value
+    return load(path, found, trust)
 
 
 @contextmanager

@@ -35,7 +35,7 @@ def umform(text, *more):
 
 def test_a_range_has_the_numbers_that_a_list_has():
     assert values_of("90:90.5:0.1", "--angle") == [90.0, 90.1, 90.2, 90.3, 90.4, 90.5]
-    assert values_of("0.8,1", "--thickness") == [0.8, 1.0]
+    assert values_of("0.8,1,.5,2:1:-0.5", "--thickness") == [0.8, 1.0, 0.5, 2.0, 1.5, 1.0]
 
 
 def test_a_table_is_written_and_continues_from_the_store(tmp_path):
@@ -102,7 +102,7 @@ def test_the_store_is_listed_exported_and_pruned(store, tmp_path):
 WRONG = [
     ("--angle 14", ["15 to 165", "--angle"]),
     ("--angle 80", ["DC04-V8-r1.5-d2-t1", "smaller angle"]),
-    ("--angle 90:80:5", ["no list of numbers", "30:150:15"]),
+    ("--angle 90:80:5", ["does not reach its end", "--angle"]),
     ("--thickness 1,x", ["no list of numbers", "--thickness"]),
     ("--thickness -1", ["--thickness"]),
     ("--opening 1000", ["--opening"]),

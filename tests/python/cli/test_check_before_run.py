@@ -50,6 +50,7 @@ def test_a_run_warns_of_what_is_unusual(deck):
     run = umform("run", deck, *SHORT, *fine, "--set", "contacts.cylinder.points=1")
     assert run.exit_code == 0
     assert run.stderr.count("the force climbs in stairs") == 1
+    assert run.stderr.count("--set mesh.cells is given twice; the last value counts: [24, 1]") == 1
     quiet = umform("run", deck, *SHORT, *fine, "--overwrite")
     assert "stairs" not in quiet.stderr
 

@@ -191,7 +191,7 @@ def make_plan(
 def _values(name: str, given: Any) -> list[Any]:
     """The values of a key, from text or a sequence."""
     if isinstance(given, str):
-        return list(read_values(given, name))
+        return list(read_values(given, f"--vary {name}"))
     values = list(given) if isinstance(given, Iterable) and not isinstance(given, Mapping) else [given]
     if not values:
         raise InvalidValue("a varied key has no values", where=name, cause="an empty list", remedy="give one at least")

@@ -1,4 +1,4 @@
-"""Values of a varied key as text: ranges, lists and words."""
+"""Values of an option as text: ranges, lists and words."""
 
 from __future__ import annotations
 
@@ -40,15 +40,15 @@ class Written:
         return found if isinstance(found, str | dict | list) or not as_text else self.text
 
 
-def read_values(text: str, key: str) -> list[Written]:
-    """The values of a key: first:last:step with both ends, or a list with commas; both may be mixed.
+def read_values(text: str, where: str) -> list[Written]:
+    """The values of an option: first:last:step with both ends, or a list with commas; both may be mixed.
 
     Parameters
     ----------
     text : str
         As ``0.8:1.2:0.1``, ``DC04,1.4301`` or ``[24, 1],[48, 1]``.
-    key : str
-        For messages.
+    where : str
+        The option, for messages.
 
     Raises
     ------
@@ -59,11 +59,11 @@ def read_values(text: str, key: str) -> list[Written]:
     for piece in _pieces(text):
         found = _RANGE.fullmatch(piece)
         if found:
-            values += _range(*map(Decimal, found.groups()), where=f"--vary {key}", text=piece)
+            values += _range(*map(Decimal, found.groups()), where=where, text=piece)
         elif _PART_OF_RANGE.fullmatch(piece):
             raise InvalidValue(
                 "a range has a first and a last number and a step",
-                where=f"--vary {key}",
+                where=where,
                 value=text,
                 cause="a decimal comma, or the step is missing",
                 remedy="write first:last:step, as 0.8:1.2:0.1",
@@ -72,11 +72,11 @@ def read_values(text: str, key: str) -> list[Written]:
             values.append(Written(piece.strip()))
     if not all(value.text for value in values):
         raise InvalidValue(
-            "a varied key has an empty value",
-            where=f"--vary {key}",
+            "a list has an empty value",
+            where=where,
             value=repr(text),
             cause="a comma too many, or nothing behind the sign",
-            remedy="write key=0.8:1.2:0.1 (first:last:step) or key=0.8,0.9",
+            remedy="write first:last:step, as 0.8:1.2:0.1, or values with commas, as 0.8,0.9",
         )
     return values
 
