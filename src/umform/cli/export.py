@@ -141,4 +141,9 @@ def _check_free(path: Path, overwrite: bool) -> None:
     from umform.errors import FileProblem
 
     if path.exists() and not overwrite:
-        raise FileProblem("the file exists", where=str(path), remedy="--out another file, or --overwrite")
+        raise FileProblem(
+            "the file exists",
+            where=str(path),
+            cause="an earlier export",
+            remedy="--out another file, or --overwrite",
+        )

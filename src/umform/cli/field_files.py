@@ -20,16 +20,27 @@ def file_of_fields(path: Path) -> Path:
     file = _last_in(path) if path.is_dir() else path
     if not file.is_file():
         raise FileProblem(
-            "there is no such file", where=str(file), remedy="result.write('run.vtkhdf') and `umform run` write one"
+            "there is no such file",
+            where=str(file),
+            cause="another path, or a run without fields",
+            remedy="result.write('run.vtkhdf') and `umform run` write one",
         )
     import h5py
 
     if not h5py.is_hdf5(file):
-        raise FileProblem("this is no file of fields", where=str(file), remedy="give a file that ends in .vtkhdf")
+        raise FileProblem(
+            "this is no file of fields",
+            where=str(file),
+            cause="another ending, as that of a table",
+            remedy="give a file that ends in .vtkhdf",
+        )
     with h5py.File(file) as content:
         if "VTKHDF" not in content:
             raise FileProblem(
-                "this HDF5 file holds no VTKHDF", where=str(file), remedy="give a file that ends in .vtkhdf"
+                "this HDF5 file holds no VTKHDF",
+                where=str(file),
+                cause="a checkpoint, or a file of another program",
+                remedy="give a file that ends in .vtkhdf",
             )
     return file
 

@@ -87,7 +87,12 @@ def flat(
     opening = given.pop("opening")
     tooling, bodies = Tooling(AirBending(**given), metal, opening), Bodies()
     if bend and metal is None:
-        raise InvalidValue("a part is bent of a metal", where="--bend", remedy="--metal DC04")
+        raise InvalidValue(
+            "a part is bent of a metal",
+            where="--bend",
+            cause="computed bends need its law",
+            remedy="--metal DC04",
+        )
     place = results_folder(out, "flat", RESULTS, overwrite=overwrite)
     with by_name("--metal"):
         pattern = flattened(part, allowance=allowance, tooling=tooling, bodies=bodies, store=Store(store))
@@ -127,6 +132,7 @@ def _provider(metal: str | None, k_factor: float | None, table: Path | None) -> 
         raise InvalidValue(
             "nothing says how long a bend is in the flat",
             where="--metal",
+            cause="neither a metal, a K-factor nor a table",
             remedy="--metal DC04 for computed bends, --k-factor .44, or --table bends.csv",
         )
     if table is not None:

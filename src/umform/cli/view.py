@@ -84,7 +84,11 @@ def _check_frame(frame: int, count: int) -> None:
 
     if not -count <= frame < count:
         raise InvalidValue(
-            "the file has no such frame", where="--frame", value=frame, remedy=f"0 to {count - 1}, or -1 for the last"
+            "the file has no such frame",
+            where="--frame",
+            value=frame,
+            cause="frames count from 0",
+            remedy=f"0 to {count - 1}, or -1 for the last",
         )
 
 

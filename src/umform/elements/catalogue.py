@@ -78,11 +78,29 @@ def thickness_modes(count: int, order: int, order_count: int = 1) -> tuple[Mode,
         measurable effect; 18 nodes need nine in a sharp bend (docs/theory, 2.8).
     """
     if order_count not in (1, 4, 9):
-        raise InvalidValue("the number of modes of higher order must be 1, 4 or 9", value=order_count)
+        raise InvalidValue(
+            "the number of modes of higher order must be 1, 4 or 9",
+            where="order_count",
+            value=order_count,
+            cause="a number of nodes or of points",
+            remedy="1, 4 or 9",
+        )
     if count not in (0, 1, 4, 9):
-        raise InvalidValue("the number of thickness modes must be 0, 1, 4 or 9", value=count)
+        raise InvalidValue(
+            "the number of thickness modes must be 0, 1, 4 or 9",
+            where="thickness_modes",
+            value=count,
+            cause="a number of nodes or of points",
+            remedy="0 leaves the enhanced thickness strain out",
+        )
     if order not in range(1, MOST_POINTS):
-        raise InvalidValue(f"the thickness order must be 1 to {MOST_POINTS - 1}", value=order)
+        raise InvalidValue(
+            f"the thickness order must be 1 to {MOST_POINTS - 1}",
+            where="thickness_order",
+            value=order,
+            cause="a number of points in place of the degree of the strain",
+            remedy="1, or 2 and 3 for sharp bends",
+        )
     counts = {1: count} | dict.fromkeys(range(2, order + 1), order_count)
     few: tuple[Mode, ...] = tuple(
         Mode("33", a, b, p)
@@ -106,7 +124,13 @@ def membrane_modes(count: int) -> tuple[Mode, ...]:
         7: (*four, Mode("11", 1, 1), Mode("22", 1, 1), Mode("12", 1, 1)),
     }
     if count not in modes:
-        raise InvalidValue("the number of membrane modes must be 0, 4, 5 or 7", value=count)
+        raise InvalidValue(
+            "the number of membrane modes must be 0, 4, 5 or 7",
+            where="membrane_modes",
+            value=count,
+            cause="a number of nodes or of points",
+            remedy="0 leaves the enhanced membrane strain out",
+        )
     return modes[count]
 
 
@@ -146,7 +170,13 @@ def _build(
         if membrane == 0 and membrane_modes_count != 0:
             raise InvalidValue(f"{name} has no enhanced membrane strain", remedy="take EAS3DEAS")
         if membrane > 0 and membrane_modes_count not in (4, 5, 7):
-            raise InvalidValue("the number of membrane modes must be 4, 5 or 7", value=membrane_modes_count)
+            raise InvalidValue(
+                "the number of membrane modes must be 4, 5 or 7",
+                where="membrane_modes",
+                value=membrane_modes_count,
+                cause="a number of nodes or of points",
+                remedy="leave it out, or take one of these",
+            )
         rows = tuple(row for row in tying if not (compatible_E12 and row.component == "12"))
         modes = membrane_modes(membrane_modes_count)
         if thickness > 0:
@@ -185,7 +215,13 @@ def _check_thickness(name: str, cell: str, thickness: int, count: int, order: in
             else "take DISP9K3DEAS or MI9K3DEAS",
         )
     if thickness > 0 and count not in (1, 4, 9):
-        raise InvalidValue("the number of thickness modes must be 1, 4 or 9", value=count)
+        raise InvalidValue(
+            "the number of thickness modes must be 1, 4 or 9",
+            where="thickness_modes",
+            value=count,
+            cause="a number of nodes or of points",
+            remedy="leave it out, or take one of these",
+        )
     if 9 in (count, order_count) and cell == "hex8":
         raise InvalidValue(
             f"{name} cannot tell nine thickness modes apart",

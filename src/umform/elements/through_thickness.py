@@ -57,7 +57,13 @@ def thickness_rule(points: int, rule: str = "gauss", surface: tuple[int, int] = 
         Arrays (points,); of the staggered rule (columns, points), where r varies first.
     """
     if points not in range(2, MOST_POINTS + 1):
-        raise InvalidValue("the number of thickness points must be a whole number from 2 to 20", value=points)
+        raise InvalidValue(
+            "the number of thickness points must be a whole number from 2 to 20",
+            where="thickness_points",
+            value=points,
+            cause="a fraction, or the points of all layers together",
+            remedy="5 for bending with plasticity, 2 for elastic sheets",
+        )
     if rule not in RULES:
         raise InvalidValue("unknown thickness rule", value=rule, remedy=f"{', '.join(RULES[:-1])} or {RULES[-1]}")
     if rule == "staggered":

@@ -187,9 +187,21 @@ def to_vtk(kind: CellType, points: ArrayLike, connectivity: ArrayLike) -> VtkGri
     X = np.ascontiguousarray(points, dtype=np.float64)
     cells = np.ascontiguousarray(connectivity, dtype=np.int64)
     if X.ndim != 2 or X.shape[1] != 3:
-        raise InvalidValue("points must have the shape (n, 3)", value=X.shape)
+        raise InvalidValue(
+            "points must have the shape (n, 3)",
+            where="points",
+            value=X.shape,
+            cause="two coordinates, or a flat array",
+            remedy="a row of x, y, z for each point",
+        )
     if cells.ndim != 2 or cells.shape[1] != kind.nodes or len(cells) == 0:
-        raise InvalidValue(f"{kind.name} cells must have the shape (m, {kind.nodes})", value=cells.shape)
+        raise InvalidValue(
+            f"{kind.name} cells must have the shape (m, {kind.nodes})",
+            where="cells",
+            value=cells.shape,
+            cause="cells of another type, or a flat array",
+            remedy="a row of point numbers for each cell, or the type that they have",
+        )
     check_points(X, where="")
     check_ids(cells, len(X), where="")
 

@@ -95,7 +95,15 @@ def field_arrays(fields: Fields | None, count: int, place: str) -> dict[str, Flo
                 f"a {place} field must have the shape ({count},) or ({count}, components)",
                 where=f"field {name!r}",
                 value=array.shape,
+                cause="values at other places, such as those of points for cells",
+                remedy="a value, or a row of components, for each of them",
             )
         if not name or name == "." or "/" in name:
-            raise InvalidValue("a field needs a name without '/'", where=f"{place} data", value=repr(name))
+            raise InvalidValue(
+                "a field needs a name without '/'",
+                where=f"{place} data",
+                value=repr(name),
+                cause="files take the sign for a folder",
+                remedy="another name, such as stress_top",
+            )
     return arrays

@@ -105,7 +105,12 @@ def write_series(path: str | os.PathLike[str], grid: Grid, steps: Sequence[Step]
             "states are not written in this format", where=str(place), value=place.suffix, remedy=" or ".join(SERIES)
         )
     if not steps:
-        raise InvalidValue("there is no state to write", where=str(place))
+        raise InvalidValue(
+            "there is no state to write",
+            where=str(place),
+            cause="a run that kept no frames",
+            remedy="solve(..., frames=60)",
+        )
     if place.suffix == ".vtu":
         _write_state(place, grid, steps[-1])
     elif place.suffix == ".pvd":
@@ -133,7 +138,13 @@ def convert(fields: str | os.PathLike[str], path: str | os.PathLike[str]) -> int
     X, found = read_vtkhdf(fields)
     (name, cells), *others = found.items()
     if others:
-        raise InvalidValue("only files with one cell type are converted", where=os.fspath(fields), value=list(found))
+        raise InvalidValue(
+            "only files with one cell type are converted",
+            where=os.fspath(fields),
+            value=list(found),
+            cause="a file of another program",
+            remedy="the file of a run",
+        )
     n = int(cells.max()) + 1  # without the middle layers, which are behind all other points
     steps = []
     with h5py.File(fields, "r") as file:

@@ -129,7 +129,13 @@ def _plain(value: Any, where: str) -> Any:
     if isinstance(value, Mapping):
         for key in value:
             if not isinstance(key, str):
-                raise InvalidValue("a key of a JSON object must be a string", where=where, value=repr(key))
+                raise InvalidValue(
+                    "a key of a JSON object must be a string",
+                    where=where,
+                    value=repr(key),
+                    cause="a number as a key",
+                    remedy="its text",
+                )
         return {key: _plain(item, f"{where}.{key}") for key, item in value.items()}
     if isinstance(value, list | tuple) or (isinstance(value, np.ndarray) and value.ndim > 0):
         return [_plain(item, f"{where}[{i}]") for i, item in enumerate(value)]
@@ -154,4 +160,6 @@ def _scalar(value: Any, where: str) -> Scalar:
         "only numbers, strings and None can be written here",
         where=where,
         value=f"{type(value).__name__} {value!r}",
+        cause="an object of Python",
+        remedy="its number, or its text",
     )

@@ -200,7 +200,13 @@ class VtkHdfSeries:
         fields = {f"PointData/{name}": grid.complete(a) for name, a in field_arrays(point_data, n, "point").items()}
         fields |= {f"CellData/{name}": a for name, a in field_arrays(cell_data, m, "cell").items()}
         if f"CellData/{DEGREES}" in fields:
-            raise InvalidValue("VTK takes a field of this name for the degrees of the cells", value=DEGREES)
+            raise InvalidValue(
+                "VTK takes a field of this name for the degrees of the cells",
+                where="fields",
+                value=DEGREES,
+                cause="a name that VTK reserves",
+                remedy="another name",
+            )
         self._check_fields({name: array.shape for name, array in fields.items()})
         self._times.append(time)
         self._waiting.append(fields)

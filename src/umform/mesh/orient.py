@@ -71,9 +71,21 @@ def orient(
     """
     X, hexahedra = np.asarray(points, dtype=float), np.asarray(cells)
     if hexahedra.ndim != 2 or hexahedra.shape[1] not in (8, 20, 27) or not len(hexahedra):
-        raise WrongCellType("hexahedra have 8, 20 or 27 nodes", value=hexahedra.shape)
+        raise WrongCellType(
+            "hexahedra have 8, 20 or 27 nodes",
+            where="orient",
+            value=hexahedra.shape,
+            cause="quadrilaterals or tetrahedra, or a flat array",
+            remedy="mesh.thicken makes cells of quadrilaterals",
+        )
     if X.ndim != 2 or X.shape[1] != 3 or hexahedra.min() < 0 or hexahedra.max() >= len(X):
-        raise InvalidValue("points must have shape (n, 3), and the cells name some of them", value=X.shape)
+        raise InvalidValue(
+            "points must have shape (n, 3), and the cells name some of them",
+            where="orient",
+            value=X.shape,
+            cause="node numbers that start at 1, or points of a part of the mesh",
+            remedy="points and cells of one mesh, numbers from 0",
+        )
     named: dict[str, Whole] = {name: np.unique(np.asarray(ids, dtype=np.int64)) for name, ids in (sets or {}).items()}
     corners = hexahedra[:, :8].astype(np.int64)
     signed = through_the_sheet(X, corners, _wanted(through, named, len(X)))
@@ -109,7 +121,13 @@ def _wanted(through: str | ArrayLike, sets: dict[str, Whole], count: int) -> Flo
         return axis
     vector = np.asarray(through, dtype=float)
     if vector.shape != (3,) or not np.isfinite(vector).all() or not vector.any():
-        raise InvalidValue("a direction is a vector of three numbers, not all zero", value=vector)
+        raise InvalidValue(
+            "a direction is a vector of three numbers, not all zero",
+            where="through",
+            value=vector,
+            cause="an angle, two components, or zeros",
+            remedy="(0.0, 0.0, 1.0)",
+        )
     return np.asarray(vector / np.linalg.norm(vector))
 
 

@@ -95,20 +95,37 @@ def _checked(
     X: Floats = np.asarray(points, dtype=float)
     corners = np.asarray(quads)
     if X.ndim != 2 or X.shape[1] != 3 or not np.isfinite(X).all():
-        raise InvalidValue("points must be finite and have shape (n, 3)", value=X.shape)
+        raise InvalidValue(
+            "points must be finite and have shape (n, 3)",
+            where="points",
+            value=X.shape,
+            cause="two coordinates, or NaN of a file that is not complete",
+            remedy="a row of x, y, z for each point",
+        )
     if corners.ndim != 2 or corners.shape[1] not in (4, 8, 9) or not np.issubdtype(corners.dtype, np.integer):
-        raise WrongCellType("quadrilaterals are whole numbers of shape (m, 4), (m, 8) or (m, 9)", value=corners.shape)
+        raise WrongCellType(
+            "quadrilaterals are whole numbers of shape (m, 4), (m, 8) or (m, 9)",
+            where="quadrilaterals",
+            value=corners.shape,
+            cause="triangles or hexahedra, or a flat array",
+            remedy="a row of 4, 8 or 9 point numbers for each; mesh triangles anew as quadrilaterals",
+        )
     if not len(corners) or corners.min() < 0 or corners.max() >= len(X):
         raise InvalidValue(
             "there are no quadrilaterals, or one names a node that does not exist",
+            where="quadrilaterals",
             value=f"{len(corners)} quadrilaterals, {len(X)} points",
             cause="node numbers that start at 1, or a cut file",
+            remedy="numbers of points from 0",
         )
     t = np.asarray(thickness, dtype=float)
     if t.shape not in ((), (len(X),)) or not (np.isfinite(t).all() and (t > 0).all()):
         raise InvalidValue(
             "the thickness is a positive number, or one for each node",
+            where="thickness",
             value=thickness if t.ndim == 0 else f"shape {t.shape}, least {t.min(initial=np.inf):.4g}",
+            cause="a sign, or the thickness of each cell",
+            remedy="one number, or one for each point",
         )
     named: dict[str, Whole] = {name: np.unique(np.asarray(ids, dtype=np.int64)) for name, ids in sets.items()}
     return X, corners.astype(np.int64), np.broadcast_to(t, len(X)), named

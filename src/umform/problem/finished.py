@@ -62,7 +62,11 @@ def finished(path: Path, stage: str | None = None, trust: bool = False) -> Finis
         before = kept.deck.contents.before
         if before is None:
             raise InvalidValue(
-                "the part has no such stage", where="stage", value=stage, remedy="one of " + ", ".join(known)
+                "the part has no such stage",
+                where="stage",
+                value=stage,
+                cause="another name",
+                remedy="one of " + ", ".join(known),
             )
         file = kept.deck.source.folder / before.state
 
@@ -74,6 +78,7 @@ def _file_of(path: Path) -> Path:
             raise FileProblem(
                 "there is no such run",
                 where=str(path),
+                cause="another path, or a run that was removed",
                 remedy="the folder of a run, its state.h5, or the file of umform run --checkpoint",
             )
         if kind_of(path) not in (STATE_KIND, CHECKPOINT_KIND):
@@ -95,7 +100,12 @@ def _file_of(path: Path) -> Path:
             cause="its deck has no state = true under [output], or it ended early",
             remedy="umform run DECK --set output.state=true, where DECK is the deck in this folder",
         )
-    raise FileProblem("this is no folder of a run", where=str(path), remedy="the folder that umform run has written")
+    raise FileProblem(
+        "this is no folder of a run",
+        where=str(path),
+        cause="another folder, or a run that has not begun",
+        remedy="the folder that umform run has written",
+    )
 
 
 def _model(file: Path, kept: Kept) -> Model:

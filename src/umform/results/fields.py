@@ -92,7 +92,13 @@ class PointFields:
         ndarray, shape (cells, points, 6)
         """
         if kind not in ("cauchy", "pk2") or frame not in ("global", "local"):
-            raise InvalidValue("stress is cauchy or pk2, in the global or local frame", value=f"{kind}, {frame}")
+            raise InvalidValue(
+                "stress is cauchy or pk2, in the global or local frame",
+                where="stress",
+                value=f"{kind}, {frame}",
+                cause="another measure of stress, or another word",
+                remedy='kind="cauchy", frame="global"',
+            )
         if kind == "pk2":
             return self.S if frame == "local" else self._stresses[2]
         return self._stresses[0 if frame == "local" else 1]
@@ -115,7 +121,13 @@ class PointFields:
         """
         t = {"bottom": -1.0, "top": 1.0}.get(height, height) if isinstance(height, str) else height
         if isinstance(t, str) or not -1.0 <= t <= 1.0:
-            raise InvalidValue("a height is bottom, top or a number from -1 to 1", value=height)
+            raise InvalidValue(
+                "a height is bottom, top or a number from -1 to 1",
+                where="height",
+                value=height,
+                cause="a length, or another word",
+                remedy="0 for the middle",
+            )
         columns, layers = self.heights.shape
         above = np.array([np.clip(np.searchsorted(column, t), 1, layers - 1) for column in self.heights])
         at = np.arange(columns)

@@ -78,7 +78,13 @@ def formed_shells(model: Model, points: int, units: str = "", rule: Rule = "gaus
         If the model was not solved, or has layers of cells, which are no shell.
     """
     if points not in range(2, 21):
-        raise InvalidValue("a shell has 2 to 20 points through the thickness", where="points", value=points)
+        raise InvalidValue(
+            "a shell has 2 to 20 points through the thickness",
+            where="points",
+            value=points,
+            cause="a fraction, or the points of all layers",
+            remedy="5",
+        )
     _refuse_virgin(model)
     lower, upper = np.split(model.mesh.connectivity.astype(np.int64), 2, axis=1)
     if np.intersect1d(lower, upper).size:
@@ -150,7 +156,13 @@ def formed_solids(model: Model, layers: int, points: Points = 1, units: str = ""
         If the model was not solved.
     """
     if layers not in range(1, 41):
-        raise InvalidValue("a cell is cut into 1 to 40 layers of solids", where="layers", value=layers)
+        raise InvalidValue(
+            "a cell is cut into 1 to 40 layers of solids",
+            where="layers",
+            value=layers,
+            cause="a fraction, or points in place of layers",
+            remedy="4",
+        )
     _refuse_virgin(model)
     nodes = model.mesh.connectivity.astype(np.int64)
     half = nodes.shape[1] // 2

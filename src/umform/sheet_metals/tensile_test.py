@@ -195,7 +195,13 @@ def tensile_test(law: J2) -> TensileTest:
 
     top = necking_strain(law.hardening, law.E)
     if top == _LARGEST:
-        raise InvalidValue("the force of a tensile test has no maximum", where="tensile_test", value=law.hardening)
+        raise InvalidValue(
+            "the force of a tensile test has no maximum",
+            where="tensile_test",
+            value=law.hardening,
+            cause="the law hardens for ever, or not at all",
+            remedy="a law with saturation or a power, such as Swift or Voce",
+        )
     strength, elongation = nominal(top)
     return TensileTest(_proof_stress(nominal, law.E), strength, elongation - strength / law.E)
 
@@ -236,12 +242,15 @@ def _anchors(yield_stress: float, tensile_strength: float, uniform_elongation: f
     if not all(math.isfinite(x) and x > 0 for x in given) or not yield_stress < tensile_strength < 0.1 * young:
         raise InvalidValue(
             "a tensile test has 0 < Rp0.2 < Rm, far below Young's modulus, and a positive uniform elongation",
+            where="tensile test",
             value=f"Rp0.2 = {yield_stress}, Rm = {tensile_strength}, Ag = {uniform_elongation}, E = {young}",
             cause="stresses and modulus in different units, or two numbers exchanged",
+            remedy="numbers in MPa, the elongation as a fraction: 160, 300, 0.22",
         )
     if not OFFSET < uniform_elongation <= 1.0:
         raise InvalidValue(
             "the uniform elongation is a fraction between 0.002 and 1",
+            where="uniform elongation",
             value=uniform_elongation,
             cause="it is given in per cent",
             remedy=f"{uniform_elongation / 100:g} for {uniform_elongation:g} %",

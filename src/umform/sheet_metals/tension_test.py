@@ -42,7 +42,13 @@ def tension_test(law: J2 | Metal, angle: float = 0.0) -> TensileTest:
     plastic = elongation - nominal / law.E
     top = int(np.argmax(nominal))
     if top == len(nominal) - 1:
-        raise InvalidValue("the force of a tensile test has no maximum", where="tension_test", value=law)
+        raise InvalidValue(
+            "the force of a tensile test has no maximum",
+            where="tension_test",
+            value=law,
+            cause="the law hardens for ever, or not at all",
+            remedy="a law with saturation or a power, such as Swift or Voce",
+        )
     proof = OFFSET if plastic[top] > OFFSET else plastic[top]
     strength, at = float(nominal[top]), float(strain[top])
     if top > 0 and strain_left[top - 1, 0] > 0.0:  # otherwise the force falls from yield on

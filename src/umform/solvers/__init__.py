@@ -83,7 +83,9 @@ def make_solver(pattern: Pattern, name: str = "auto") -> SparseSolver:
     if name not in _factories:
         raise InvalidValue(
             "There is no solver of this name",
+            where="solver",
             value=name,
+            cause="a typing error, or one that is not installed",
             remedy=f"choose one of {', '.join(['auto', *_factories])}",
         )
     solver = _factories[name]()

@@ -25,7 +25,12 @@ class Banded:
     def analyse(self, pattern: Pattern) -> None:
         """Find the order with the smallest bandwidth and the map of the values into the band."""
         if not pattern.symmetric:
-            raise InvalidValue("The solver 'banded' takes symmetric matrices only", remedy="choose 'auto'")
+            raise InvalidValue(
+                "The solver 'banded' takes symmetric matrices only",
+                where="solver",
+                cause="friction, or an unsymmetric law",
+                remedy="choose 'auto'",
+            )
         rows, columns = pattern.rows, pattern.indices
         places = min(orders(pattern), key=lambda place: bandwidth(place, rows, columns))
         i, j = places[rows], places[columns]

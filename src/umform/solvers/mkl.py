@@ -31,7 +31,10 @@ def library() -> ctypes.CDLL:
     path = find()
     if path is None:
         raise InvalidValue(
-            "The solver 'pardiso' needs MKL, which is not installed", remedy='pip install "umform[pardiso]"'
+            "The solver 'pardiso' needs MKL, which is not installed",
+            where="solver",
+            cause="the extra pardiso is not installed",
+            remedy='pip install "umform[pardiso]"',
         )
     try:
         loaded = ctypes.CDLL(str(path))

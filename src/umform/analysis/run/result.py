@@ -73,10 +73,21 @@ class Result(History):
             write_csv(path, self.table())
         elif path.suffix in _FIELDS:
             if not self.frames:
-                raise InvalidValue("this run kept no frames", remedy="solve(..., frames=60)")
+                raise InvalidValue(
+                    "this run kept no frames",
+                    where="write",
+                    cause="frames=0, which a run without pictures has",
+                    remedy="solve(..., frames=60)",
+                )
             self._write_fields(path, lagrange)
         else:
-            raise InvalidValue("results are not written in this format", where="path", value=path.name, remedy=_WRITTEN)
+            raise InvalidValue(
+                "results are not written in this format",
+                where="path",
+                value=path.name,
+                cause="another ending, or none",
+                remedy=_WRITTEN,
+            )
         return path
 
     def _write_fields(self, path: Path, lagrange: bool) -> None:
@@ -85,7 +96,13 @@ class Result(History):
             from umform.io.series import Grid, Step, write_series
 
             if lagrange:
-                raise InvalidValue("only .vtkhdf has Lagrange cells", value=path.name, remedy="leave lagrange out")
+                raise InvalidValue(
+                    "only .vtkhdf has Lagrange cells",
+                    where="lagrange",
+                    value=path.name,
+                    cause="other formats have cells with 27 nodes",
+                    remedy="leave lagrange out",
+                )
             write_series(path, Grid(*mesh), [Step(frame.time, frame.points, frame.cells) for frame in self.frames])
             return
         from umform.io.vtkhdf import BUFFER, VtkHdfSeries

@@ -48,7 +48,12 @@ def blocks(path: Path, marks: str, comment: Sequence[str]) -> Iterator[tuple[str
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        raise FileProblem("the file of a state cannot be read", where=str(path), cause=str(error)) from error
+        raise FileProblem(
+            "the file of a state cannot be read",
+            where=str(path),
+            cause=str(error),
+            remedy="a file that export_state has written, in the format that is named",
+        ) from error
     keyword, lines = "", list[str]()
     for line in text.splitlines():
         if any(line.startswith(mark) for mark in comment) or not line.strip():

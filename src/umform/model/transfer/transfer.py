@@ -263,7 +263,13 @@ def _parts(history_variables: dict[str, int], history: Floats) -> dict[str, Floa
     """The history by name: scalars (cells, points), tensors (cells, points, 3, 3); shears of strains are halved."""
     unknown = [name for name, size in history_variables.items() if size not in (1, 6)]
     if unknown:
-        raise InvalidValue("the history of a law cannot be moved to other points", value=", ".join(unknown))
+        raise InvalidValue(
+            "the history of a law cannot be moved to other points",
+            where="trim",
+            value=", ".join(unknown),
+            cause="a variable with another number of components than 1 or 6",
+            remedy='edge="elements", where all cells keep their points',
+        )
     return {
         name: values[..., 0]
         if history_variables[name] == 1

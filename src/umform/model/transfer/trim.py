@@ -100,10 +100,17 @@ class Trim:
                 "the edge of a part lies on the line or follows elements",
                 where="Trim, edge",
                 value=self.edge,
+                cause="a typing error",
                 remedy='edge="line" or edge="elements"',
             )
         if self.view not in _VIEWS:
-            raise InvalidValue("a part is trimmed in a view along x, y or z", where="Trim, view", value=self.view)
+            raise InvalidValue(
+                "a part is trimmed in a view along x, y or z",
+                where="Trim, view",
+                value=self.view,
+                cause="a vector in place of an axis",
+                remedy="x, y or z: turn the part before, if it lies in another direction",
+            )
         if not callable(self.line):
             self._tool().kernel()
 

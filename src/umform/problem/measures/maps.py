@@ -110,7 +110,12 @@ class Gauge(MeasurePart):
         from umform.report.part_pictures import gauge_picture
 
         if RELEASED not in part.states:
-            raise InvalidValue("the part was not released: it cannot be laid into its gauge", where="gauge")
+            raise InvalidValue(
+                "the part was not released: it cannot be laid into its gauge",
+                where="gauge",
+                cause="the run ended before its last steps",
+                remedy="see the warning of the run",
+            )
         mesh, unit, planes = part.model.mesh, part.units.length, part.planes
         blank, gauge = with_images(mesh.points, planes), with_images(part.places(FORMED), planes)
         count = len(mesh.points)

@@ -125,7 +125,13 @@ def _closed_in(
         if abs(state.force - force) <= tolerance * force:
             return state
         low, high = ((state.stroke, state.force), high) if state.force < force else (low, (state.stroke, state.force))
-    raise SolveError("the stroke for the force cannot be closed in", where="press_to_force", value=f"{low}, {high}")
+    raise SolveError(
+        "the stroke for the force cannot be closed in",
+        where="press_to_force",
+        value=f"{low}, {high}",
+        cause="the force jumps: a coarse mesh, or large increments",
+        remedy="smaller elements or increments, or --travel in place of the force",
+    )
 
 
 def with_travel(case: AirBending, travel: float) -> AirBending:

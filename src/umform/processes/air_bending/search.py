@@ -141,7 +141,13 @@ def bent_to_angle(
         if state.against and measures.angle > angle:
             raise _unreached(brake, angle, state, measures.angle)
         if len(trials) == _MOST_TRIALS:
-            raise SolveError("the stroke for the angle cannot be closed in", where="find_stroke", value=trials)
+            raise SolveError(
+                "the stroke for the angle cannot be closed in",
+                where="find_stroke",
+                value=trials,
+                cause="the angle jumps between two strokes: a coarse mesh, or large increments",
+                remedy="a larger tolerance, or smaller elements or increments",
+            )
         state = brake.load(_next_stroke(trials, angle, slope, brake.case.largest_stroke))
 
 

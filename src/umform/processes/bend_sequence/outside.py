@@ -136,7 +136,13 @@ def _check(part: OutsidePart) -> None:
     """
     count = len(part.bends)
     if not 1 <= count <= MOST_BENDS:
-        raise InvalidValue(f"a part has 1 to {MOST_BENDS} bends", where="bends", value=count)
+        raise InvalidValue(
+            f"a part has 1 to {MOST_BENDS} bends",
+            where="bends",
+            value=count,
+            cause="no bend, or bends of several parts",
+            remedy="bends of one part",
+        )
     if len(part.flanges) != count + 1:
         raise InvalidValue(
             "a part has one flange more than bends",

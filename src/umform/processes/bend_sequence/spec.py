@@ -174,7 +174,13 @@ def _check_sequence(sequence: BendSequence) -> None:
     InvalidValue
     """
     if not 1 <= len(sequence.bends) <= MOST_BENDS:
-        raise InvalidValue(f"a part has 1 to {MOST_BENDS} bends", where="bends", value=len(sequence.bends))
+        raise InvalidValue(
+            f"a part has 1 to {MOST_BENDS} bends",
+            where="bends",
+            value=len(sequence.bends),
+            cause="no bend, or bends of several parts",
+            remedy="bends of one part",
+        )
     if sequence.sheet.width is not None:
         raise InvalidValue(
             "a sequence of bends is in plane strain",
@@ -185,7 +191,13 @@ def _check_sequence(sequence: BendSequence) -> None:
     places = [bend.position for bend in sequence.bends]
     twice = sorted({place for place in places if places.count(place) > 1})
     if twice:
-        raise InvalidValue("a bend line is bent once", where="bends", value=twice, cause="two bends at one position")
+        raise InvalidValue(
+            "a bend line is bent once",
+            where="bends",
+            value=twice,
+            cause="two bends at one position",
+            remedy="one of them, or another position",
+        )
     for count, bend in enumerate(sequence.bends, start=1):
         _check_place(sequence, bend, count)
 

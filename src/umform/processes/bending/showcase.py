@@ -129,7 +129,13 @@ def demo(
 
     cases = list(runs) if runs is not None else Selection().runs(FreeBending())
     if not cases:
-        raise InvalidValue("there is no case to run", value=runs)
+        raise InvalidValue(
+            "there is no case to run",
+            where="runs",
+            value=runs,
+            cause="an empty list",
+            remedy="leave it out: all cases run",
+        )
     check_processes(processes)
     for case in cases:
         check(case)

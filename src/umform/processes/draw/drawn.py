@@ -155,7 +155,12 @@ class Drawn(Outcome):
     def ears(self) -> EarProfile:
         """Ears of a cup."""
         if not isinstance(self.case, Cup):
-            raise InvalidValue("a U-bend has no ears", where="ears")
+            raise InvalidValue(
+                "a U-bend has no ears",
+                where="ears",
+                cause="a strip in plane strain has no rim",
+                remedy="angles of a U-bend, ears of a Cup",
+            )
         return ear_profile(self.result.model.mesh, self.u_free)
 
     @property

@@ -69,7 +69,13 @@ def largest_force(
     last = np.append(np.diff(far) > 0.0, True)
     s, f = far[last], force[last]
     if not way > 0.0:
-        raise InvalidValue("an element that passes an edge has a length", where="largest_force", value=way)
+        raise InvalidValue(
+            "an element that passes an edge has a length",
+            where="largest_force",
+            value=way,
+            cause="a sign, or zero",
+            remedy="the length of the longest element",
+        )
     if len(s) == 1:  # the run has ended before the stroke began
         return LargestForce(float(force.max()), 0.0, float(s[0]))
     step = min(way, s[-1] - s[0]) / _PLACES

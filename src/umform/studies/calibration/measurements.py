@@ -229,7 +229,13 @@ def read_unloading(path: Path, young: float, *, percent: bool = False, names: Na
     rows = read_rows(path, ("plastic_strain", "modulus"), "plastic_strain,modulus / 0.02,185000", names)
     table = np.array([[number(path, row, name) for name in ("plastic_strain", "modulus")] for row in rows], dtype=float)
     if len(table) < 3:
-        raise InvalidValue("three or more measurements are needed", where=str(path), value=len(table))
+        raise InvalidValue(
+            "three or more measurements are needed",
+            where=str(path),
+            value=len(table),
+            cause="a cut file, or lines without numbers",
+            remedy="a line for each measurement, three at least",
+        )
     eqps, modulus = table.T * np.array([[0.01 if percent else 1.0], [1.0]])
     if not ((eqps >= 0.0).all() and (eqps < _LARGEST_STRAIN).all()):
         worst = eqps[(eqps < 0.0) | (eqps >= _LARGEST_STRAIN)][0]
@@ -269,7 +275,13 @@ def _pairs(path: Path, percent: bool, given: Names, *, empty: bool) -> tuple[boo
     stress = np.array([number(path, row, "stress", empty=empty) for row in rows], dtype=float)
     known = stress[np.isfinite(stress)]
     if len(known) < 3:
-        raise InvalidValue("three or more measurements are needed", where=str(path), value=len(known))
+        raise InvalidValue(
+            "three or more measurements are needed",
+            where=str(path),
+            value=len(known),
+            cause="a cut file, or lines without numbers",
+            remedy="a line for each measurement, three at least",
+        )
     if float(np.abs(strain).max()) > _LARGEST_STRAIN:
         raise InvalidValue(
             "strains are fractions",

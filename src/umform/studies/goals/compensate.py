@@ -342,7 +342,13 @@ class _Search:
     ) -> Floats:
         if any(value is None for value in values):
             missing = [name for name, value in zip(self.want, values, strict=True) if value is None]
-            raise InvalidValue("a run has no value of a wanted result", where="want", value=", ".join(missing))
+            raise InvalidValue(
+                "a run has no value of a wanted result",
+                where="want",
+                value=", ".join(missing),
+                cause="it cannot be measured there: a part that tears, or springs back flat",
+                remedy="another start, or narrower bounds",
+            )
         y = np.array(values, dtype=float)
         before = min((self._distance(np.array(one.results) - self.goal) for one in self.trials), default=np.inf)
         if result is not None and self._distance(y - self.goal) <= before:

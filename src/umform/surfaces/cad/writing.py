@@ -58,7 +58,12 @@ def write_step(path: str | Path, tools: Mapping[str, Tool], box: Box3) -> Path:
     done = importlib.import_module("OCP.IFSelect").IFSelect_ReturnStatus.IFSelect_RetDone
     with PendingFile(path) as temporary:
         if writer.Write(str(temporary)) != done:
-            raise FileProblem("the STEP file cannot be written", where=str(path), cause="OpenCASCADE refuses it")
+            raise FileProblem(
+                "the STEP file cannot be written",
+                where=str(path),
+                cause="OpenCASCADE refuses it",
+                remedy="another folder or name; a profile without edges of zero length",
+            )
     return Path(path)
 
 
