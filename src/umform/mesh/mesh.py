@@ -19,6 +19,8 @@ from umform.mesh.quality import check_cells
 Floats = NDArray[np.float64]
 Ids = NDArray[np.int32]
 
+#: Largest coordinate: volumes and their squares stay finite.
+_FARTHEST = 1e50
 #: Names of the faces of a cell, in the order of their numbers.
 FACES = ("lower", "upper", "r0", "r1", "s0", "s1")
 
@@ -86,14 +88,15 @@ class Mesh:
                 cause="points of a plane, or coordinates as rows",
                 remedy="a row x, y, z for each node: np.column_stack([x, y, z])",
             )
-        if not np.isfinite(points).all():
-            node = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
+        near = (np.abs(points) <= _FARTHEST).all(axis=1)
+        if not near.all():
+            node = int(np.flatnonzero(~near)[0])
             raise NotFinite(
-                "a node has no finite position",
+                f"a node has no finite position, or one beyond {_FARTHEST:g}",
                 where=f"node {node}",
                 value=points[node],
-                cause="a division by zero, or a file that was cut",
-                remedy="look at what wrote the mesh",
+                cause="a division by zero, a file that was cut, or a size with a wrong exponent",
+                remedy="look at what wrote the mesh, or at the sizes that it was made with",
             )
         named = isinstance(self.cells, Mapping)
         if not named or len(self.cells) != 1 or next(iter(self.cells)) not in ("hex8", "hex18"):

@@ -129,8 +129,10 @@ def test_check_without_an_answer_is_asked_again(browser, link):
 def test_jobs_are_compared_in_two_tabs_and_stay(visit, link):
     page = visit.page
     bent(page, 0.8)
+    page.fill("#f-stroke", "0.85")
+    page.click("#run")
     other = visit.tab(link.split("?")[0])
-    other.wait_for_selector("#jobs li")
+    other.wait_for_function("() => document.querySelectorAll('#jobs input:enabled').length >= 2")
     boxes = other.locator("#jobs input:enabled")
     for number in range(2):
         boxes.nth(number).check()

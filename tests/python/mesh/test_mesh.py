@@ -287,6 +287,13 @@ def test_points_must_be_finite(value):
     assert caught.value.where == "node 5"
 
 
+@pytest.mark.parametrize("size", ["length", "width", "thickness"])
+def test_sizes_whose_powers_overflow_are_refused(size):
+    sizes = {"length": 10.0, "width": 1.0, "thickness": 0.2} | {size: 1e300}
+    with pytest.raises(NotFinite, match="beyond 1e\\+50"):
+        strip(**sizes, cells=(2, 1))
+
+
 def test_points_need_three_columns():
     points, cells = cells_of("hex8")
     with pytest.raises(InvalidValue, match="shape"):
