@@ -93,6 +93,13 @@ def identify_case(
     if len(sought) < len(find):
         raise InvalidValue("a number is looked for twice", where="--find", value=", ".join(find), remedy="once")
     data: list[Measured] = [*(_curve(text) for text in curve or []), *(_quantity(text) for text in quantity or [])]
+    if not data:
+        raise InvalidValue(
+            "nothing was measured",
+            where="--quantity, --curve",
+            cause="numbers are found from measurements",
+            remedy="--quantity angle=90.5+-0.2, or --curve stroke,stroke_force=measured.csv of a deck",
+        )
     place = results_folder(out, name, FILES, overwrite=overwrite)
     found = search(
         subject, sought, data, most=most, on_run=lambda count, misfit: say(f"run {count}: misfit {misfit:.3g}")

@@ -82,7 +82,11 @@ class SheetMetal:
                 )
             from umform.problem.metal_file import metal_of
 
-            metal = metal_of(self.material, thickness)
+            try:
+                metal = metal_of(self.material, thickness)
+            except InvalidValue as error:
+                error.where = "--thickness" if error.where == "get, thickness" else error.where
+                raise
             return metal.law, metal.note
         if not own:
             say(f"warning: no --material: {_NO_MATERIAL}")

@@ -59,7 +59,7 @@ def sweep(
     from umform.studies.sweep import sweep as run_sweep
 
     print_warnings_once()
-    with deck_errors("measure", "jobs", "processes"):
+    with deck_errors("measure", "jobs", "processes", "vary"):
         problem = read(deck, changes or (), trust)
         found = run_sweep(
             problem,

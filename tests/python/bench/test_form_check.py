@@ -190,6 +190,7 @@ def test_angle_close_to_that_of_the_tools_is_a_warning():
         ({"work": "cup", "cup_blank": 60.0}, "cup_blank", "does not lie on the die"),
         ({"work": "cup", "cup_opening": 60.5}, "cup_opening", "gap between punch and die"),
         ({"work": "u", "u_stroke": 200.0}, "u_stroke", "drawn off the die"),
+        ({"work": "u", "u_punch_width": 6.0}, "u_punch_edge", "larger than half of the punch"),
         ({"work": "cup", "cup_blank": 1e300}, "cup_blank", "the diameter of the blank is more than the bench takes"),
         ({"work": "cup", "cup_punch": -(10**400)}, "cup_punch", "a number from 0.001 to 100000"),
         ({"work": "cup", "cup_around": 1e29}, "cup_around", "a whole number from 2 to 1000"),

@@ -21,6 +21,7 @@ from umform.cli import app
         (["--stroke", "6", "--flow-curve", "no.csv"], "the flow curve cannot be read"),
         (["--angle", "90", "--die", "V16/87"], "V16/88"),
         (["--angle", "90", "--die", "V16/88", "--opening", "12"], "follows from the name of the tool"),
+        (["--angle", "90", "--material", "DC04", "--thickness", "0"], "where:  --thickness"),
         (["--angle", "80", "--die", "V16/60"], "the larger of the angles of punch and die is 85"),
         (["--angle", "55", "--die", "V16/60", "--punch", "60/R1"], "the larger of the angles of punch and die is 60"),
         (["--stroke", "6", "--young", "200000"], "a hardening curve is given by"),

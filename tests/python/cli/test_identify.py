@@ -70,7 +70,7 @@ CURVE = ("--curve", "stroke,stroke_force=FILE")
         (["--find", "strength", "--curve", "stroke,force=FILE"], ["the column force is missing"]),
         (["--find", "strength", "--quantity", "angle"], ["this option cannot be read", "--quantity"]),
         (["--find", "strength", "--quantity", "angel=90+-1"], ["no such quantity or column", "where:  --quantity"]),
-        (["--find", "strength"], ["nothing was measured"]),
+        (["--find", "strength"], ["nothing was measured", "where:  --quantity, --curve"]),
         (["--find", "strength", "--quantity", "stroke_force:peak=90@strength=5"], ["sought, and given with"]),
         (["--find", "strength", "--quantity", "stroke_force:peak=90@nowhere=5"], ["nowhere"]),
         (["--find", "strength", "--quantity", "stroke_force:peak=90@width=5"], ["a path is ambiguous"]),

@@ -36,6 +36,7 @@ def template_file(name: str) -> Path:
     if name not in known:
         raise InvalidValue(
             "there is no template of this name",
+            where="template",
             value=name,
             cause=slip(name, known),
             remedy="one of " + ", ".join(known),

@@ -124,7 +124,7 @@ class Cup(Draw):
                 where="blank_radius",
                 value=self.blank_radius,
                 cause=f"the flat of the die begins at a diameter of {2.0 * (self.throat + self.die_edge):.4g}",
-                remedy=f"a larger blank: a diameter above {2.0 * self.throat + self.die_edge:.4g}",
+                remedy=f"a larger blank: a diameter above {2.0 * (self.throat + self.die_edge):.4g}",
             )
         if self.gap < self.thickness:
             raise InvalidValue(

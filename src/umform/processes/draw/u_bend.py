@@ -101,6 +101,14 @@ class UBend(Draw):
         wanted = self.punch_width + 2.0 * CLEARANCE * self.thickness
         remedy = f"about {wanted:.4g}"
         check_clearance(self.clearance, self.thickness, where="opening", value=self.throat, remedy=remedy)
+        if not self.punch_edge <= 0.5 * self.punch_width:
+            raise InvalidValue(
+                "the edge of the punch is larger than half of the punch",
+                where="punch_edge",
+                value=self.punch_edge,
+                cause="a narrow punch, or a diameter",
+                remedy=f"at most {0.5 * self.punch_width:.4g}",
+            )
         if not 0.5 * self.length > 0.5 * self.throat + self.die_edge + self.way:
             raise InvalidValue(
                 "the blank is drawn off the die before the end of the stroke",
