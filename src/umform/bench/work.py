@@ -8,6 +8,7 @@ from __future__ import annotations
 import importlib
 import json
 import select
+import signal
 import sys
 import traceback
 from dataclasses import replace
@@ -65,7 +66,10 @@ def main(arguments: list[str]) -> int:
         if not mine or (folder / OUTCOME).exists():
             return 0
         limit_memory()
+        # a stop between two runs, too, keeps what was reached
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
         outcome = _outcome(folder)
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)
         write_text(folder / OUTCOME, json.dumps(outcome, allow_nan=False))
     return 0
 

@@ -1,10 +1,16 @@
 """Jobs that are stopped keep what they have reached, as the commands do."""
 
+import json
+import os
+import subprocess
+import sys
+
 import pytest
+from visits import wait
 
 from umform.analysis.newton.newton import Newton
 from umform.bench import draws, strips, work
-from umform.bench.folders import RESULTS
+from umform.bench.folders import LIVE, ORDER, OUTCOME, RESULTS
 from umform.bench.wanted import Wanted
 
 
@@ -70,3 +76,18 @@ def test_a_bend_in_its_budget_is_whole(monkeypatch, tmp_path):
     with pytest.raises(KeyboardInterrupt):
         bend(tmp_path, budget=True)
     assert {"bend.json", "curve.csv", "bend.vtkhdf", "report.html"} <= files_of(tmp_path)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals")
+def test_a_process_that_is_stopped_between_two_runs_has_an_outcome_and_the_bend(tmp_path):
+    order = {"kind": "bend", "title": "bend", "parameters": {"mesh": "quick", "angle": None, "stroke": 1.0}}
+    order["parameters"]["budget"] = True
+    (tmp_path / ORDER).write_text(json.dumps(order))
+    job = subprocess.Popen([sys.executable, "-m", "umform.bench.work", str(tmp_path)], stderr=subprocess.PIPE)
+    live = tmp_path / LIVE
+    wait(lambda: live.is_file() and json.loads(live.read_text())["phase"] == "budget")
+    job.terminate()
+    job.communicate(timeout=60)
+    assert job.returncode == 0
+    assert json.loads((tmp_path / OUTCOME).read_text())["state"] == "stopped"
+    assert {"bend.json", "report.html"} <= files_of(tmp_path)
