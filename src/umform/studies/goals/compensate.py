@@ -128,6 +128,10 @@ def compensate(
     except InvalidValue as error:
         error.where = "want" if error.where == "of" else error.where  # as an argument of `derivatives`
         raise
+    except KeyboardInterrupt as stop:
+        if search.trials:
+            stop.add_note(search.so_far())
+        raise
 
 
 def _check_wanted(want: Mapping[str, Wanted]) -> None:
@@ -178,6 +182,14 @@ class _Search:
         self.missed = 0.0
         self.stopped = ""
         self.tools: Tools | None = None
+
+    def so_far(self) -> str:
+        """The best run up to now in a line; the parameters are the start of another search."""
+        best = min(self.trials, key=lambda one: self._error(np.array(one.results)))
+        values = zip((one.path for one in self.parameters), best.parameters, strict=True)
+        named = [*values, *zip(self.want, best.results, strict=True)]
+        said = ", ".join(f"{name} = {value:.6g}" for name, value in named)
+        return f"  the best of {len(self.trials)} runs so far: {said}"
 
     def at(self, x: Floats) -> Subject:
         """The subject with some parameters."""

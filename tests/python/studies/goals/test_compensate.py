@@ -128,6 +128,18 @@ def test_a_search_that_ends_at_a_run_that_fails_keeps_its_runs():
     assert "the next run failed: the way ends in a stop" in found.warnings[1]
 
 
+def test_a_search_that_is_interrupted_tells_its_best_run():
+    def stopped(way):
+        if way > 0.85:
+            raise KeyboardInterrupt
+        return cantilever(way, 210e3)
+
+    with pytest.raises(KeyboardInterrupt) as stop:
+        uf.compensate(stopped, {"tip_force": uf.Wanted(-4.0, 1e-3)}, {"way": 0.8})
+    [note] = stop.value.__notes__
+    assert note.startswith("  the best of 1 runs so far: way = 0.8, tip_force = -")
+
+
 def test_more_parameters_than_results_are_refused():
     by = {"way": 0.5, "E": 210e3}
     with pytest.raises(InvalidValue, match="more parameters follow than results are wanted"):
