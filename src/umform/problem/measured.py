@@ -204,9 +204,9 @@ def may_report(contents: Contents, name: str) -> bool:
 
 
 def names_begin(contents: Contents) -> list[str]:
-    """Names of the numbers of a deck for messages; three points are letters that the run knows."""
+    """Names of the numbers of a deck for messages; a star stands for letters that the run knows."""
     return [
-        f"{name}.{begin}{'' if begin.strip() == begin != '' else '...'}.{state}"
+        f"{name}.{begin}{'' if begin.strip() == begin != '' else '*'}.{state}"
         for name, measure in contents.measures.items()
         for begin in measure.numbers
         for state in _states_of(contents)

@@ -159,7 +159,7 @@ def test_names_of_numbers_are_known_before_the_run(run, numbers):
     ):
         with pytest.raises(InvalidValue, match="no such quantity") as refused:
             uf.derivatives(problem, ["mesh.length"], of=[wrong], progress=False)
-        assert "strain.largest ....formed; strain.largest ....released" in refused.value.remedy
+        assert "strain.largest *.formed; strain.largest *.released" in refused.value.remedy
 
 
 def test_a_part_that_stays_in_its_tools_has_no_released_numbers():

@@ -116,7 +116,7 @@ class Springback(Cut):
 class DrawIn(MeasurePart):
     """Outline of an edge of the blank and how far it is drawn in, at the end of forming."""
 
-    numbers = ("draw-in, ",)
+    numbers = ("draw-in, mean", "draw-in, largest", "draw-in, least", "draw-in, at ")
 
     kind: Literal["draw_in"]
     edge: Annotated[
@@ -157,7 +157,10 @@ class DrawIn(MeasurePart):
 class Ears(MeasurePart):
     """Ear profile of a cup about the z-axis."""
 
-    numbers = ("height, ", "amplitude of ", "ears count from an amplitude of", NUMBER_OF_EARS)
+    numbers = (
+        *("height, mean", "height, lowest", "height, highest"),
+        *("amplitude of ", "ears count from an amplitude of", NUMBER_OF_EARS),
+    )
 
     kind: Literal["ears"]
     rim: Selection = "rim"
