@@ -151,5 +151,5 @@ class Result(History):
         """
         from umform.report.page import write_report
 
-        check_arguments(Result.report, path=path, deck=deck)
+        check_arguments(Result.report, path=path)
         return write_report(self, path, deck=deck) if self._writes else Path(path)
