@@ -316,8 +316,9 @@ def _written(kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: C
                 result.warn(f"the folder {out} was removed during the run; it was made again")
             for caution in cautions:
                 result.warn(caution)
-            if ended_by is not None:
-                result.warn(f"the run ended early, {_why(ended_by)}: the numbers are those of its last converged state")
+            if ended_by is not None:  # for the pages: on the screen the error itself follows
+                why = f"the run ended early, {_why(ended_by)}"
+                result.warnings.append(f"{why}: the numbers are those of its last converged state")
             written = write(kept.deck, problem, result, stage, whole=ended_by is None, taken=taken)
         over = ended_by is None or isinstance(ended_by, UmformError)
         if over and checkpoint.resolve() == (kept.out / CHECKPOINT).resolve():
