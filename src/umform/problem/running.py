@@ -31,6 +31,8 @@ from umform.results.quantity import Quantity
 _Answer = TypeVar("_Answer")
 log = logging.getLogger("umform")
 
+_LAST = "the numbers are those of its last converged state"
+
 
 @dataclass(frozen=True, repr=False)
 class ProblemOutcome(Outcome):
@@ -316,10 +318,10 @@ def _written(kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: C
                 result.warn(f"the folder {out} was removed during the run; it was made again")
             for caution in cautions:
                 result.warn(caution)
-            if ended_by is not None:  # for the pages: on the screen the error itself follows
-                why = f"the run ended early, {_why(ended_by)}"
-                result.warnings.append(f"{why}: the numbers are those of its last converged state")
+            early = [] if ended_by is None else [f"the run ended early, {_why(ended_by)}: {_LAST}"]
+            result.warnings += early  # in the files alone: on the screen the error itself follows
             written = write(kept.deck, problem, result, stage, whole=ended_by is None, taken=taken)
+            result.warnings[:] = [warning for warning in result.warnings if warning not in early]
         over = ended_by is None or isinstance(ended_by, UmformError)
         if over and checkpoint.resolve() == (kept.out / CHECKPOINT).resolve():
             checkpoint.unlink(missing_ok=True)
