@@ -60,7 +60,7 @@ def placed(error: Exception, path: Path, source: Source) -> UmformError:
     if named and isinstance(keys[named[0]], str | int | float):
         error.where = source.place((*path, named[0]))
     else:
-        inner = f" ({error.where})" if error.where and error.where != path[-1] else ""
+        inner = f" ({' '.join(error.where.splitlines())})" if error.where and error.where != path[-1] else ""
         error.where = source.place(path) + inner
     return error
 

@@ -69,6 +69,9 @@ def test_dxf(strip, tmp_path, key, rng):
 def test_files_that_do_not_do(strip, tmp_path):
     with pytest.raises(DeckError, match=r"there is no such file(.*\n)*.*nothing.stl"):
         read(strip, tmp_path, 'file = "nothing.stl"').build()
+    with pytest.raises(DeckError) as broken:
+        read(strip, tmp_path, r'profile = "no\nthing"', "Extruded")
+    assert broken.value.errors[0].where.endswith("no thing)")  # one line
     with pytest.raises(DeckError, match="a STEP or an IGES file"):
         read(strip, tmp_path, 'file = "die.dwg"').build()
     with pytest.raises(DeckError, match="corners, segments or file"):
