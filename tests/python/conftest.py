@@ -20,6 +20,7 @@ from scipy.spatial.transform import Rotation
 import umform
 from umform import _core, elements
 from umform import materials as mt
+from umform.analysis.newton.newton import Newton
 from umform.analysis.run.checkpoint import Checkpoints
 from umform.mesh import FACE_NODES, Mesh, strip
 from umform.model import Model
@@ -100,6 +101,20 @@ class PackageCopy:
         done = self.python("-c", imported + program, *words, given=given)
         assert done.returncode == 0, done.stdout + done.stderr
         return done.stdout
+
+
+@pytest.fixture
+def stopped(monkeypatch):
+    """Every run is stopped in its fourth increment."""
+    solve, calls = Newton.solve, []
+
+    def interrupted(self, *arguments, **options):
+        calls.append(1)
+        if len(calls) == 4:
+            raise KeyboardInterrupt
+        return solve(self, *arguments, **options)
+
+    monkeypatch.setattr(Newton, "solve", interrupted)
 
 
 @pytest.fixture

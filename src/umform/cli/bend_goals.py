@@ -242,7 +242,7 @@ def _check_alone(
 
 
 def _strokes_of(text: str) -> list[float]:
-    """Strokes of a table, from the smallest one."""
+    """Strokes of a table in ascending order."""
     strokes = sorted(set(values_of(text, "--table")))
     if not 0.0 < strokes[0] <= strokes[-1] < math.inf:
         raise InvalidValue(

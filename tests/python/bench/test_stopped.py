@@ -8,24 +8,9 @@ import sys
 import pytest
 from visits import wait
 
-from umform.analysis.newton.newton import Newton
 from umform.bench import draws, strips, work
 from umform.bench.folders import LIVE, ORDER, OUTCOME, RESULTS
 from umform.bench.wanted import Wanted
-
-
-@pytest.fixture
-def stopped(monkeypatch):
-    """Every run is stopped in its fourth increment."""
-    solve, calls = Newton.solve, []
-
-    def interrupted(self, *arguments, **options):
-        calls.append(1)
-        if len(calls) == 4:
-            raise KeyboardInterrupt
-        return solve(self, *arguments, **options)
-
-    monkeypatch.setattr(Newton, "solve", interrupted)
 
 
 def files_of(folder):

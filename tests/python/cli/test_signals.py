@@ -180,16 +180,8 @@ def test_ctrl_c_in_the_budget_keeps_the_bend(monkeypatch, tmp_path):
         (["bend", "--sequence", "part.toml"], "part.vtkhdf"),
     ],
 )
+@pytest.mark.usefixtures("stopped")
 def test_ctrl_c_keeps_what_an_operation_has_reached(words, states, monkeypatch, tmp_path):
-    solve, calls = Newton.solve, []
-
-    def interrupted(self, *arguments, **options):
-        calls.append(1)
-        if len(calls) == 4:
-            raise KeyboardInterrupt
-        return solve(self, *arguments, **options)
-
-    monkeypatch.setattr(Newton, "solve", interrupted)
     monkeypatch.chdir(tmp_path)
     Path("part.toml").write_text("length = 60.0\n[[bends]]\nposition = 20.0\nangle = 120.0\n")
     place = tmp_path / "out"
