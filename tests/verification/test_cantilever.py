@@ -46,16 +46,16 @@ def test_error_falls_with_the_square_of_the_element_length():
     assert ratio == pytest.approx(4.0, rel=0.1)
 
 
-def digits_gained(mixed: bool) -> tuple[int, list[float]]:
+def digits_gained(mixed: bool, increments: int) -> tuple[int, list[float]]:
     """Most iterations of an increment; digits of the last iteration over those of the one before it.
 
     Looked at in the second half of the load: before, the last iterations are not yet in the quadratic range.
     """
     setup = cantilever.end_shear(Variant("ANS3DEAS"), 16)
-    steps = uf.Move(*zip(*setup.loads.items(), strict=True), steps=20)
+    steps = uf.Move(*zip(*setup.loads.items(), strict=True), steps=increments)
     result = uf.solve(setup.model, steps, options=uf.NewtonOptions(mixed=mixed), frames=0)
     gains = []
-    for iterations in result.iterations[10:]:
+    for iterations in result.iterations[increments // 2 :]:
         digits = -np.diff([np.log10(record.energy) for record in iterations if record.energy > 0])
         gains.append(digits[-1] / digits[-2])
     return int(max(result["iterations"])), gains
@@ -63,14 +63,14 @@ def digits_gained(mixed: bool) -> tuple[int, list[float]]:
 
 def test_newton_converges_quadratically():
     """With the consistent tangent the last iteration gains twice the digits of the one before it."""
-    most, gains = digits_gained(mixed=False)
+    most, gains = digits_gained(mixed=False, increments=20)
     assert most <= 7
     assert gains == pytest.approx(len(gains) * [2.0], abs=0.3)
 
 
 def test_the_mixed_tangent_takes_fewer_iterations_and_gains_no_fewer_digits():
-    most, gains = digits_gained(mixed=True)
-    assert most <= 6
+    most, gains = digits_gained(mixed=True, increments=10)
+    assert most <= 4
     assert min(gains) > 1.7
 
 

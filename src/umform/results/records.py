@@ -96,6 +96,8 @@ class Converged:
         Whether the sheet jumped to another stable state, since none was near. eq. (5.102)
     missed : float
         Relative residual, if it is above the tolerance; else zero. eq. (5.131)
+    linear : bool
+        Whether the factors of the predictor served all iterations.
     """
 
     evaluation: Any
@@ -104,6 +106,7 @@ class Converged:
     passes: list[Iteration] = field(default_factory=list)
     jumped: bool = False
     missed: float = 0.0
+    linear: bool = False
 
     @property
     def x(self) -> Floats:

@@ -12,7 +12,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import partial
+from functools import cache, partial
 
 import numpy as np
 
@@ -109,16 +109,17 @@ class Multifrontal:
 
         That is found from a weak pivot, or for the first matrix of a pattern from a solution.
         """
-        pivots, iteration = self._factors.pivots(), self._iteration(values)
+        pivots, iteration = self._factors.pivots(), cache(partial(self._iteration, values))
         negative, odd = pivots.negative, pivots.odd
         size = values[self._pattern.indptr[:-1]] if self._with_cholesky else self._factors.column_sizes
-        lost = weak_pivot(pivots.size, size, iteration.resistance)
+        lost = weak_pivot(pivots.size, size, lambda *start: iteration().resistance(*start))
         del pivots, size  # a solution needs as much memory again
         if lost is None and not self._asked:
-            lost = large_solution(self._pattern.n, partial(iteration.resistance, solves=1), iteration.resistance)
+            resistance = iteration().resistance
+            lost = large_solution(self._pattern.n, partial(resistance, solves=1), resistance)
         self._asked = True
         if lost is not None and lost.motion is not None:
-            lost = Loose(lost.equation, iteration.column * lost.motion)
+            lost = Loose(lost.equation, iteration().column * lost.motion)
         return negative, odd, lost
 
     def _iteration(self, values: FloatArray) -> Iteration:

@@ -197,6 +197,20 @@ class Newton:
 
         return self.guarded(work)
 
+    def along_last_factors(self, rate: Floats) -> Floats | None:
+        """Increment for a rate of the residual with the factors of the last iteration; None if they are inaccurate.
+
+        Parameters
+        ----------
+        rate : ndarray, shape (3 n,)
+            At the converged state.
+        """
+        solver = self.ready_solver()
+        try:
+            return self.guarded(lambda: self.system.extend(solver.solve(-self.system.restrict(rate))))
+        except Failed:
+            return None
+
     def guarded(self, work: Callable[[], _T]) -> _T:
         """Run an attempt that leaves the system unchanged if it fails.
 
@@ -281,7 +295,7 @@ class Newton:
                 recorder.add(evaluation, residual, increment, 0.0, length, tangent.pivots)
                 self._check_flight(evaluation, iterations)
                 tangent.follow()
-                return Converged(evaluation, iterations, goal, jumped=guard.jumps)
+                return Converged(evaluation, iterations, goal, jumped=guard.jumps, linear=tangent.forces_first)
 
             if system.pattern is not self._analysed.pattern:  # sheets have met others
                 solver = self.ready_solver()

@@ -38,9 +38,10 @@ class NewtonOptions:
     extrapolate: Annotated[
         Literal[0, 1, 2], About(cause="another order", remedy="0 from the tangent, 1 from a line, 2 from a parabola")
     ] = 1
-    """Predictor: 0 from the tangent; 1 from the last increment of the step, extrapolated; 2 from the parabola through
-    the last three states, also across the end of a move if the next one continues its direction. eq. (5.50) The
-    parabola suits smooth paths: many increments, and contact at many points."""
+    """Predictor: 0 from the tangent; 1 from the last increment of the step, extrapolated, in elastic sheets without
+    contact along the tangent at its end, eq. (5.133); 2 from the parabola through the last three states, also across
+    the end of a move if the next one continues its direction, eq. (5.50). The parabola suits smooth paths: many
+    increments, and contact at many points."""
     mixed: bool | None = None
     """Compute the geometric stiffness from the stress predicted by the last increment, not from the present one: thin
     elastic sheets then allow larger steps and need fewer iterations. eq. (5.39) Default: if no law has a history."""

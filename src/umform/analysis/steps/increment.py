@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 
@@ -73,13 +73,28 @@ def take_increment(
     if not model.system.too_deep(converged.evaluation):
         run.statistics.count_penetration(kept=True)
     model.system.commit(converged.evaluation)
-    before = [start.controls[control.name] for control in controls]
-    way = changes(model.controls, controls, np.subtract(values, before))
+    by = np.subtract(values, [start.controls[control.name] for control in controls])
+    way = changes(model.controls, controls, by)
     earlier = run.trail if run.newton.options.extrapolate > 1 else None
     reached = model.system.x if x_soft is None else x_soft
-    run.trail = Trail.of(reached - x_before, way, earlier, extrapolation)
+    tangent = _along_tangent(run, newton, converged, dict(zip(controls, by.tolist(), strict=True)))
+    run.trail = Trail.of(reached - x_before if tangent is None else tangent, way, earlier, extrapolation)
     run.evaluation = converged.evaluation.without_tangent()
     return converged
+
+
+def _along_tangent(run: Run, newton: Newton, converged: Converged, by: Mapping[Control, float]) -> Floats | None:
+    """The same changes of the controls again, along the tangent: in stable elastic sheets without contact; else None.
+
+    The last iteration but one has left its factors. eq. (5.133)
+    """
+    system = run.model.system
+    elastic = newton.mixed and system.smooth and not system.unknowns
+    if newton.options.extrapolate != 1 or not (elastic and run.statistics.stable):
+        return None
+    if converged.linear or len(converged.iterations) == 1:  # the increment itself is as good
+        return None
+    return newton.along_last_factors(system.rate(system.state, by))
 
 
 def _within_allowed(increment: Increment) -> tuple[Converged, Floats | None]:

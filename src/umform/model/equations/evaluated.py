@@ -215,6 +215,19 @@ class Evaluated(Assembled):
         term.evaluate(At(at.u, at.time, at.values, at.step, along, rates, scalars=at.scalars), scratch)
         return part
 
+    def rate(self, state: State, rates: Mapping[Control, float]) -> Floats:
+        """Rate of the residual with controls, at fixed unknowns, shape (3 n,); without scalar unknowns. eq. (5.21)"""
+        dofs = self.u.size
+        if self.ranks.any(bool(self.supports.displacement(rates).any())):
+            return self.evaluate(state, rates=rates, tangent=False).predictor
+        at = At(state.x[:dofs], state.time, self.controls.values_at(state), state.time - state.since)
+        part = np.zeros(dofs)
+        into = Into(part, None, part, self._assembly().scatters, self._positions, self.ranks, Border.of((), dofs))
+        for term in self.terms:
+            if term.moves_with(rates):
+                part += self._rate(term, at, into, np.zeros(dofs), rates)
+        return part
+
     def resultants(self, evaluation: Evaluation) -> tuple[float, float]:
         """Largest resultant along an axis of the residual of the unknowns, and of the forces of a tool. eq. (5.130)"""
         ranks, r, sums = self.ranks, self.restrict(evaluation.residual), []

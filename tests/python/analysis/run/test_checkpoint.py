@@ -159,6 +159,15 @@ def pressed():
     return model, [Move(pressure, 0.1, steps=3), Move([ram, pressure], [-0.2, 0.12], steps=3)], {"frames": 2}
 
 
+def elastic():
+    """A thin strip under a load and a pressure, which begins with kept tangents, then with extrapolations."""
+    model = Model(strip(10.0, 1.0, 0.1, (12, 1)), material=mt.SVK(E=1e5, nu=0.3))
+    model.fix("x0")
+    nodes = model.mesh.nodes("x1")
+    load, pressure = model.force(nodes, (0.0, 0.0, 1.0 / len(nodes)), "load"), model.pressure("lower")
+    return model, [Move([load, pressure], [0.5, 0.01], steps=4), Move(load, 4.0, steps=3)], {"frames": 3}
+
+
 def metals():
     """Metals with back stresses, a modulus that falls, a rate over the time of the step, and with two surfaces."""
     steel, hill = {"E": 206e3, "nu": 0.3}, mt.Hill48(1.8, 1.5, 2.2)
@@ -257,10 +266,10 @@ def assert_the_same_results(result, expected):
 # The same bits ----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    "build",
-    [bending, moves, cut, bar, block, arch, pressed, rubbed, celled, beaded, metals, kept, stacked, multiplied, folded],
-)
+BUILDS = (bending, moves, cut, bar, block, arch, pressed, rubbed, celled, beaded, elastic, metals)
+
+
+@pytest.mark.parametrize("build", [*BUILDS, kept, stacked, multiplied, folded])
 def test_a_run_goes_on_from_any_place_to_the_same_bits(build, copies, tmp_path, assert_the_same):
     model, steps, options = build()
     expected = solve(model, steps, **options)
