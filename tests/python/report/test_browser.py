@@ -333,6 +333,8 @@ def test_the_pages_of_ready_processes_turn_and_play_as_well(write, browser, tmp_
     last = visit.picture()
     visit.slide(0)
     assert differing(last, visit.picture()) > 0.005
+    if write is bend:  # the unit of a column stands behind its number
+        assert visit.text("#shape-time").startswith("stroke 0, force 0 kN/m · state 0 of ")
     visit.unfold()
     assert visit.page.locator("#curves").is_visible()
     assert visit.requests == [(tmp_path / "report.html").as_uri()]

@@ -35,8 +35,11 @@ class Curves {
     return this.labels[name] ?? name;
   }
 
+  // A value with its name; the unit of a column as "force kN/m" stands behind the number.
   text(row, name = element("curves-x").value, precision = 6) {
-    return `${this.label(name)} ${digits(Number(Number(this.table.columns[name][row]).toPrecision(precision)))}`;
+    const value = digits(Number(Number(this.table.columns[name][row]).toPrecision(precision)));
+    const [word, unit = ""] = name.includes(" ") ? this.label(name).split(/ (?=[^ ]*$)/) : [this.label(name)];
+    return `${word} ${value} ${unit}`.trimEnd();
   }
 
   // Where a row lies, with the first curve there: a released sheet has the stroke of the drawn one, and no force.
