@@ -51,7 +51,7 @@ def test_a_linear_step_has_one_tangent(evaluations, element):
 def test_a_step_that_is_not_linear_has_new_factors_in_each_iteration(evaluations):
     lean = run(force=0.5, steps=3, element="EAS3DEAS")
     assert evaluations.count(False) == 2  # the start state, and the end of the first tangent
-    assert lean.timing.factorisation.calls == lean.timing.solve.calls
+    assert lean.timing.solve.calls == lean.timing.factorisation.calls + 3  # the tangent at the end of each increment
     full = run(force=0.5, steps=3, element="EAS3DEAS", line_search=True)
     np.testing.assert_allclose(lean.model.u, full.model.u, atol=1e-7 * np.abs(full.model.u).max())
     np.testing.assert_allclose(lean["elastic_energy"], full["elastic_energy"], rtol=1e-6)
