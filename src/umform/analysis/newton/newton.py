@@ -198,7 +198,7 @@ class Newton:
         return self.guarded(work)
 
     def along_last_factors(self, rate: Floats) -> Floats | None:
-        """Increment for a rate of the residual with the factors of the last iteration; None if they are inaccurate.
+        """Increment for a rate of the residual, with the last factors of the iterations; None if they are inaccurate.
 
         Parameters
         ----------

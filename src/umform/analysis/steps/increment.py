@@ -86,7 +86,7 @@ def take_increment(
 def _along_tangent(run: Run, newton: Newton, converged: Converged, by: Mapping[Control, float]) -> Floats | None:
     """The same changes of the controls again, along the tangent: in stable elastic sheets without contact; else None.
 
-    The last iteration but one has left its factors. eq. (5.133)
+    The iterations have left their last factors, which are near those of the tangent. eq. (5.133)
     """
     system = run.model.system
     elastic = newton.mixed and system.smooth and not system.unknowns

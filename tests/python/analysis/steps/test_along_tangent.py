@@ -7,7 +7,9 @@ import pytest
 
 import umform as uf
 from umform.analysis.newton.newton import Newton
+from umform.analysis.newton.strategy_statistics import StrategyStatistics
 from umform.analysis.steps import increment
+from umform.model.terms.term import Found, Global, Term
 from umform.surfaces import Plane
 
 LENGTH, THICKNESS, MODULUS = 10.0, 0.1, 1e5
@@ -128,6 +130,36 @@ def touching():
 def test_other_sheets_and_options_have_other_predictors(build, options, monkeypatch):
     monkeypatch.setattr(Newton, "along_last_factors", lambda *_: pytest.fail("along the tangent"))
     run(build, **options)
+
+
+class Way(Term):
+    """A scalar unknown that goes to 1."""
+
+    def __init__(self):
+        self.unknowns = (Global("way", {}),)
+
+    def evaluate(self, at, into):
+        (way,) = self.unknowns
+        number = into.border.number(way)
+        into.border.residual[number] = at.scalars[way] - 1.0
+        into.border.corner[number, number] = 1.0
+        return Found()
+
+
+def test_a_sheet_with_a_scalar_unknown_is_extrapolated_along_its_last_increment():
+    model, move = loaded()
+    model.add(Way())
+    alone, _ = run(loaded)
+    result = uf.solve(model, move, frames=0, progress=False)
+    assert result.model.system.unknowns[0].value == pytest.approx(1.0)
+    np.testing.assert_allclose(model.u, alone.u, atol=1e-7 * np.abs(alone.u).max())
+
+
+def test_the_tangent_of_an_unstable_state_is_not_followed(monkeypatch):
+    """Its factors may be those of a shifted matrix, and loads fall along it."""
+    monkeypatch.setattr(StrategyStatistics, "stable", property(lambda self: False, lambda self, value: None))
+    monkeypatch.setattr(Newton, "along_last_factors", lambda *_: pytest.fail("along the tangent"))
+    run(loaded)
 
 
 def test_a_linear_step_needs_no_further_solution(monkeypatch):
