@@ -28,6 +28,8 @@ Every number comes from a run. `make verification` runs all cases, `umform verif
 * 🟠 A check misses by a known amount; the page names the cause.
 * 🔴 A check misses.
 
+*Of limit*: deviation of the worst check over its limit.
+
 Then: [which element should I take?](which-element.md) · [known defects](errata.md) ·
 [balance of all nonlinear runs](balance.md)"""
 

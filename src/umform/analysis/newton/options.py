@@ -34,7 +34,7 @@ class NewtonOptions:
     """Largest number of iterations before an increment is cut."""
     line_search: bool | None = None
     """Shorten increments that are too long, see :mod:`umform.analysis.newton.line_search`; default: if a law has a
-    history."""
+    history, but not where supports and tools are removed, and with friction."""
     extrapolate: Annotated[
         Literal[0, 1, 2], About(cause="another order", remedy="0 from the tangent, 1 from a line, 2 from a parabola")
     ] = 1
@@ -44,7 +44,8 @@ class NewtonOptions:
     increments, and contact at many points."""
     mixed: bool | None = None
     """Compute the geometric stiffness from the stress predicted by the last increment, not from the present one: thin
-    elastic sheets then allow larger steps and need fewer iterations. eq. (5.39) Default: if no law has a history."""
+    elastic sheets then allow larger steps and need fewer iterations. eq. (5.39) Default: if no law has a history, and
+    where supports and tools are removed."""
     keep: bool = False
     """Start an increment that is extrapolated with the contact points of the last one, also where they have opened. eq.
     (4.230) Convergence then does not wait for contact points that open and close. It saves two fifths to a
