@@ -124,7 +124,7 @@ def through_thickness(
         remedy = against_locking(body.element, strain, stiffness, layers)
         yield warning("element", f"{text}: at thickness order {order} it locks", remedy)
     else:
-        note = "; one layer makes the springback of so sharp a bend 2 to 6 % too large: four layers where it matters"
+        note = "; one layer makes the springback of so sharp a bend 2 to 7 % too large: four layers where it matters"
         sharp = layers == 1 and radius + 0.5 * h < _STRAIGHT * h
         yield ok("element", f"{text}: thickness order {order} can follow{note if sharp else ''}")
     least = _SHARP_POINTS if strain > _SHARP else _POINTS

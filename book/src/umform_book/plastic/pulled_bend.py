@@ -142,7 +142,7 @@ The tension is constant, T = 0.3 or 0.6 of the yield force $2/\sqrt3 \cdot 141.6
 states is also released to zero force and moment. The nodes follow the section: middle fibre on an arc, directors
 straight; stretch and thickness are free. Steel with isotropic hardening, with Chaboche's back stresses, and with that
 of Yoshida and Uemori and a modulus that falls with the plastic strain ([laws](material-bending.md)). Default points
-through the thickness, and the former default, 18 `graded` points.
+through the thickness, and 18 `graded` points for comparison.
 """,
     reference=f"""
 {FIBRES} fibres of the same law, which may move against each other, in equilibrium through the thickness. The radial
