@@ -25,7 +25,7 @@ struct Rig {
         const Vec3 n = pose.turn(Vec3{0.0, 0.0, 1.0}), x = pose.to_space(z);
         double trial[numbers]{};
         Reaction reaction{};
-        reaction.held = bead.respond({z[2], x, n, Mat3{}, pose}, 1.0, state, trial, reaction);
+        reaction.held = bead.respond({z[2], x, n, Mat3{}, pose}, state, trial, reaction);
         std::copy_n(trial, numbers, state);
         return reaction;
     }

@@ -26,24 +26,24 @@ struct Skewed {
     double stiffness(const double*) const { return penalty; }
     double reach(const double* trial) const { return trial[Multiplier] / penalty; }
 
-    bool respond(const Place& place, double weight, const double*, double* trial, Reaction& reaction) const {
+    bool respond(const Place& place, const double*, double* trial, Reaction& reaction) const {
         const Vec3 z = place.pose.to_tool(place.x);
         std::copy(z.begin(), z.end(), trial + Where);
-        const double g = place.gap - trial[Multiplier] / penalty, stiffness = weight * penalty;
+        const double g = place.gap - trial[Multiplier] / penalty;
         if (g > 0.0) return false;
-        reaction.pressure = -stiffness * g;
-        reaction.tangential = {-mu * stiffness * g, 0.0, 0.0};
+        reaction.pressure = -penalty * g;
+        reaction.tangential = {-mu * penalty * g, 0.0, 0.0};
         for (int k = 0; k < 3; ++k)
             for (int l = 0; l < 3; ++l)
-                reaction.K[k][l] = stiffness * ((place.n[k] + (k == 0 ? mu : 0.0)) * place.n[l] + g * place.H(k, l));
+                reaction.K[k][l] = penalty * ((place.n[k] + (k == 0 ? mu : 0.0)) * place.n[l] + g * place.H(k, l));
         return true;
     }
-    void press(const Place& place, double pressure, double weight, const double*, double*, Reaction& reaction) const {
-        reaction.pressure = weight * pressure;
-        reaction.tangential = {mu * weight * pressure, 0.0, 0.0};
+    void press(const Place& place, double pressure, const double*, double*, Reaction& reaction) const {
+        reaction.pressure = pressure;
+        reaction.tangential = {mu * pressure, 0.0, 0.0};
         for (int k = 0; k < 3; ++k) {
-            reaction.by_pressure[k] = weight * (place.n[k] + (k == 0 ? mu : 0.0));
-            for (int l = 0; l < 3; ++l) reaction.K[k][l] = -weight * pressure * place.H(k, l);
+            reaction.by_pressure[k] = place.n[k] + (k == 0 ? mu : 0.0);
+            for (int l = 0; l < 3; ++l) reaction.K[k][l] = -pressure * place.H(k, l);
         }
     }
 };
@@ -235,6 +235,59 @@ void check_found() {
     for (int k = 0; k < 3; ++k) CHECK_NEAR(total[k], 0.0, 1e-14);
 }
 
+/// Queries after an evaluation are those of the multipliers, the penalty and the tool of now.
+void check_present() {
+    const auto block = facet();
+    const std::vector<double> u = lowered(std::vector<double>(12), 0.02), multipliers{3.0, 0.0, 1.5, 0.2};
+    evaluate(*block, u);
+    const std::vector<double> gaps = block->gaps();
+    const auto check = [&](double penalty, const std::vector<double>& multiplier) {
+        const ContactFound found = block->found();
+        CHECK(found.points.size() == 4);
+        for (int q = 0; q < 4; ++q) CHECK_NEAR(found.pressure[q], multiplier[q] - penalty * gaps[q], 1e-14);
+    };
+    check(50.0, std::vector<double>(4));
+    block->set_multipliers(multipliers.data());
+    check(50.0, multipliers);
+    evaluate(*block, u);
+    block->law()->set_penalty(80.0);
+    check(80.0, multipliers);
+    evaluate(*block, u);
+    block->open = true;
+    CHECK(block->found().points.empty());
+    block->open = false;
+    block->locate(std::vector<double>(12, 1.0).data());
+    CHECK(block->found().points.empty());
+}
+
+/// After an evaluation the history may go back: what is asked then is the same.
+void check_again() {
+    auto friction = std::make_shared<CoulombFriction>();
+    friction->pressure = {0.0}, friction->mu = {0.3};
+    const auto block = facet(std::make_shared<ContactLawOf<Coulomb>>(Coulomb{50.0, 0.4, 0.05, friction}));
+    std::vector<double> u = lowered(waved(), 0.02);
+    evaluate(*block, u), block->commit();
+    for (int a = 0; a < 4; ++a) u[3 * a] += 0.1;
+    const std::vector<double> before = block->history().state();
+    evaluate(*block, u);
+    const ContactFound found = block->found();
+    const std::vector<double> row = block->row({1.0, 0.2, 0.3}, {0.1, 0.5, 0.2}, {});
+    const auto check = [&] {
+        const ContactFound again = block->found();
+        CHECK(again.slip == found.slip && again.traction == found.traction && again.force == found.force);
+        CHECK(again.friction_work == found.friction_work && again.stored == found.stored);
+        CHECK(again.round_off_squared == found.round_off_squared);
+        CHECK(block->row({1.0, 0.2, 0.3}, {0.1, 0.5, 0.2}, {}) == row);
+    };
+    CHECK(found.slip.size() == 4 && found.slip[0] > 0.05 && found.friction_work > 0.0);
+    check();
+    block->revert();
+    check();
+    evaluate(*block, u);
+    block->restore(before.data(), before.size());
+    check();
+}
+
 /// The works of a facet on a plane that is pressed down, slides and leaves, whether it is near afterwards, far or let go.
 void check_works(bool cells) {
     auto friction = std::make_shared<CoulombFriction>();
@@ -270,6 +323,8 @@ void check_works(bool cells) {
         CHECK_NEAR(left.work_above_mean, held.work_above_mean, 1e-13);
         CHECK_NEAR(left.stored, 0.0, 1e-13);
         CHECK_NEAR(left.contact_work, 0.0, 1e-13);
+        block->revert();
+        CHECK(block->found().friction_work == left.friction_work);
     }
     go(1.2, -0.1);
     block->open = true;  // loads take the place of the tool, and of its works
@@ -315,6 +370,8 @@ int main() {
     check_refusal();
     check_history();
     check_found();
+    check_present();
+    check_again();
     check_resultant();
     check_open_gap();
     return report("contact block");

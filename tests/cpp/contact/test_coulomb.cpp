@@ -37,7 +37,7 @@ Reaction at(const Coulomb& law, const Vec3& x, const double* state, double* tria
     const Ball ball(x);
     const Pose pose;
     Reaction reaction{};
-    reaction.held = law.respond({ball.gap, x, ball.n, ball.H, pose}, 1.0, state, trial, reaction);
+    reaction.held = law.respond({ball.gap, x, ball.n, ball.H, pose}, state, trial, reaction);
     return reaction;
 }
 
@@ -153,7 +153,7 @@ struct Flat {
         double trial[numbers]{};
         std::copy_n(state + Coulomb::Change, 3, trial + Coulomb::Change);
         Reaction reaction{};
-        reaction.held = rubbing.respond({-pressure / 50.0, place, n, H, pose}, 1.0, state, trial, reaction);
+        reaction.held = rubbing.respond({-pressure / 50.0, place, n, H, pose}, state, trial, reaction);
         CHECK(reaction.held);
         rubbing.settle(trial);
         std::copy_n(trial, numbers, state);
@@ -277,7 +277,7 @@ void check_multipliers() {
         if (carry != nullptr)
             rubbing.augment(place, *carry, before, trial);
         else
-            CHECK(rubbing.respond(place, 1.0, before, trial, reaction));
+            CHECK(rubbing.respond(place, before, trial, reaction));
         return reaction.tangential;
     };
     rubbing.leave({0.0, 0.0, 2.0}, state, state);
@@ -325,7 +325,7 @@ void check_level_set() {
         Mat3 H{};
         for (int k = 0; k < 3; ++k) n[k] = x[k] / R, H(k, k) = 1.0 / R;
         Reaction reaction{};
-        CHECK(rubbing.respond({(dot(x, x) - R * R) / (2.0 * R), x, n, H, Pose{}}, 1.0, state, trial, reaction));
+        CHECK(rubbing.respond({(dot(x, x) - R * R) / (2.0 * R), x, n, H, Pose{}}, state, trial, reaction));
         reaction.tangential = reaction.traction(n);
         return reaction;
     };
@@ -378,7 +378,7 @@ void check_frame() {
         const Reaction here = at(rubbing, x, plain, after);
         std::copy_n(after, numbers, plain);
         Reaction there{};
-        there.held = rubbing.respond({ball.gap, y, n, H, turned}, 1.0, moved, after, there);
+        there.held = rubbing.respond({ball.gap, y, n, H, turned}, moved, after, there);
         std::copy_n(after, numbers, moved);
         const Vec3 expected = turned.turn(here.tangential);
         CHECK(there.held && there.slipping == here.slipping);

@@ -79,7 +79,7 @@ struct Bead {
         return {elastic, history[Slip], history[Stored] + history[LiftWork], history[Work], history[Above]};
     }
 
-    bool respond(const Place& place, double weight, const double* state, double* trial, Reaction& reaction) const {
+    bool respond(const Place& place, const double* state, double* trial, Reaction& reaction) const {
         const Vec3 z = place.pose.to_tool(place.x);
         const Facing facing(place);
         const Band band(*this, place, facing, z);
@@ -101,15 +101,13 @@ struct Bead {
                 d_share += (band.dc(k, j) * slide.D[k] + band.c[k] * slide.d(k, j)) / slip;
             const double along = restraint * band.d_weight[j] * share + s * d_share;
             for (int i = 0; i < 3; ++i)
-                reaction.K[i][j] = weight
-                                   * (along * band.c[i] + s * share * band.dc(i, j)
-                                      - uplift * band.d_weight[j] * facing.n[i] - p * facing.dn(i, j));
+                reaction.K[i][j] = along * band.c[i] + s * share * band.dc(i, j)
+                                   - uplift * band.d_weight[j] * facing.n[i] - p * facing.dn(i, j);
         }
         reaction.slipping = slips;
-        reaction.pressure = weight * p / facing.scale;
-        for (int i = 0; i < 3; ++i) reaction.tangential[i] = -weight * s * share * band.c[i];
-
-        Vec3 traction, lift;
+        reaction.pressure = p / facing.scale;
+        Vec3& traction = reaction.tangential;
+        Vec3 lift;
         for (int i = 0; i < 3; ++i) traction[i] = -s * share * band.c[i], lift[i] = p * facing.n[i];
         trial[Held] = 1.0;
         put(trial + Where, z);

@@ -70,6 +70,7 @@ class ContactBlock {
         return values;
     }
     void set_multipliers(const double* values) {
+        answered_ = false;
         for (int q = 0; q < points(); ++q) history_.point(q)[ContactHistory::Multiplier] = values[q];
     }
     /// Lets multipliers carry tractions [point] along the tool at the points that are held. eq. (4.50)
@@ -89,15 +90,18 @@ class ContactBlock {
         return read;
     }
     void commit() {
-        begun_ = true;
+        begun_ = true, answered_ = false;
         if (law_->follows_places())
             for (int q = 0; q < points(); ++q) law_->settle(history_.point(q));
         history_.commit();
     }
-    void revert() { history_.revert(); }
+    void revert() {
+        history_.revert();
+        answered_ = false;
+    }
     void restore(const double* state, std::size_t count) {
         history_.restore(state, count);
-        begun_ = true;
+        begun_ = true, answered_ = false;
     }
 
   protected:
@@ -105,6 +109,7 @@ class ContactBlock {
     std::vector<double> area_;  // [facet][point] reference area of a contact point
     History history_;           // [facet][point]
     bool begun_ = false;        // whether there is a history
+    bool answered_ = false;     // whether history and positions are those of the last `evaluate`
 };
 
 }  // namespace umform

@@ -87,36 +87,36 @@ class OverCells : public FacetCells<Nodes> {
 
     using FacetCells<Nodes>::FacetCells;
 
-    void respond(const ContactLaw& law, const Locator<Nodes>& locator, int e, const double* weights,
-                 const HistoryRows& rows, Workspace& work) const {
+    void respond(const ContactLaw& law, const Locator<Nodes>& locator, int e, const HistoryRows& rows,
+                 Workspace& work) const {
         const Places places = locator.places(e);
         if (const GivenPressure given = law.given_pressure(); given.law != nullptr)
             press_by(given, places, work);
         else
             press_by_penalty(law.penalty(), places, rows, work);
         for (int q = 0; q < this->count(); ++q) work.reactions[q].held = work.share[q] > 0.0;
-        law.press(this->count(), places, work.pressures.data(), weights, rows, work.reactions.data());
+        law.press(this->count(), places, work.pressures.data(), rows, work.reactions.data());
         for (int q = 0; q < this->count(); ++q)
             remember(places.gap[q], q, work, rows.state + q * rows.size + rows.of_law,
                      rows.trial + q * rows.size + rows.of_law);
     }
 
     /// f_a and K_ab of a cell: -dt has the part penalty (dt/dp) (x) dP0. eqs. (4.86), (4.87)
-    void add(const ContactLaw&, const Locator<Nodes>& locator, int e, int q, const Workspace& work, bool tangent,
-             double* K, double* f) const {
+    void add(const ContactLaw&, const Locator<Nodes>& locator, int e, int q, double area, const Workspace& work,
+             bool tangent, double* K, double* f) const {
         const Places places = locator.places(e);
         const Reaction& reaction = work.reactions[q];
         const Values& N = locator.shapes(e)[q];
-        const Vec3 t = reaction.traction(places.n[q]);
+        const Vec3 force = reaction.force(places.n[q], area);
         for (int k = 0; k < 3; ++k)
-            for (int a = 0; a < Nodes; ++a) f[k * Nodes + a] -= t[k] * N[a];
+            for (int a = 0; a < Nodes; ++a) f[k * Nodes + a] -= force[k] * N[a];
         if (!tangent) return;
-        std::array<double, size> slope{};  // dP0/du
+        std::array<double, size> slope{};  // area dP0/du
         const auto corners = this->corners_of(q);
         for (int i = 0; i < this->corners; ++i) {
             const Values& there = locator.shapes(e)[corners[i]];
             for (int l = 0; l < 3; ++l) {
-                const double by_place = work.slopes[q][i] * places.n[corners[i]][l];
+                const double by_place = area * work.slopes[q][i] * places.n[corners[i]][l];
                 for (int b = 0; b < Nodes; ++b) slope[l * Nodes + b] += by_place * there[b];
             }
         }
@@ -125,7 +125,7 @@ class OverCells : public FacetCells<Nodes> {
                 for (int a = 0; a < Nodes; ++a)
                     for (int b = 0; b < Nodes; ++b)
                         K[(k * Nodes + a) * size + l * Nodes + b] +=
-                            N[a] * (reaction.by_pressure[k] * slope[l * Nodes + b] + reaction.K[k][l] * N[b]);
+                            N[a] * (reaction.by_pressure[k] * slope[l * Nodes + b] + area * reaction.K[k][l] * N[b]);
     }
 
     /// The gap that is left: that of a point with the same pressure and the same multiplier. eq. (4.90)

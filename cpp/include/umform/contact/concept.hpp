@@ -32,8 +32,7 @@ struct Place {
     const Pose& pose;
 };
 
-/// What the tool does to the sheet at a place: a traction on the reference area, in its parts along and across the normal, times
-/// a weight.
+/// What the tool does to the sheet at a place: a traction on the reference area, in its parts along and across the normal.
 struct Reaction {
     bool held;         // if not, the rest has no meaning
     bool slipping;     // whether the tangential traction is at its bound
@@ -46,6 +45,12 @@ struct Reaction {
         Vec3 t;
         for (int k = 0; k < 3; ++k) t[k] = pressure * n[k] + tangential[k];
         return t;
+    }
+    /// On the sheet, of an area. eq. (4.9)
+    Vec3 force(const Vec3& n, double area) const {
+        Vec3 f;
+        for (int k = 0; k < 3; ++k) f[k] = area * pressure * n[k] + area * tangential[k];
+        return f;
     }
 };
 
@@ -60,8 +65,8 @@ struct Rubbing {
 
 /// A law answers at one place. Its `table` names what it remembers, which begins with the multiplier of the normal direction. `state` is the converged history,
 /// which is never changed; `trial` comes with the multiplier that is wanted now and takes the rest of the new history. `reach` is
-/// the largest gap at which the place can be held. `respond` says whether it is held, and writes the reaction then, without `held`
-/// and times the weight. A law that is `symmetric` has a symmetric K; what is below its diagonal is not read. One that
+/// the largest gap at which the place can be held. `respond` says whether it is held, and writes the reaction then, without
+/// `held`. A law that is `symmetric` has a symmetric K; what is below its diagonal is not read. One that
 /// `follows_places` has more to say: what it remembers of a place that the tool does not hold, or no longer (`leave`), what friction
 /// does there (`rubbing`), how its tangential multipliers are set (`augment`), belong to what was read (`put_wanted`), and become
 /// those of the new history (`settle`). A law that may be asked over cells also has `press`, the response to a pressure that
@@ -75,7 +80,7 @@ concept PlaceLaw =
         { mutable_law.penalty } -> std::same_as<double&>;
         { law.stiffness(state) } -> std::same_as<double>;
         { law.reach(trial) } -> std::same_as<double>;
-        { law.respond(place, 1.0, state, trial, reaction) } -> std::same_as<bool>;
+        { law.respond(place, state, trial, reaction) } -> std::same_as<bool>;
     };
 
 /// Places of a facet, arrays [place].
@@ -110,12 +115,11 @@ class ContactLaw {
     virtual double stiffness(const double* history) const = 0;
     /// Largest gap at which one of `count` places can be held, from rows of `size` numbers.
     virtual double reach(int count, const double* trial, int size) const = 0;
-    /// Reactions at `count` places times their weights, or as they are without weights.
-    virtual void respond(int count, const Places& places, const double* weights, const HistoryRows& rows,
-                         Reaction* reactions) const = 0;
+    /// Reactions at `count` places.
+    virtual void respond(int count, const Places& places, const HistoryRows& rows, Reaction* reactions) const = 0;
     /// The same under pressures that are given, where `held` says that there is one.
-    virtual void press(int count, const Places& places, const double* pressures, const double* weights,
-                       const HistoryRows& rows, Reaction* reactions) const = 0;
+    virtual void press(int count, const Places& places, const double* pressures, const HistoryRows& rows,
+                       Reaction* reactions) const = 0;
     // Of one place, and of laws that follow places only; z is in the frame of the tool.
     virtual void leave(const Vec3& z, const double* state, double* trial) const = 0;
     /// The same where the tool has been opened: loads do what it did, and take what it has stored.
@@ -145,25 +149,23 @@ class ContactLawOf final : public ContactLaw {
         for (int q = 1; q < count; ++q) largest = std::max(largest, law_.reach(trial + q * size));
         return largest;
     }
-    void respond(int count, const Places& places, const double* weights, const HistoryRows& rows,
-                 Reaction* reactions) const override {
-        if constexpr (requires { law_.respond_all(count, places, weights, rows, reactions); }) {
-            law_.respond_all(count, places, weights, rows, reactions);
+    void respond(int count, const Places& places, const HistoryRows& rows, Reaction* reactions) const override {
+        if constexpr (requires { law_.respond_all(count, places, rows, reactions); }) {
+            law_.respond_all(count, places, rows, reactions);
             return;
         }
         for (int q = 0; q < count; ++q)
-            reactions[q].held = law_.respond(places[q], weights == nullptr ? 1.0 : weights[q],
-                                             rows.state + q * rows.size, rows.trial + q * rows.size, reactions[q]);
+            reactions[q].held =
+                law_.respond(places[q], rows.state + q * rows.size, rows.trial + q * rows.size, reactions[q]);
     }
-    void press(int count, const Places& places, const double* pressures, const double* weights, const HistoryRows& rows,
+    void press(int count, const Places& places, const double* pressures, const HistoryRows& rows,
                Reaction* reactions) const override {
         for (int q = 0; q < count; ++q) {
             const double* state = rows.state + q * rows.size;
             double* trial = rows.trial + q * rows.size;
-            if constexpr (requires { law_.press(places[q], 1.0, 1.0, state, trial, reactions[q]); }) {
+            if constexpr (requires { law_.press(places[q], 1.0, state, trial, reactions[q]); }) {
                 if (reactions[q].held) {
-                    const double weight = weights == nullptr ? 1.0 : weights[q];
-                    law_.press(places[q], pressures[q], weight, state, trial, reactions[q]);
+                    law_.press(places[q], pressures[q], state, trial, reactions[q]);
                     continue;
                 }
             }

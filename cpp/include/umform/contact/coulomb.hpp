@@ -87,20 +87,19 @@ struct Coulomb {
         for (int k = 0; k < 3; ++k) trial[Change + k] = wanted[k] - (held ? state[Tangential + k] : 0.0);
     }
 
-    bool respond(const Place& place, double weight, const double* state, double* trial, Reaction& reaction) const {
+    bool respond(const Place& place, const double* state, double* trial, Reaction& reaction) const {
         const double gap = place.gap - trial[Multiplier] / penalty;
         if (!(gap <= 0.0)) {
             leave(place.pose.to_tool(place.x), state, trial);
             return false;
         }
-        press(place, -(penalty * gap), weight, state, trial, reaction);
+        press(place, -(penalty * gap), state, trial, reaction);
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) reaction.K[i][j] += penalty * reaction.by_pressure[i] * place.n[j];
         return true;
     }
 
-    void press(const Place& place, double pressure, double weight, const double* state, double* trial,
-               Reaction& reaction) const {
+    void press(const Place& place, double pressure, const double* state, double* trial, Reaction& reaction) const {
         const Vec3 &n = place.n, z = place.pose.to_tool(place.x);
         const bool held = state[Held] != 0.0;
         const Facing facing(place);
@@ -145,11 +144,11 @@ struct Coulomb {
         for (int k = 0; k < 3; ++k) by_pressure[k] = d_stiff[k] * s_of_p;
         by_pressure = returned(by_pressure, s_of_p);
         reaction.slipping = slips;
-        reaction.pressure = weight * pressure;
+        reaction.pressure = pressure;
         for (int i = 0; i < 3; ++i) {
-            reaction.tangential[i] = weight * t[i];
-            reaction.by_pressure[i] = weight * (n[i] + by_pressure[i]);
-            for (int j = 0; j < 3; ++j) reaction.K[i][j] = -weight * (pressure * place.H(i, j) + dt(i, j));
+            reaction.tangential[i] = t[i];
+            reaction.by_pressure[i] = n[i] + by_pressure[i];
+            for (int j = 0; j < 3; ++j) reaction.K[i][j] = -(pressure * place.H(i, j) + dt(i, j));
         }
         trial[Stiffness] = eps_end;
         trial[Limit] = bound.value;

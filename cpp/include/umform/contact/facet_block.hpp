@@ -17,7 +17,7 @@ class ContactBlockOf final : public ContactBlock {
     ContactBlockOf(const Connectivity& part, const std::vector<double>& X, typename FaceRule::Setting setting,
                    const std::shared_ptr<const Surface>& surface, std::shared_ptr<ContactLaw> law)
         : ContactBlock(std::move(law)), rule_(part, X, setting), locator_(part, X, rule_, surface),
-          turns_(part, make_colours(part), facets_of_a_turn), scale_(part.size()) {
+          turns_(part, make_colours(part), facets_of_a_turn), scale_(part.size()), place_(part.size()) {
         area_ = rule_.area;
         std::vector<HistoryVariable> history_variables = law_->history_variables();
         for (const HistoryVariable& quantity : history_variables) of_law_ += quantity.size;
@@ -40,6 +40,7 @@ class ContactBlockOf final : public ContactBlock {
     }
 
     void locate(const double* u) override {
+        answered_ = false;
         locator_.move(u, pose, thread_count(), [this](int e) { return reach(e); });
     }
 
@@ -51,15 +52,18 @@ class ContactBlockOf final : public ContactBlock {
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
         if (target.values != nullptr) scatter.require(symmetric(), name);
         const int threads = thread_count();  // once: another thread may change it while this one works
+        answered_ = false;
         locator_.move(u, pose, threads,
                       [this](int e) { return keeps(e) ? std::numeric_limits<double>::infinity() : reach(e); });
-        while (static_cast<int>(workspaces_.size()) < threads) workspaces_.emplace_back(per_facet());
+        const int near = number_near();
+        while (static_cast<int>(answers_.size()) < near) answers_.emplace_back(per_facet());
+        while (static_cast<int>(spare_.size()) < threads) spare_.emplace_back(per_facet());
         turns_.run(connectivity().size() < facets_worth_a_team ? 1 : threads,
                    [&](int group, int thread, const auto& turn) {
-                       for (const int e : turns_.elements(group))
-                           add_facet(e, scatter, target, workspaces_[thread], turn);
+                       for (const int e : turns_.elements(group)) add_facet(e, scatter, target, spare_[thread], turn);
                    });
         kept.clear();
+        answered_ = true, of_penalty_ = law_->penalty(), of_open_ = open;
         Outcome outcome;
         for (const double scale : scale_) outcome.force_scale_squared += scale;
         return outcome;
@@ -93,10 +97,8 @@ class ContactBlockOf final : public ContactBlock {
             found.tangential_stiffness.push_back(rubbing.stiffness);
             found.slip.push_back(rubbing.slip);
             found.area.push_back(area_[q]);
-            Vec3 force;  // (pressure area) n, in this order: that of the forces at nodes
-            for (int k = 0; k < 3; ++k)
-                force[k] = -(reaction.pressure * area_[q] * n[k] + area_[q] * reaction.tangential[k]);
-            found.force.push_back(force);
+            const Vec3 force = reaction.force(n, area_[q]);
+            found.force.push_back({-force[0], -force[1], -force[2]});
         });
         add_works_of_far(found);
         found.penetration = penetration();
@@ -107,13 +109,9 @@ class ContactBlockOf final : public ContactBlock {
     std::vector<double> row(const Vec3& w, const Vec3& omega, const Vec3& p) override {
         // v = sum N_a v_a with v_a = w + omega x (x_a - p): the sum is that of -f_a . v_a, and dv_a/du_a = omega x.
         std::vector<double> row(dofs(), 0.0);
-        if (open) return row;
-        locator_.settle([this](int e) { return reach(e); });
         Element element;
-        for (int e = 0; e < connectivity().size(); ++e) {
-            if (locator_.far(e)) continue;
-            std::vector<double> trial(history_.trial(e), history_.trial(e) + history_.stride());
-            if (!form(e, trial.data(), own_workspace(), true, element)) continue;
+        for_each_answer([&](int e, const Workspace& answer, const double*) {
+            if (!form(e, answer, true, element)) return;
             const std::int32_t* ids = connectivity()[e];
             std::array<double, size> way;
             for (int a = 0; a < Nodes; ++a) {
@@ -134,7 +132,7 @@ class ContactBlockOf final : public ContactBlock {
                     row[3 * ids[b] + l] += value;
                 }
             }
-        }
+        });
         return row;
     }
 
@@ -161,6 +159,7 @@ class ContactBlockOf final : public ContactBlock {
         for (int e = 0; e < connectivity().size(); ++e) leave_law(e, history_.trial(e));
         const std::vector<double> places = history_.trial();
         history_.restore(places.data(), places.size());
+        answered_ = false;
     }
 
     void augment(const Vec3* tractions) override {
@@ -170,6 +169,7 @@ class ContactBlockOf final : public ContactBlock {
             law_->augment(place, tractions[q], history_.state(e) + history_.size() * (q % per_facet()),
                           history_.point(q));
         });
+        answered_ = false;
     }
 
     int far_facets() const override {
@@ -237,12 +237,14 @@ class ContactBlockOf final : public ContactBlock {
     /// Works of friction and pressure so far at the points of far facets, and what their law has stored.
     void add_works_of_far(ContactFound& found) const {
         if (!remembers()) return;
-        std::vector<double> trial(history_.stride());
+        const bool known = answers();
+        std::vector<double> left(history_.stride());
         for (int e = 0; e < connectivity().size(); ++e) {
-            if (!open && !locator_.far(e)) continue;
-            leave(e, trial.data());
+            if (!open && near(e)) continue;
+            const double* rows = history_.trial(e);
+            if (!known) leave(e, left.data()), rows = left.data();
             for (int q = 0; q < per_facet(); ++q) {
-                const double *row = trial.data() + history_.size() * q, area = area_[e * per_facet() + q];
+                const double *row = rows + history_.size() * q, area = area_[e * per_facet() + q];
                 add_works(found, area, law_->rubbing(row), rule_.contact_work(row + of_law_));
             }
         }
@@ -272,25 +274,49 @@ class ContactBlockOf final : public ContactBlock {
     }
 
     /// Asks the law at the points of a facet.
-    void respond(int e, const double* weights, double* trial, Workspace& workspace) const {
-        rule_.respond(*law_, locator_, e, weights, {history_.state(e), trial, history_.size(), of_law_}, workspace);
+    void respond(int e, double* trial, Workspace& answer) const {
+        rule_.respond(*law_, locator_, e, {history_.state(e), trial, history_.size(), of_law_}, answer);
     }
 
-    /// Calls work(facet, point, workspace, new history) for all points of facets that are not far, in their order; the trial
-    /// history is unchanged.
+    /// Numbers the facets that are not far, and returns how many there are.
+    int number_near() {
+        int count = 0;
+        for (int e = 0; e < connectivity().size(); ++e) place_[e] = locator_.far(e) ? -1 : count++;
+        return count;
+    }
+
+    /// Whether the answers of the law in the last `evaluate` hold still.
+    bool answers() const { return answered_ && law_->penalty() == of_penalty_ && open == of_open_; }
+    /// Whether the law is asked at a facet, or has been. Those that were far may have been located since.
+    bool near(int e) const { return answers() ? place_[e] >= 0 : !locator_.far(e); }
+
+    /// Calls work(facet, answer of the law, new history) for all facets that are not far, in their order; the trial history is
+    /// unchanged.
     template <class Work>
-    void for_each_near(const Work& work) {
+    void for_each_answer(const Work& work) {
         if (open) return;
-        locator_.settle([this](int e) { return reach(e); });
-        Workspace workspace(per_facet());
+        const bool known = answers();
+        if (!known) locator_.settle([this](int e) { return reach(e); });
+        Workspace answer(per_facet());
         std::vector<double> trial(history_.stride());
         for (int e = 0; e < connectivity().size(); ++e) {
-            if (locator_.far(e)) continue;
+            if (!near(e)) continue;
+            if (known) {
+                work(e, answers_[place_[e]], history_.trial(e));
+                continue;
+            }
             std::copy_n(history_.trial(e), trial.size(), trial.begin());
-            respond(e, nullptr, trial.data(), workspace);
-            for (int q = 0; q < per_facet(); ++q)
-                work(e, e * per_facet() + q, workspace, trial.data() + history_.size() * q);
+            respond(e, trial.data(), answer);
+            work(e, answer, trial.data());
         }
+    }
+
+    /// Calls work(facet, point, answer, new history) for all points of these facets.
+    template <class Work>
+    void for_each_near(const Work& work) {
+        for_each_answer([&](int e, const Workspace& answer, const double* rows) {
+            for (int q = 0; q < per_facet(); ++q) work(e, e * per_facet() + q, answer, rows + history_.size() * q);
+        });
     }
 
     /// Calls work(facet, point, reaction, workspace) for all points that are held now, in their order.
@@ -302,25 +328,17 @@ class ContactBlockOf final : public ContactBlock {
         });
     }
 
-    /// Workspace for queries of a single thread.
-    Workspace& own_workspace() {
-        if (workspaces_.empty()) workspaces_.emplace_back(per_facet());
-        return workspaces_.front();
-    }
-
     /// Forces and, if requested, the tangent of a facet; whether the tool holds it anywhere.
-    bool form(int e, double* trial, Workspace& workspace, bool tangent, Element& element) const {
-        const double* areas = area_.data() + static_cast<std::size_t>(e) * per_facet();
-        respond(e, areas, trial, workspace);
-        if (keeps(e)) hold_kept(e, areas, trial, workspace);
+    bool form(int e, const Workspace& answer, bool tangent, Element& element) const {
         bool active = false;
-        for (const Reaction& reaction : workspace.reactions) active = active || reaction.held;
+        for (const Reaction& reaction : answer.reactions) active = active || reaction.held;
         if (!active) return false;
         element.f.fill(0.0);
         if (tangent) element.K.fill(0.0);
+        const double* areas = area_.data() + static_cast<std::size_t>(e) * per_facet();
         for (int q = 0; q < per_facet(); ++q)
-            if (workspace.reactions[q].held)
-                rule_.add(*law_, locator_, e, q, workspace, tangent, element.K.data(), element.f.data());
+            if (answer.reactions[q].held)
+                rule_.add(*law_, locator_, e, q, areas[q], answer, tangent, element.K.data(), element.f.data());
         return true;
     }
 
@@ -331,25 +349,29 @@ class ContactBlockOf final : public ContactBlock {
     }
 
     /// Holds the kept points that are open: frictionless, with tension. eq. (4.230)
-    void hold_kept(int e, const double* areas, const double* trial, Workspace& workspace) const {
+    void hold_kept(int e, const double* trial, Workspace& answer) const {
         const Penalty law{law_->penalty()};
         for (int q = 0; q < per_facet(); ++q) {
-            Reaction& reaction = workspace.reactions[q];
+            Reaction& reaction = answer.reactions[q];
             if (reaction.held || kept[static_cast<std::size_t>(e) * per_facet() + q] == 0) continue;
-            law.hold(locator_.places(e)[q], areas[q], trial + history_.size() * q, reaction);
+            law.hold(locator_.places(e)[q], trial + history_.size() * q, reaction);
             reaction.held = true;
         }
     }
 
     template <class Turn>
-    void add_facet(int e, const Scatter& scatter, const Target& target, Workspace& workspace, const Turn& turn) {
+    void add_facet(int e, const Scatter& scatter, const Target& target, Workspace& spare, const Turn& turn) {
         scale_[e] = 0.0;
         if (open || locator_.far(e)) {
             if (remembers()) leave(e, history_.trial(e));
             return;
         }
         Element element;
-        if (!form(e, history_.trial(e), workspace, target.wants_tangent(), element)) return;
+        Workspace& answer = answers_[place_[e]];
+        respond(e, history_.trial(e), answer);
+        const bool keeps_any = keeps(e);
+        if (keeps_any) spare = answer, hold_kept(e, history_.trial(e), spare);
+        if (!form(e, keeps_any ? spare : answer, target.wants_tangent(), element)) return;
         for (const double value : element.f) scale_[e] += value * value;
         turn();
         scatter_element<Nodes>(connectivity(), scatter, e, element.K.data(), element.f.data(), target, !symmetric());
@@ -373,8 +395,12 @@ class ContactBlockOf final : public ContactBlock {
     Locator<Nodes> locator_;
     Turns turns_;
     std::vector<double> scale_;
-    std::vector<Workspace> workspaces_;  // one a thread
-    int of_law_ = 0;                     // numbers of a point's history that are the law's
+    std::vector<std::int32_t> place_;  // [facet] in `answers_`, or -1: far
+    std::vector<Workspace> answers_;   // of the law in the last `evaluate`, without kept points
+    std::vector<Workspace> spare_;     // one a thread: with kept points
+    double of_penalty_ = 0.0;          // in the last `evaluate`
+    bool of_open_ = false;
+    int of_law_ = 0;  // numbers of a point's history that are the law's
 };
 
 }  // namespace umform

@@ -22,15 +22,14 @@ struct OwnPressure : Across {
     double scale() const { return this->penalty / nominal; }
     double reach(const double*) const { return normal->reach(); }
 
-    bool respond(const Place& place, double weight, const double* state, double* trial, Reaction& reaction) const {
+    bool respond(const Place& place, const double* state, double* trial, Reaction& reaction) const {
         const Places places{&place.gap, &place.x, &place.n, &place.H, &place.pose};
-        respond_all(1, places, &weight, {state, trial, 0, 0}, &reaction);
+        respond_all(1, places, {state, trial, 0, 0}, &reaction);
         return reaction.held;
     }
 
     /// All places of a facet: one call of the law. K has the part -dp/dg dt/dp (x) n.
-    void respond_all(int count, const Places& places, const double* weights, const HistoryRows& rows,
-                     Reaction* reactions) const {
+    void respond_all(int count, const Places& places, const HistoryRows& rows, Reaction* reactions) const {
         std::vector<double> gap, pressure, slope;
         for (int q = 0; q < count; ++q)
             if (places.gap[q] <= normal->reach()) gap.push_back(places.gap[q]);
@@ -49,7 +48,7 @@ struct OwnPressure : Across {
             }
             const double p = scale() * pressure[held], dp = scale() * slope[held];
             ++held;
-            this->press(place, p, weights == nullptr ? 1.0 : weights[q], state, trial, reaction);
+            this->press(place, p, state, trial, reaction);
             for (int i = 0; i < 3; ++i)
                 for (int j = 0; j < 3; ++j) reaction.K[i][j] -= dp * reaction.by_pressure[i] * place.n[j];
         }

@@ -23,24 +23,24 @@ class AtPoints : public FacetPoints<Nodes> {
 
     using FacetPoints<Nodes>::FacetPoints;
 
-    void respond(const ContactLaw& law, const Locator<Nodes>& locator, int e, const double* weights,
-                 const HistoryRows& rows, Workspace& work) const {
-        law.respond(this->count(), locator.places(e), weights, rows, work.reactions.data());
+    void respond(const ContactLaw& law, const Locator<Nodes>& locator, int e, const HistoryRows& rows,
+                 Workspace& work) const {
+        law.respond(this->count(), locator.places(e), rows, work.reactions.data());
     }
 
     /// Of a symmetric law what is on and above the diagonal of K, and the diagonal blocks. eqs. (4.9), (4.10)
-    void add(const ContactLaw& law, const Locator<Nodes>& locator, int e, int q, const Workspace& work, bool tangent,
-             double* K, double* f) const {
+    void add(const ContactLaw& law, const Locator<Nodes>& locator, int e, int q, double area, const Workspace& work,
+             bool tangent, double* K, double* f) const {
         const Values& N = locator.shapes(e)[q];
         const Reaction& reaction = work.reactions[q];
-        const Vec3 t = reaction.traction(locator.places(e).n[q]);
+        const Vec3 force = reaction.force(locator.places(e).n[q], area);
         for (int k = 0; k < 3; ++k)
-            for (int a = 0; a < Nodes; ++a) f[k * Nodes + a] -= t[k] * N[a];
+            for (int a = 0; a < Nodes; ++a) f[k * Nodes + a] -= force[k] * N[a];
         if (!tangent) return;
         const bool symmetric = law.symmetric();
         for (int k = 0; k < 3; ++k)
             for (int l = symmetric ? k : 0; l < 3; ++l) {
-                const double stiffness = reaction.K[k][l];
+                const double stiffness = area * reaction.K[k][l];
                 for (int a = 0; a < Nodes; ++a)
                     for (int b = 0; b < Nodes; ++b)
                         K[(k * Nodes + a) * size + l * Nodes + b] += stiffness * N[a] * N[b];

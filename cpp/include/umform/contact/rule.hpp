@@ -10,8 +10,8 @@ namespace umform {
 //   count(), area                        the first `count` of them are the points where the law is evaluated; [facet][point]
 //   symmetric                            whether it leaves a symmetric law so
 //   remembers, table                     what it keeps of a point after the history_variables of the law
-//   respond(law, locator, facet, weights, rows, work)   the reactions of a facet, and what else it needs later
-//   add(law, locator, facet, point, work, tangent, K, f)   forces and tangent of a point that is held, of reactions with weights
+//   respond(law, locator, facet, rows, work)   the reactions of a facet, and what else it needs later
+//   add(law, locator, facet, point, area, work, tangent, K, f)   forces and tangent of a point that is held
 //   gap, penetration, share              what is reported of a point: its gap and the part of its area that is held
 //   leave(state, trial), contact_work(row)   for its own history_variables: the tool is far; work of the pressure so far
 // `points.hpp` and `cells.hpp` are such rules.
