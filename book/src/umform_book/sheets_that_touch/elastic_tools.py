@@ -150,6 +150,14 @@ def iron(page: Page, factor: float | None, increments: int) -> Ironed:
     return Ironed(force, radial, thickness, abs(float(result.balance().drift[-1])))
 
 
+#: Difference of work and energies at the end of a run that is allowed; why the wall that a body irons exceeds it.
+_ENERGIES = 0.01
+_TILTS = (
+    "two elements of the wall are in the cone of the ring, and the pressure between bodies acts along a smooth normal, "
+    "which tilts against an element that bends there"
+)
+
+
 def run(page: Page) -> None:
     """Rigid, nearly rigid and elastic tools."""
     (increments,) = page.pick((40,), (20,))
@@ -192,11 +200,9 @@ def _walls(page: Page) -> None:
         "quarter of the reduction. Lamé's ring of the mean height is stiffer: the bore is narrower than the back, "
         "and the pressure acts on a part of it."
     )
-    page.text(
-        f"Not met: in the wall that a body irons, work and energies differ by {100 * walls[1].drift:.1f} % at the "
-        f"end, where 1 % is allowed. With the exact rigid ring it is {100 * walls[2].drift:.1f} %: the difference "
-        "is that of the contact of faces. Two elements of the wall are in the cone, and pressure acts along a "
-        "smooth normal, which tilts against an element that bends there."
+    page.at_most("cup wall, exact rigid ring: work and energies, relative", walls[2].drift, _ENERGIES)
+    page.at_most(
+        "cup wall, ring of steel: work and energies, relative", walls[1].drift, _ENERGIES, known=0.06, cause=_TILTS
     )
 
 
