@@ -37,7 +37,9 @@ direction = "down"
 COMMANDS = {
     "bend of the README": BEND,
     "bend --sequence, two bends": "bend --sequence z.toml --thickness 2 --opening 16 --material DC04",
+    "hem, flat": "hem",
     "hem, over an insert": "hem --form insert --element BEND18 --elements-per-thickness 3",
+    "draw u": "draw u",
     "draw u --coarse": "draw u --coarse",
     "draw cup --coarse": "draw cup --coarse",
     "run, template free-bending": "run free-bending.toml",
