@@ -111,7 +111,10 @@ def _held(found: Any) -> tuple[Floats, Floats, Floats]:
 
 
 def warn_of_bottoming(model: Model, result: History, step: int, found: Mapping[Any, Any]) -> None:
-    """Say for each tool that a step has moved whether it has bottomed; found is what holds at the end of the step."""
+    """Say for each tool that a step has moved whether it has bottomed; found is what holds at the end of the step.
+
+    The travel of a tool that is closed by a force is no stroke: the step ends where the sheet answers with this force.
+    """
     steps = result["step"] if len(result) else np.empty(0)
     rows = np.flatnonzero(steps == step)
     if len(rows) == 0:
@@ -119,6 +122,8 @@ def warn_of_bottoming(model: Model, result: History, step: int, found: Mapping[A
     rows = rows if rows[0] == 0 else np.concatenate([[rows[0] - 1], rows])
     for control in model.controls:
         if not isinstance(control, ToolMotion) or control.tool.may_bottom:
+            continue
+        if any(press.way is control for press in control.tool.presses):
             continue
         at = bottoming(result[control.name][rows], result[f"{control.name}_force"][rows])
         if at is None or not bottoms(model, control.tool, found):

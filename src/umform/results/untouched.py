@@ -18,8 +18,9 @@ def warn_of_untouched(model: Model, result: History) -> None:
         ways = [control for control in model.controls if tool in getattr(control, "tools", ())]
         moved = [control.name for control in ways if np.ptp(result[control.name]) > 0.0]
         names = " and ".join(f"contact {pair.name}" for pair in tool.pairs)
-        if not moved:
-            rests = "at rest" if ways else "fixed"
+        stopped = any(stop.reached(press.way.value) for press in tool.presses for stop in press.stops)
+        if stopped or not moved:
+            rests = "on its stops" if stopped else "at rest" if ways else "fixed"
             note = (
                 f"{names} never touched the sheet: the tool {tool.name} is {rests}, and no part of the sheet reached it"
             )

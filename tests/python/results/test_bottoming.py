@@ -62,6 +62,19 @@ def test_a_punch_that_bends_a_strip_lightly_until_it_meets_a_support_beside_it_d
     assert not any("bottoms" in text for text in result.warnings)
 
 
+def test_a_tool_that_is_closed_by_a_force_does_not_bottom():
+    model = uf.Model(uf.mesh.strip(20.0, 1.0, 1.0, (20, 1)), material=uf.SVK(E=1e4, nu=0.0))
+    model.fix("x0")
+    model.symmetry("y0", "y")
+    model.symmetry("y1", "y")
+    model.contact("lower", uf.Plane((0.0, 0.0, -0.8)), penetration=0.002, name="bed")
+    roll = model.contact("upper", uf.Cylinder((19.0, 0.0, 1.5), "y", 1.0), penetration=0.002, name="roll")
+    close = uf.Close(model.press(roll, "z", "press"), force=-50.0, increment=0.015)
+    result = uf.solve(model, close, frames=0, progress=False)
+    assert bottoming(result["press_way"], result["press_way_force"]) is not None  # by the force alone
+    assert not any("bottoms" in text for text in result.warnings)
+
+
 @pytest.mark.parametrize(
     ("force", "at"),
     [

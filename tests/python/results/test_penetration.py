@@ -52,6 +52,19 @@ def test_a_fixed_tool_that_never_touches_is_noted_without_a_warning():
     assert not any("never touched" in text for text in pressed(0.52, above=0.5).events)
 
 
+def test_a_tool_that_rests_on_its_stops_above_the_sheet_is_noted_without_a_warning():
+    model = uf.Model(uf.mesh.strip(4.0, 4.0, 1.0, (2, 2)), material=uf.SVK(E=2e5, nu=0.3))
+    model.fix("lower", "z")
+    model.fix("x0")
+    pair = model.contact("upper", uf.Plane((0.0, 0.0, 0.8), "-z"), name="holder")
+    hold = model.press(pair, "z", "hold")
+    model.stop(hold, at=1e-5, stiffness=1e6, below=True)
+    result = uf.solve(model, uf.Move(hold, -10.0), frames=0, progress=False)
+    assert about(result, "never touched") == []
+    (note,) = [text for text in result.events if "never touched" in text]
+    assert "the tool holder is on its stops" in note
+
+
 def test_the_penetration_of_a_run_before_is_not_named_again():
     result = pressed(0.2, penalty=100.0)
     again = uf.solve(result.model, uf.Move(result.model.controls[0], 0.0, steps=2), frames=0, progress=False)

@@ -49,6 +49,10 @@ class Stop:
         """Whether it limits the travel rigidly."""
         return math.isinf(self.stiffness)
 
+    def reached(self, way: float) -> bool:
+        """Whether a tool at this travel rests on it."""
+        return self.side * (way - self.at) >= -1e-9 * abs(self.at)
+
     def push(self, way: float) -> tuple[float, float]:
         """Force on the tool along its travel, and minus its derivative."""
         beyond = 0.0 if self.rigid else self.side * (way - self.at)
