@@ -31,6 +31,8 @@ ESAFORM: dict[str, Any] = {
 CLEARANCE = 1.2
 #: Way of the punch beyond that at which the rim has left the edge of the die, in thicknesses.
 _BEYOND = 4.0
+#: Largest rise of a chord over the edge of the die, over the clearance under a holder that keeps its distance.
+_CHORD = 0.5
 _EVEN = Rule(
     lambda count: count % 2 == 0,
     "the number of elements on a quarter of the rim is even",
@@ -150,7 +152,24 @@ class Cup(Draw):
         wanted = 2.0 * (self.punch_radius + CLEARANCE * self.thickness)
         flange = math.pi * (self.blank_radius**2 - (self.throat + self.die_edge) ** 2)
         pressure = unusual_pressure(self.holder_force, flange, self.material)
-        return [*tight(self.clearance, self.thickness, what="an opening", wanted=wanted), *pressure]
+        return [*tight(self.clearance, self.thickness, what="an opening", wanted=wanted), *pressure, *self._squeezed()]
+
+    def _squeezed(self) -> list[str]:
+        """Warning of chords over the edge of the die that a holder at a fixed distance squeezes."""
+        from umform.elements import element
+
+        chords = 1 if element(self.element).cell == "hex8" else 2
+        rise = (math.radians(self.turn) / chords) ** 2 * self.die_edge / 8.0
+        air = self.gap - self.thickness
+        if self.holder_force is not None or rise <= _CHORD * air:
+            return []
+        what = (
+            f"elements are chords {rise:.2g} off the edge of the die, and a holder that keeps its distance leaves "
+            f"{air:.2g} beside the sheet: it squeezes the mesh; its force, the punch force and the draw-in are wrong"
+        )
+        wider = f"a holder gap above {self.thickness + rise / _CHORD:.4g}, or a holder force"
+        fits = math.floor(chords * math.degrees(math.sqrt(8.0 * _CHORD * air / self.die_edge)))
+        return [f"{what}; smaller elements: --turn {fits}, {wider}" if fits >= 1 else f"{what}; {wider}"]
 
     @property
     def gap(self) -> float:

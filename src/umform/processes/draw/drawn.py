@@ -266,11 +266,11 @@ class Drawn(Outcome):
         force, after = self.punch_force, self.punch_force_after
         found = []
         if force.is_rough:
-            found.append(f"the punch force, {_band(force)}, ripples as elements pass the edge of the die; {finer}")
+            found.append(f"the punch force, {_ripple(force)} as elements pass the edge of the die; {finer}")
         if after is not None and after.is_rough and after.value + after.ripple > force.value:
             found.append(
-                f"the punch force off the holder, {_band(after)}, is that of the mesh: the rim is ironed row by row; "
-                f"{finer}, or a wider opening of the die"
+                f"the punch force off the holder, {_ripple(after)}: it is that of the mesh, the rim is ironed row by "
+                f"row; {finer}, or a wider opening of the die"
             )
         return found
 
@@ -328,12 +328,13 @@ class Drawn(Outcome):
     def studied(self) -> StudiedMesh | None:
         """Mesh beside those of the studies, by the angle that an element turns; of a U-bend its element counts.
 
-        None for elements that the studies of the process have not, and for layers of 8-node elements in a U-bend.
+        None for what the studies of the process have not: other elements, layers of 8-node elements in a U-bend, a
+        holder that keeps its distance.
         """
         case = self.case
         coarse = type(case).meshes["coarse"]
         small = element(case.element).cell == "hex8"
-        if not small and isinstance(case, Cup):
+        if isinstance(case, Cup) and not (small and case.holder_force is not None):
             return None
         if small and isinstance(case, UBend):
             found = StudiedMesh(case.kind, COARSE, case.turn / coarse["turn"])
@@ -413,5 +414,5 @@ def let_go(stroke: Floats, holder: Floats) -> float:
     return float(stroke[held[-1]]) if len(held) else math.inf
 
 
-def _band(force: LargestForce) -> str:
-    return f"{force.value / 1000.0:.3g} ± {force.ripple / 1000.0:.2g} kN"
+def _ripple(force: LargestForce) -> str:
+    return f"{force.value / 1000.0:.3g} kN, ripples by ± {force.ripple / 1000.0:.2g} kN"
