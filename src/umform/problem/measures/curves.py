@@ -139,12 +139,12 @@ class DrawIn(MeasurePart):
 
         mesh, unit = part.model.mesh, part.units.length
         edge = draw_in(mesh, part.from_blank(FORMED), self._nodes(mesh))
-        named = {"mean": edge.draw_in.mean(), "largest": edge.draw_in.max(), "least": edge.draw_in.min()}
+        named = {"mean": edge.mean(), "largest": edge.draw_in.max(), "least": edge.draw_in.min()}
         if np.ptp(edge.draw_in) < 1e-6 * np.abs(edge.draw_in).max():
-            named = {"mean": edge.draw_in.mean()}  # it says all
+            named = {"mean": edge.mean()}  # it says all
         elif len(edge.pieces) > 1:
             for piece in edge.pieces:
-                named[f"mean around {_at(edge.before[piece].mean(axis=0))} of the blank"] = edge.draw_in[piece].mean()
+                named[f"mean around {_at(edge.before[piece].mean(axis=0))} of the blank"] = edge.mean(piece)
         elif not edge.is_closed:
             for k in (0, -1):
                 named[f"at {_at(edge.before[k])} of the blank"] = edge.draw_in[k]

@@ -310,7 +310,7 @@ class Drawn(Outcome):
                 ]
             ),
             Quantity(HOLDER, "kN", value=float(self.forces["holder"].max()) / 1000.0),
-            Quantity(DRAW_IN, "mm", value=float(self.outline.draw_in.mean()), leading=True),
+            Quantity(DRAW_IN, "mm", value=self.outline.mean(), leading=True),
             *extremes(self.fields),
             Quantity("work of friction", "% of the work", value=self.friction_share),
             *([Quantity("stroke at the forming limit", "mm", value=torn)] if math.isfinite(torn) else []),

@@ -51,6 +51,21 @@ class Outline:
         """Nodes of each piece."""
         return [np.flatnonzero(self.piece == k) for k in range(len(self.closed))]
 
+    @property
+    def lengths(self) -> Floats:
+        """Length of the edge before that belongs to each node: half of both sides beside it."""
+        own = np.zeros(len(self.before))
+        for nodes, closed in zip(self.pieces, self.closed, strict=True):
+            ends = np.append(nodes, nodes[0]) if closed else nodes
+            half = 0.5 * np.linalg.norm(np.diff(self.before[ends], axis=0), axis=1)
+            np.add.at(own, ends[:-1], half)
+            np.add.at(own, ends[1:], half)
+        return own
+
+    def mean(self, piece: Numbers | slice = slice(None)) -> float:
+        """Mean draw-in along the edge, or along one of its pieces."""
+        return float(np.average(self.draw_in[piece], weights=self.lengths[piece]))
+
     def columns(self) -> dict[str, Floats]:
         """Columns of a table."""
         names = ("x_before", "y_before", "x", "y", "draw_in")

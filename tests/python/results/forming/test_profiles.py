@@ -141,6 +141,23 @@ def test_a_rim_of_few_elements_resolves_few_waves():
         rough.wave(6)
 
 
+@pytest.mark.parametrize("part", ["quarter", "whole"])
+def test_the_mean_draw_in_is_that_along_the_edge_not_of_its_nodes(part):
+    """Two waves around the rim have the mean zero; the ends of a quarter belong to one side each."""
+    blank = uf.mesh.disc(10.0, 1.0, (8, 3), part=part)
+    angle = np.arctan2(blank.points[:, 1], blank.points[:, 0])
+    edge = draw_in(blank, -blank.points * (0.1 + 0.05 * np.cos(4.0 * angle))[:, None] * (1.0, 1.0, 0.0))
+    assert edge.mean() == edge.mean(edge.pieces[0]) == pytest.approx(1.0, abs=1e-3)
+    assert edge.lengths.sum() == pytest.approx({"quarter": 5.0, "whole": 20.0}[part] * np.pi, rel=2e-3)
+
+
+def test_the_mean_draw_in_does_not_follow_a_finer_mesh_of_a_part_of_the_edge():
+    y = np.concatenate([np.linspace(0.0, 2.0, 11), [6.0, 10.0]])
+    grid = uf.mesh.grid(np.linspace(0.0, 10.0, 3), y, np.array([0.0, 1.0]))
+    edge = draw_in(grid, -0.1 * grid.points[:, [1, 0, 2]] * (1.0, 0.0, 0.0), "x1")
+    assert edge.mean() == pytest.approx(0.5, rel=1e-12)
+
+
 def test_draw_in():
     blank = uf.mesh.disc(10.0, 1.0, (4, 3), part="quarter")
     edge = draw_in(blank, -0.1 * blank.points)
