@@ -1,4 +1,4 @@
-"""Check that drawings and metals of the library are in the unit of length that a deck names."""
+"""Check that drawings and metals of the library are in the units that a deck names."""
 
 from __future__ import annotations
 
@@ -13,18 +13,23 @@ from umform.surfaces import Drawing
 
 #: Names of units of length, and a millimetre in each of them.
 _MILLIMETRE = {"mm": 1.0, "cm": 0.1, "m": 1e-3, "um": 1e3, "in": 1.0 / 25.4, "ft": 1.0 / 304.8}
+#: Names of units of force, and a newton in each of them.
+_NEWTON = {"N": 1.0, "mN": 1e3, "kN": 1e-3, "MN": 1e-6, "kgf": 1.0 / 9.80665, "lbf": 1.0 / 4.4482216}
 #: Keys of profiles, and of a list of them.
 _PROFILES, _LIST = ("profile", "outline", "line"), "holes"
 
 
 def named_units(deck: Problem) -> Iterator[Finding]:
-    """Warn of drawings, and of a metal of the library, that are read in another unit than that of `[units]`."""
-    length = deck.contents.units.length
+    """Warn of drawings, and of a metal of the library, that are read in other units than those of `[units]`."""
+    length, force = deck.contents.units.length, deck.contents.units.force
+    if isinstance(deck.contents.material, FromLibrary):
+        newton, millimetre = _NEWTON.get(force or "N"), _MILLIMETRE.get(length or "mm")
+        if newton and millimetre and abs(newton / millimetre**2 - 1.0) > 1e-3:
+            named = " and ".join(filter(None, [length, force]))
+            text = f"the library has MPa, which is N and mm, and [units] names {named}"
+            yield warning("units", text, 'length = "mm" and force = "N", or the law with its numbers in other units')
     if length not in _MILLIMETRE:
         return
-    if isinstance(deck.contents.material, FromLibrary) and length != "mm":
-        text = f"the library has MPa, and [units] names {length}: lengths would be in mm"
-        yield warning("units", text, 'length = "mm", or the law with its numbers in other units')
     for name, part in deck.contents.tools.items():
         if isinstance(part.tool, Drawing) and not part.tool.file.lower().endswith(".stl"):
             scale = _MILLIMETRE[length]

@@ -108,11 +108,22 @@ def test_drawings_in_another_unit_than_that_of_the_deck(keys, unit, about, remed
     assert all(remedy in one.remedy for one in found)
 
 
-def test_a_metal_of_the_library_in_metres(strip):
+@pytest.mark.parametrize(
+    ("units", "warned"),
+    [
+        ('length = "m"', True),
+        ('length = "mm"', False),
+        ('length = "mm"\nforce = "kN"', True),
+        ('force = "lbf"', True),
+        ('length = "m"\nforce = "MN"', False),  # MN over square metres is MPa
+        ('length = "mm"\nforce = "N"', False),
+        ('length = "furlong"\nforce = "N"', False),
+    ],
+)
+def test_a_metal_of_the_library_in_other_units(units, warned, strip):
     text = strip.replace('law = "SVK"\nE = 210e3\nnu = 0.3', 'library = "DC04"')
-    for unit, said in (("m", [("units", Level.WARNING)]), ("mm", [])):
-        deck = Problem.read(f'{text}[units]\nlength = "{unit}"\n')
-        assert [(one.about, one.level) for one in named_units(deck)] == said
+    deck = Problem.read(f"{text}[units]\n{units}\n")
+    assert [(one.about, one.level) for one in named_units(deck)] == [("units", Level.WARNING)] * warned
 
 
 def test_a_stiff_penalty(texts, found):
