@@ -88,6 +88,12 @@ class ScatterOptions:
             f"the stroke is constant: --hold {shlex.quote(f'{name}={path}')} keeps the {name}"
             for name, path in free.items()
         ]
+        follows = "stroke" in spread.derivatives.held.values()
+        if _from_contact(case) and not follows and any(one.path.endswith("thickness") for one in spread.sources):
+            constant.append(
+                "the stroke counts from first contact, so the punch stops higher on a thicker sheet: "
+                "--hold below_die=stroke is a press that always stops at the same height"
+            )
         for annex in spread.annexes:
             notes = [*annex.notes, *constant * (annex.title == RESULTS)]
             outcome = outcome.with_annex(replace(annex, notes=notes))
@@ -150,6 +156,11 @@ class ScatterOptions:
                 )
             pairs[key.strip()] = value.strip()
         return pairs
+
+
+def _from_contact(case: Any) -> bool:
+    """Whether the stroke of a case counts from first contact with the upper face of its sheet: an air bend."""
+    return getattr(case, "stroke", None) is not None and hasattr(case, "die_angle") and not case.bottoming
 
 
 def _two(pair: str) -> tuple[str, str]:

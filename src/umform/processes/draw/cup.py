@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 from annotated_types import Ge, Le
 
@@ -135,6 +135,11 @@ class Cup(Draw):
                 value=self.gap,
                 remedy=f"{1.04 * self.thickness:.4g}, a little more than the thickness",
             )
+
+    @property
+    def as_made(self) -> Self:
+        """The same with opening, holder gap and stroke as numbers."""
+        return replace(self, die_radius=self.throat, holder_gap=self.gap, stroke=self.way)
 
     @property
     def clearance(self) -> float:

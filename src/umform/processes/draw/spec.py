@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, cast
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, cast
 
 from annotated_types import Ge, Le
 
@@ -90,6 +90,11 @@ class Draw:
     def record(self) -> dict[str, Any]:
         """All parameters by name."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    @property
+    def as_made(self) -> Self:
+        """The same with the sizes of tools and press that follow from others as numbers: made once, they stay."""
+        raise NotImplementedError
 
     def problem(self) -> Problem:
         """The computed part of the blank in its tools: held, drawn, released."""

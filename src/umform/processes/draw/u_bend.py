@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from umform.errors import InvalidValue
 from umform.processes.draw.spec import Draw, Turn, check_clearance, tight, unusual_pressure
@@ -136,6 +136,11 @@ class UBend(Draw):
         from umform.sheet_metals import sheet_text  # not for the help of the command
 
         return f"U-bend: {sheet_text(self.material, self.thickness)}, punch of {self.punch_width:g} mm"
+
+    @property
+    def as_made(self) -> Self:
+        """The same with opening and stroke as numbers."""
+        return replace(self, opening=self.throat, stroke=self.way)
 
     @property
     def clearance(self) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, fields, replace
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 from annotated_types import Ge, Le
 
@@ -103,6 +103,11 @@ class DrawBead:
     def record(self) -> dict[str, Any]:
         """All parameters by name."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    @property
+    def as_made(self) -> Self:
+        """The same with groove and travel as numbers: made once, they stay."""
+        return replace(self, groove=self.width, draw=self.way)
 
     @property
     def half_bead(self) -> float:

@@ -167,6 +167,7 @@ class Plan:
         given = {"sources": sources, "of": each(of), "correlations": correlations, "limits": limits, "hold": hold}
         for name, value in (given | {"values": values}).items():
             check_value(scatter, name, value)
+        subject = getattr(subject, "as_made", subject)  # tools do not follow a sheet that scatters
         allowed = {name: Limits.of(one) for name, one in (limits or {}).items()}
         thing = subject_of(subject, values, settings.get("options"), settings.get("solver"))
         if values is not None:

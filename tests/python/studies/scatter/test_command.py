@@ -50,6 +50,17 @@ def test_a_deck(deck):
     assert 100.0 * relative == pytest.approx(np.sqrt(variance), rel=2e-3)
 
 
+def test_a_thickness_that_scatters_names_the_press_that_stops_at_one_height(tmp_path):
+    """A thicker sheet is touched earlier: at the same depth the punch goes farther from first contact."""
+    words = ["bend", *COARSE, "--scatter", "thickness=1%", "--measure", "angle", "--out", str(tmp_path), "--overwrite"]
+    free, held = call(*words), call(*words, "--hold", "below_die=stroke")
+    assert free.exit_code == held.exit_code == 0, free.output + held.output
+    assert "--hold below_die=stroke" in free.output and "--hold" not in held.output
+    found = table(tmp_path / "scatter.csv")
+    assert float(found["stroke.deviation"]["value"]) == pytest.approx(0.02, rel=1e-6)
+    assert float(found["angle.deviation"]["value"]) > 0.15  # the angle changes by some 15 degrees for each mm
+
+
 @pytest.mark.parametrize(
     ("words", "expected"),
     [

@@ -11,12 +11,18 @@ import umform as uf
 from umform.analysis.run.stages import Stage
 from umform.errors import InvalidValue
 from umform.processes.air_bending import AirBending
+from umform.processes.draw.cup import ESAFORM, Cup
+from umform.processes.draw.u_bend import NUMISHEET, UBend
+from umform.processes.draw_bead import DrawBead
 from umform.results.quantity import Quantity
 from umform.studies.derivatives.subjects import OfFunction
 from umform.studies.scatter import Limits
 from umform.studies.scatter.found import RESULTS
+from umform.studies.scatter.study import Plan
 
 VALUES = {"E": 210e3, "deflection": 0.1}
+
+STEEL = uf.sheet_metals.get("DC04").law
 
 
 def build(E, deflection, length=10.0, cells=8):
@@ -250,6 +256,22 @@ def test_refusals(sources, rest, where, words):
     assert caught.value.where == where
     assert words in str(caught.value)
     assert caught.value.remedy
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        Cup(material=STEEL, **ESAFORM),
+        UBend(material=STEEL, **NUMISHEET),
+        DrawBead(material=STEEL),
+    ],
+    ids=lambda case: type(case).__name__,
+)
+def test_tools_do_not_follow_a_sheet_that_scatters(case):
+    thing = Plan.of(case, {"thickness": "1%"}).thing
+    thicker = thing.with_({"thickness": 1.01 * case.thickness}).case
+    for name in ("throat", "gap", "width", "way"):
+        assert getattr(thicker, name, None) == getattr(case, name, None)
 
 
 def test_values_beside_a_case_are_refused():
