@@ -163,7 +163,7 @@ def _corrected(
     free: Derivatives, held: Mapping[str, str], found: Mapping[str, float | None], follow: Mapping[str, float]
 ) -> dict[str, float | None]:
     """Changes at the values of the followers that keep the held results."""
-    matrix = np.array([[free[name, path].value or np.nan for path in held.values()] for name in held])
+    matrix = np.array([[free[name, path].value for path in held.values()] for name in held], dtype=float)  # None is nan
     rest = np.array([np.nan if found[name] is None else found[name] for name in held], dtype=float)
     more = dict(zip(held.values(), np.linalg.solve(matrix, -rest), strict=True))
     corrected: dict[str, float | None] = {}

@@ -18,6 +18,7 @@ from umform.results.quantity import Quantity
 from umform.studies.derivatives.subjects import OfFunction
 from umform.studies.scatter import Limits
 from umform.studies.scatter.found import RESULTS
+from umform.studies.scatter.second_run import _corrected
 from umform.studies.scatter.study import Plan
 
 VALUES = {"E": 210e3, "deflection": 0.1}
@@ -172,6 +173,14 @@ class Two(OfFunction):
 def test_a_second_run_of_several_operations_has_the_elements_of_the_first():
     (second,) = uf.scatter(Two(build, VALUES), {"E": "3%"}, [steep], progress=False).second_runs
     assert second.elements == (6, 6) and not second.note
+
+
+def test_a_second_run_corrects_held_results_that_do_not_depend_on_the_followers_of_others():
+    """Two bends of a part, each held by its own stroke: the derivative of one by the stroke of the other is zero."""
+    slopes = {("first", "a"): 1.0, ("first", "b"): 0.0, ("second", "a"): 0.0, ("second", "b"): 2.0}
+    free = {key: Quantity("d", value=value) for key, value in slopes.items()}
+    found = _corrected(free, {"first": "a", "second": "b"}, {"first": 0.5, "second": 0.5}, {"a": 1.0, "b": 1.0})
+    assert found == {"first": 0.0, "second": 0.0, "a": 0.5, "b": 0.75}
 
 
 def test_a_second_run_that_fails_is_a_warning():
