@@ -18,6 +18,7 @@ from umform.bench.decks import checked_deck, known_templates, schema_text, title
 from umform.bench.errors_as_json import error_record, problems_of
 from umform.bench.folders import METAL, RESULTS, SCENE, SHAPE, TABLE
 from umform.bench.form_check import look
+from umform.bench.gone import gone
 from umform.bench.index import Job
 from umform.bench.jobs import MOST_WAITING, Queue, result_file
 from umform.bench.library import library
@@ -156,14 +157,19 @@ class _Api:
         name = request.path_params["name"]
         job = self.queue.index.job(name)
         if job is None:
-            raise InvalidValue("there is no such job", where="job", value=name[:40])
+            raise gone("there is no such job", "job", name)
         return job
 
     def add(self, body: Any, request: Request) -> _Json:
         """Order bends: one form, or a list of them as a series."""
         forms = body.get("forms") if isinstance(body, dict) else None
         if not isinstance(forms, list) or not 1 <= len(forms) <= min(_MOST_AT_ONCE, MOST_WAITING):
-            raise InvalidValue(f"1 to {_MOST_AT_ONCE} bends are ordered at once", where="forms")
+            raise InvalidValue(
+                f"1 to {_MOST_AT_ONCE} bends are ordered at once",
+                where="forms",
+                cause="a series of too many values",
+                remedy="several series, one after the other",
+            )
         wanted = [Wanted.read(form) for form in forms]
         good, refused = [], []
         for number, one in enumerate(wanted):
@@ -270,7 +276,12 @@ class _Api:
         """The present scene of a job, for a page of its shape that is shown."""
         path = self.queue.folder_of(self._job_of(request).id) / SCENE
         if path.is_symlink() or not path.is_file():
-            raise InvalidValue("this job has no shape yet", where="scene")
+            raise InvalidValue(
+                "this job has no shape yet",
+                where="scene",
+                cause="it waits, or has solved no increment",
+                remedy="look again when it runs",
+            )
         return FileResponse(path, media_type="application/json")
 
     def file(self, request: Request) -> Response:
@@ -278,7 +289,7 @@ class _Api:
         name, file = request.path_params["name"], request.path_params["file"]
         path = self.parts.view_of(file) if name == PARTS else result_file(self.queue, name, file, _is_known)
         if not path.is_file():
-            raise InvalidValue("there is no such part", where="part", value=file[:80])
+            raise gone("there is no such part", "part", file)
         kind = "inline" if path.suffix in _SHOWN else "attachment"
         language = request.query_params.get("language", "")
         if path.suffix == ".csv" and style_of(language) != CSV_STYLES["plain"]:

@@ -19,6 +19,7 @@ from typing import Any
 
 from umform.bench.errors_as_json import error_record
 from umform.bench.folders import DECK, LIVE, LOCK, NAME, ORDER, OUTCOME, RESULTS, SHAPE, is_locked
+from umform.bench.gone import gone
 from umform.bench.index import UNFINISHED, Index, Job
 from umform.bench.limits import Disk
 from umform.bench.shelf import Shelf
@@ -110,7 +111,7 @@ class Queue:
     def folder_of(self, name: str) -> Path:
         """Folder of a job."""
         if not NAME.fullmatch(name):
-            raise InvalidValue("there is no such job", where="job", value=name[:40])
+            raise gone("there is no such job", "job", name)
         return self.folder / "jobs" / name
 
     def add(
@@ -313,5 +314,11 @@ def result_file(queue: Queue, name: str, file: str, known: Callable[[str], bool]
     folder = queue.folder_of(name)
     path = folder / file if file == SHAPE else folder / RESULTS / file
     if not known(file) or path.is_symlink() or not path.is_file():
-        raise UmformError("there is no such file", where="file", value=file[:60])
+        raise UmformError(
+            "there is no such file",
+            where="file",
+            value=file[:60],
+            cause="the job has not got so far, or writes no such file",
+            remedy="its page has links to its files",
+        )
     return path

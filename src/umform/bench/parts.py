@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from umform.bench.gone import gone
 from umform.bench.shelf import file_of
 from umform.bench.subprocess_json import json_of_module
 from umform.errors import InvalidValue, UmformError
@@ -68,13 +69,7 @@ class Parts:
         try:
             found: dict[str, Any] = json.loads(_record_of(self.path_of(name)).read_text(encoding="utf-8"))
         except (OSError, ValueError) as error:
-            raise InvalidValue(
-                "there is no such part",
-                where="part",
-                value=name[:80],
-                cause="it was deleted, or belongs to another folder of the bench",
-                remedy="choose another one, or upload the file again",
-            ) from error
+            raise gone("there is no such part", "part", name, "choose another one, or upload the file again") from error
         return {"name": name, **found}
 
     def rows(self) -> list[dict[str, Any]]:

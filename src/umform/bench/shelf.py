@@ -14,6 +14,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from umform.bench.gone import gone
 from umform.bench.subprocess_json import json_of_module
 from umform.errors import InvalidValue, UmformError
 from umform.io.atomic import write_text
@@ -69,12 +70,8 @@ class Shelf:
         try:
             text = self.path_of(kind, name).read_text(encoding="utf-8")
         except OSError as error:
-            raise InvalidValue(
-                "there is no such drawn tool",
-                where=kind,
-                value=name[:60],
-                cause="it was deleted, or belongs to another folder of the bench",
-                remedy="choose another one, or upload the drawing again",
+            raise gone(
+                "there is no such drawn tool", kind, name, "choose another one, or upload the drawing again"
             ) from error
         return _tool(kind, text)
 
@@ -155,7 +152,12 @@ def _tool(kind: str, text: str) -> DrawnPunch | DrawnDie:
         content = json.loads(text)
         profile = Profile([_segment(row) for row in content["segments"]], content["closed"])
     except (ValueError, KeyError, TypeError, IndexError) as error:
-        raise UmformError("the file of a drawn tool is broken", where=kind, cause=str(error)) from error
+        raise UmformError(
+            "the file of a drawn tool is broken",
+            where=kind,
+            cause=str(error),
+            remedy="delete the tool, and read its drawing again",
+        ) from error
     return DrawnPunch.of(profile, kind) if kind == "punch" else DrawnDie.of(profile, kind)
 
 
@@ -184,7 +186,9 @@ def file_of(coded: str, most: int, where: str, what: str, cause: str) -> bytes:
     try:
         content = base64.b64decode(coded, validate=True)
     except (binascii.Error, ValueError) as error:
-        raise InvalidValue("a file is sent as base64", where=where, cause=str(error)) from error
+        raise InvalidValue(
+            "a file is sent as base64", where=where, cause=str(error), remedy="choose the file again"
+        ) from error
     if not content or len(content) > most:
         raise InvalidValue(
             f"{what} has 1 to {most} bytes here",

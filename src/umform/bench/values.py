@@ -95,7 +95,11 @@ def _as_float(value: float) -> float:
 def _bends(rows: Any, spec: type = Bend, needed: str = "position") -> list[dict[str, Any]]:
     """The bends of a part, each checked by its Spec."""
     if not isinstance(rows, list) or not 1 <= len(rows) <= _MOST_BENDS:
-        raise InvalidValue(f"a part has 1 to {_MOST_BENDS} bends here", cause="no bend, or too many of them")
+        raise InvalidValue(
+            f"a part has 1 to {_MOST_BENDS} bends here",
+            cause="no bend, or too many of them",
+            remedy="add or delete rows of the table of bends",
+        )
     found, errors, known = [], [], parameters(spec)
     for number, row in enumerate(rows, start=1):
         where = f"bend {number}"
@@ -114,7 +118,7 @@ def _bends(rows: Any, spec: type = Bend, needed: str = "position") -> list[dict[
         if needed not in row:
             angle = needed == "angle"
             what = "the angle of a bend is missing" if angle else "the position of a bend is missing"
-            errors.append(InvalidValue(what, where=where))
+            errors.append(InvalidValue(what, where=where, cause="an empty field", remedy=known[needed].remedy))
         found.append(given)
     if not errors:
         for number, given in enumerate(found, start=1):
@@ -162,7 +166,12 @@ def _flange(number: int, value: Any, errors: list[InvalidValue]) -> float:
 
 def unknown(name: object) -> InvalidValue:
     """Error for a field that the form does not have."""
-    return InvalidValue("the form has no such field", where=str(name)[:60], cause="a form of another version")
+    return InvalidValue(
+        "the form has no such field",
+        where=str(name)[:60],
+        cause="a form of another version",
+        remedy="load the page again",
+    )
 
 
 def unfit(values: Mapping[str, Any]) -> Iterator[InvalidValue]:
@@ -171,20 +180,33 @@ def unfit(values: Mapping[str, Any]) -> Iterator[InvalidValue]:
     def given(*names: str) -> int:
         return sum(values.get(name) is not None for name in names)
 
-    if values["work"] == "bottom" and given("force_per_metre", "travel") != 1:
-        yield InvalidValue("give the force or the way beyond the bottom, one of them", where="travel")
-    if values["work"] == "bend" and given("angle", "stroke") != 1:
-        yield InvalidValue("give the angle or the stroke, one of them", where="angle")
+    def not_one(what: str, first: str, second: str) -> Iterator[InvalidValue]:
+        if (count := given(first, second)) != 1:
+            cause, remedy = "none of them is given", "fill in one field"
+            if count:
+                cause, remedy = "both are given", "leave one of them out"
+            yield InvalidValue(what, where=second, cause=cause, remedy=remedy)
+
+    if values["work"] == "bottom":
+        yield from not_one("give the force or the way beyond the bottom, one of them", "force_per_metre", "travel")
+    if values["work"] == "bend":
+        yield from not_one("give the angle or the stroke, one of them", "stroke", "angle")
     if values["work"] == "correct" and given("stroke", "measured_angle") != 2:
         yield InvalidValue(
             "a measured bend has a stroke and an angle",
             where="measured_angle" if given("stroke") else "stroke",
             cause="one of them is missing",
+            remedy="fill in both fields",
         )
     if values["work"] == "flat" and not given("part"):
         yield InvalidValue("choose the part", where="part", remedy="a STEP file of one bent part")
     if given("yield_stress", "tensile_strength") == 1 or (given("uniform_elongation") and not given("yield_stress")):
-        yield InvalidValue("a coil has both, Re and Rm", where="yield_stress")
+        yield InvalidValue(
+            "a coil has both, Re and Rm",
+            where="yield_stress",
+            cause="one of them is missing",
+            remedy="both from the certificate, or neither: usual values of the metal",
+        )
     elif given("yield_stress", "tensile_strength") == 2:
         yield from _exchanged(values["yield_stress"], values["tensile_strength"])
 

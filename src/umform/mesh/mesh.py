@@ -15,12 +15,11 @@ from numpy.typing import ArrayLike, NDArray
 from umform.errors import EmptySet, InvalidValue, NotFinite, UnknownSet, WrongCellType
 from umform.mesh.numbers import unique
 from umform.mesh.quality import check_cells
+from umform.spec.types import FARTHEST
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.int32]
 
-#: Largest coordinate: volumes and their squares stay finite.
-_FARTHEST = 1e50
 #: Names of the faces of a cell, in the order of their numbers.
 FACES = ("lower", "upper", "r0", "r1", "s0", "s1")
 
@@ -88,11 +87,11 @@ class Mesh:
                 cause="points of a plane, or coordinates as rows",
                 remedy="a row x, y, z for each node: np.column_stack([x, y, z])",
             )
-        near = (np.abs(points) <= _FARTHEST).all(axis=1)
+        near = (np.abs(points) <= FARTHEST).all(axis=1)
         if not near.all():
             node = int(np.flatnonzero(~near)[0])
             raise NotFinite(
-                f"a node has no finite position, or one beyond {_FARTHEST:g}",
+                f"a node has no finite position, or one beyond {FARTHEST:g}",
                 where=f"node {node}",
                 value=points[node],
                 cause="a division by zero, a file that was cut, or a size with a wrong exponent",

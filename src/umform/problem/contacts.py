@@ -15,7 +15,7 @@ from umform.model import Model
 from umform.model.contact import Contact, ContactOptions, friction
 from umform.model.tools.tool import Motion
 from umform.model.tools.tool import Tool as RigidTool
-from umform.problem.notes import Discriminator, Field, InTable, Refusal, Tag
+from umform.problem.notes import Discriminator, Field, InTable, Tag
 from umform.problem.parts import Name, Part, Positive, Vector
 from umform.problem.reading import write_as
 from umform.problem.selection import Selection, faces_of
@@ -43,12 +43,22 @@ class MotionPart(Part):
     def __post_init__(self) -> None:
         """Refuse times that do not increase, and tables of other lengths."""
         if any(b <= a for a, b in pairwise(self.time)):
-            raise Refusal("motion", "the times of a motion must increase")
+            raise InvalidValue(
+                "the times of a motion must increase",
+                where="time",
+                value=self.time,
+                cause="a time twice, or out of order",
+                remedy="sort the rows by time; a jump takes a short time",
+            )
         for name in ("translation", "rotation"):
             rows = getattr(self, name)
             if rows is not None and len(rows) != len(self.time):
-                text = f"a motion needs one {name} for each time: there are {len(rows)} for {len(self.time)}"
-                raise Refusal("motion", text)
+                raise InvalidValue(
+                    f"a motion needs one {name} for each time: there are {len(rows)} for {len(self.time)}",
+                    where=name,
+                    cause="a row too many, or one left out",
+                    remedy="one row of three numbers for each time",
+                )
 
     def build(self, start: float) -> Motion:
         """Motion as a picklable function of the time of a model, which is ``start`` at the beginning of the deck."""

@@ -11,10 +11,10 @@ from typing import Annotated, Any, Literal
 import numpy as np
 
 from umform import mesh
-from umform.errors import InvertedElement, MeshError, WrongNodeOrder
+from umform.errors import InvalidValue, InvertedElement, MeshError, WrongNodeOrder
 from umform.mesh import Floats, Mesh
 from umform.problem.material import MaterialPart
-from umform.problem.notes import Built, Discriminator, Field, Refusal, Tag
+from umform.problem.notes import Built, Discriminator, Field, Tag
 from umform.problem.outline import Outlined
 from umform.problem.parts import Name, Part, Positive, Vector, tagged_by, word_or_array
 
@@ -37,11 +37,29 @@ class Strip(Part, of=mesh.strip, leave=("cell",)):
         flat = self.of_spec()
         _refuse_too_many(prod(flat["cells"]) * flat["layers"])
         if min(flat["grading"]) <= 0:
-            raise Refusal("grading", "the ratios of a grading must be positive")
+            raise InvalidValue(
+                "the ratios of a grading must be positive",
+                where="grading",
+                value=flat["grading"],
+                cause="a sign",
+                remedy="last size over first size, as [0.25, 1.0]",
+            )
         if self.rolled is not None and self.rolled <= 0.5 * flat["thickness"]:
-            raise Refusal("rolled", "the radius of a rolled strip must be more than half of its thickness")
+            raise InvalidValue(
+                "the radius of a rolled strip must be more than half of its thickness",
+                where="rolled",
+                value=self.rolled,
+                cause="another unit, or the curvature in place of the radius",
+                remedy=f"more than {0.5 * flat['thickness']:g}, the radius of the mid-surface",
+            )
         if self.rolled is not None and flat["length"] >= 2 * np.pi * self.rolled:
-            raise Refusal("rolled", "a rolled strip must be shorter than the full circle")
+            raise InvalidValue(
+                "a rolled strip must be shorter than the full circle",
+                where="length",
+                value=flat["length"],
+                cause="its ends would overlap",
+                remedy=f"less than {2 * np.pi * self.rolled:.4g}, or a larger radius",
+            )
 
     def build(self, cell: str, folder: Path) -> Mesh:
         """Mesh of cells of a type."""
@@ -70,7 +88,13 @@ class Grid(Part, of=mesh.grid, leave=("cell",)):
         of_axes = {name: lines for name, lines in self.of_spec().items() if name != "thickness"}
         for name, lines in of_axes.items():
             if any(b <= a for a, b in pairwise(lines)):
-                raise Refusal("lines", f"the lines of a grid must increase, those of {name} do not")
+                raise InvalidValue(
+                    f"the lines of a grid must increase, those of {name} do not",
+                    where=name,
+                    value=lines,
+                    cause="a number twice, or out of order",
+                    remedy="sort them, each once",
+                )
         _refuse_too_many(prod(len(lines) - 1 for lines in of_axes.values()))
 
     def build(self, cell: str, folder: Path) -> Mesh:
@@ -105,7 +129,13 @@ class Ring(Part, of=mesh.ring, leave=("cell",)):
         """Refuse a rim within the hole, and too many cells."""
         flat = self.of_spec()
         if flat["inner"] >= flat["outer"]:
-            raise Refusal("ring", "the outer radius of a ring must be larger than the inner one")
+            raise InvalidValue(
+                "the outer radius of a ring must be larger than the inner one",
+                where="outer",
+                value=flat["outer"],
+                cause="the two exchanged, or a width in place of a radius",
+                remedy=f"more than {flat['inner']:g}",
+            )
         _refuse_too_many(4 * prod(flat["cells"]) * flat["layers"])
 
     def build(self, cell: str, folder: Path) -> Mesh:
@@ -167,7 +197,12 @@ class Shell(Part, of=mesh.thicken, leave=("points", "quads", "thickness", "sets"
 
 def _refuse_too_many(cells: int) -> None:
     if cells > _MOST_CELLS:
-        raise Refusal("cells", f"{cells} cells are more than {_MOST_CELLS}")
+        raise InvalidValue(
+            f"{cells} cells are more than {_MOST_CELLS}",
+            where="cells",
+            cause="sizes in place of numbers, or a typing error",
+            remedy="fewer cells in each direction",
+        )
 
 
 #: Keys that distinguish a surface to be thickened from hexahedra.
@@ -209,7 +244,13 @@ def _of_constant_size(part: Any, folder: Path) -> Any:
     """Refuse sizes that follow the tools."""
     del folder
     if isinstance(part, Outlined) and part.turn is not None:
-        raise Refusal("turn", "elements that follow the tools need a deck with one sheet")
+        raise InvalidValue(
+            "elements that follow the tools need a deck with one sheet",
+            where="turn",
+            value=part.turn,
+            cause="this deck has several",
+            remedy="leave turn out; size is that of all elements of this sheet",
+        )
     return part
 
 

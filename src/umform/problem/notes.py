@@ -72,17 +72,3 @@ class Built:
 
     kind: type
     build: Callable[[Any, Path], Any]
-
-
-class Refusal(Exception):
-    """Values of a table that do not belong together.
-
-    Attributes
-    ----------
-    kind : str
-        Kind of the error.
-    """
-
-    def __init__(self, kind: str, text: str) -> None:
-        super().__init__(text)
-        self.kind = kind

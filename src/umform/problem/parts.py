@@ -83,7 +83,12 @@ class Part:
             elif one.default is not MISSING:
                 values[one.name] = one.default
             else:
-                raise InvalidValue("this key is missing", where=f"{type(self).__name__}.{one.name}")
+                raise InvalidValue(
+                    f"the key {one.name} is missing",
+                    where=type(self).__name__,
+                    cause="it has no default",
+                    remedy=f"{type(self).__name__}({one.name}=..., ...)",
+                )
         self.__post_init__()
 
     def __post_init__(self) -> None:
@@ -91,7 +96,7 @@ class Part:
 
         Raises
         ------
-        Refusal
+        InvalidValue
         """
 
     def __setattr__(self, name: str, value: Any) -> None:

@@ -57,7 +57,7 @@ def placed(error: Exception, path: Path, source: Source) -> UmformError:
     last = error.where.rpartition(".")[2]
     plain = isinstance(error.value, str | int | float)  # arrays are not compared
     named = [last] if last in keys else [key for key, given in keys.items() if plain and given == error.value]
-    if named and isinstance(keys[named[0]], str | int | float):
+    if named and not isinstance(keys[named[0]], dict):
         error.where = source.place((*path, named[0]))
     else:
         inner = f" ({' '.join(error.where.splitlines())})" if error.where and error.where != path[-1] else ""

@@ -22,7 +22,7 @@ from umform.model.contact.kept_history import KeptContact
 from umform.model.contact.sheets import SheetContact
 from umform.model.transfer.rigid_motion import RigidMotion
 from umform.problem.errors import DeckError, DeckKey
-from umform.problem.notes import Field, Refusal
+from umform.problem.notes import Field
 from umform.problem.parts import Name, Part, Vector
 from umform.problem.profiles import ProfilePart, profile_of
 from umform.problem.source import Source
@@ -159,7 +159,13 @@ class Placement(Part):
         """Refuse a matrix that is no rotation."""
         Q = np.array(self.rotation)
         if not np.allclose(Q @ Q.T, np.eye(3), atol=1e-9) or np.linalg.det(Q) < 0.0:
-            raise Refusal("rotation", "the rows of a rotation are orthogonal unit vectors, right-handed")
+            raise InvalidValue(
+                "the rows of a rotation are orthogonal unit vectors, right-handed",
+                where="rotation",
+                value=self.rotation,
+                cause="rounded digits, an angle, or a mirror image",
+                remedy="the cosines with all digits: [[0, -1, 0], [1, 0, 0], [0, 0, 1]] turns by 90 degrees about z",
+            )
 
     @property
     def motion(self) -> RigidMotion:

@@ -21,7 +21,7 @@ from annotated_types import Ge, Gt, Le, Lt, MaxLen, MinLen
 
 from umform.errors import UmformError
 from umform.problem.errors import DeckKey
-from umform.problem.notes import Built, Discriminator, Field, Instance, InTable, Later, Refusal, Tag
+from umform.problem.notes import Built, Discriminator, Field, Instance, InTable, Later, Tag
 from umform.spec import InDeck, OneOf, Parameter, deck_keys, hint_of, note_of, parameters
 
 #: Folder of a deck (``folder``), and whether it is trusted (``trust``).
@@ -200,7 +200,7 @@ def _built(note: Built, inner: Any, value: Any, context: Context) -> Any:
     part = read(inner, value, context)
     try:
         return note.build(part, Path(context.get("folder", ".")))
-    except (*REFUSED, Refusal):
+    except REFUSED:
         raise Unfit from None
 
 
@@ -233,7 +233,7 @@ def _object(spec: Any, within: type | None, value: Any, context: Context) -> Any
         raise Unfit
     try:
         return made(spec, within, given, context)
-    except (*REFUSED, Refusal):
+    except REFUSED:
         raise Unfit from None
 
 

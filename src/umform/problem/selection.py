@@ -8,9 +8,9 @@ from typing import Annotated, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.errors import EmptySet
+from umform.errors import EmptySet, InvalidValue
 from umform.mesh import Ids, Mesh
-from umform.problem.notes import Discriminator, Field, Refusal, Tag
+from umform.problem.notes import Discriminator, Field, Tag
 from umform.problem.parts import Part, Vector
 
 #: Thickness added to planes of a box, as a fraction of the size of the mesh.
@@ -63,7 +63,12 @@ class Box(Part):
         """Refuse corners in the wrong order."""
         lowest, highest = np.array(self.min or [-np.inf] * 3), np.array(self.max or [np.inf] * 3)
         if not (lowest <= highest).all():
-            raise Refusal("box", "the lowest corner of a box must lie below its highest one")
+            raise InvalidValue(
+                "the lowest corner of a box must lie below its highest one",
+                value=f"min = {self.min}, max = {self.max}",
+                cause="the two exchanged, or a sign",
+                remedy="in each direction min <= max; -inf and inf leave a side open",
+            )
 
     def _inside(self, mesh: Mesh) -> NDArray[np.bool_]:
         hair = _HAIR * float(np.ptp(mesh.points, axis=0).max())

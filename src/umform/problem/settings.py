@@ -6,7 +6,8 @@ from dataclasses import field
 from typing import Annotated, Literal
 
 from umform.analysis.newton.options import NewtonOptions
-from umform.problem.notes import Field, Refusal
+from umform.errors import InvalidValue
+from umform.problem.notes import Field
 from umform.problem.parts import Pair, Part, Positive
 from umform.results.history import FRAMES
 
@@ -62,13 +63,23 @@ class Output(Part):
             return
         minor = [pair[0] for pair in self.forming_limit]
         if len(minor) < 2 or sorted(set(minor)) != minor:
-            text = "a forming limit has two points or more, pairs of minor and major strain, the minor ones ascending"
-            raise Refusal("forming_limit", text)
+            raise InvalidValue(
+                "a forming limit has two points or more, pairs of minor and major strain, the minor ones ascending",
+                where="forming_limit",
+                value=self.forming_limit,
+                cause="a point twice or out of order, or major strains first",
+                remedy="[[-0.2, 0.5], [0.0, 0.26], [0.2, 0.36]], or Keeler-Brazier",
+            )
         from umform.results.forming.limits import LARGEST_STRAIN  # NumPy loads slowly
 
         if any(abs(strain) > LARGEST_STRAIN for pair in self.forming_limit for strain in pair):
-            text = "the strains of a forming limit are logarithmic, not per cent: 0.262 = ln(1.3) for 30 %"
-            raise Refusal("forming_limit", text)
+            raise InvalidValue(
+                "the strains of a forming limit are logarithmic, not per cent",
+                where="forming_limit",
+                value=self.forming_limit,
+                cause=f"one is larger than {LARGEST_STRAIN:g}",
+                remedy="0.262 = ln(1.3) for 30 %",
+            )
 
 
 class Derivatives(Part):

@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 from typing import Annotated, Literal
 
 from umform.analysis import steps
+from umform.errors import InvalidValue
 from umform.model.contact import Contact
 from umform.model.supports.support import Support
 from umform.model.terms.control import Control
-from umform.problem.notes import Field, Refusal
+from umform.problem.notes import Field
 from umform.problem.parts import Name, Pair, Part
 from umform.spec.types import Increments
 
@@ -39,6 +40,17 @@ _OF_A_RELEASE = 30
 _OF_CLOSING = 10
 
 
+def _twice(what: str, where: str, value: object) -> InvalidValue:
+    """Error for two keys of which one is needed."""
+    return InvalidValue(
+        f"{what} are both given",
+        where=where,
+        value=value,
+        cause="each sets the size of increments",
+        remedy="one of them",
+    )
+
+
 class Move(Part, of=steps.Move, leave=("control", "to", "steps", "follow")):
     """Move one or more controls along straight lines."""
 
@@ -55,7 +67,7 @@ class Move(Part, of=steps.Move, leave=("control", "to", "steps", "follow")):
     def __post_init__(self) -> None:
         """Refuse a number of increments together with a pace."""
         if self.increments is not None and self.pace is not None:
-            raise Refusal("value_error", "Value error, give the number of increments or their pace, not both")
+            raise _twice("the number of increments and their pace", "increments", self.increments)
 
     def build(self, named: Named) -> steps.Step:
         """The step."""
@@ -87,8 +99,9 @@ class Release(_Controlled, of=steps.Release, leave=("control",), called={"steps"
 
     def __post_init__(self) -> None:
         """Refuse a first increment together with a number of them."""
-        if self.of_spec()["increment"] is not None and self.of_spec()["steps"] is not None:
-            raise Refusal("value_error", "Value error, give the first increment or the number of increments, not both")
+        given = self.of_spec()
+        if given["increment"] is not None and given["steps"] is not None:
+            raise _twice("the number of increments and the first one", "increments", given["steps"])
 
     def build(self, named: Named) -> steps.Step:
         """The step."""
@@ -132,7 +145,11 @@ class Free(Part, of=steps.Free, leave=("support", "on"), called={"steps": "incre
     def __post_init__(self) -> None:
         """Refuse a step that frees nothing."""
         if self.support is None and not self.contacts:
-            raise Refusal("free", "a step frees a support, or contacts, or both")
+            raise InvalidValue(
+                "a step frees a support, or contacts, or both",
+                cause="neither is given",
+                remedy='support = "clamp", or contacts = ["die", "holder"]',
+            )
 
     def build(self, named: Named) -> steps.Step:
         """The step."""

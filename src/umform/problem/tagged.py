@@ -24,7 +24,7 @@ from pydantic_core import PydanticCustomError
 
 from umform.problem.keys import keys_of, plain, summary
 from umform.problem.notations import one_of_notations, one_of_tags
-from umform.problem.notes import Built, Discriminator, Field, Instance, InTable, Later, Note, Refusal
+from umform.problem.notes import Built, Discriminator, Field, Instance, InTable, Later, Note
 from umform.problem.own_classes import own_class
 from umform.problem.parts import Part
 from umform.problem.reading import REFUSED, UNIONS, WRITTEN, around, made, needed, own, written_as
@@ -216,8 +216,6 @@ def refused() -> Iterator[None]:
     """Block that makes an object: its error becomes one of pydantic, so that it gets its place in the deck."""
     try:
         yield
-    except Refusal as refusal:
-        raise PydanticCustomError(refusal.kind, "{text}", {"text": str(refusal)}) from None
     except REFUSED as error:
         raise PydanticCustomError("object", "{error}", {"error": error}) from None
 

@@ -13,6 +13,9 @@ _MISSING = "a sign, or a missing value"
 #: Default of a parameter that follows from others.
 FOLLOWS: Any = None
 
+#: Largest coordinate: volumes and their squares stay finite.
+FARTHEST = 1e50
+
 #: A length in mm.
 Length = Annotated[float, Gt(0.0), About("mm", cause=_MISSING)]
 #: A length of a sheet or of tools in mm, not of a gap.

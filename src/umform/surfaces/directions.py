@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from umform.errors import InvalidValue, NotFinite
 from umform.spec import Checked
+from umform.spec.types import FARTHEST
 
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
@@ -82,12 +83,12 @@ def rotation_matrix(vector: ArrayLike) -> NDArray[np.float64]:
 def point(values: ArrayLike, where: str = "point", size: int = 3) -> list[float]:
     """Coordinates of a point as a list of finite numbers."""
     vector = as_numbers(values)
-    if vector.shape != (size,) or not np.isfinite(vector).all():
+    if vector.shape != (size,) or not (np.abs(vector) <= FARTHEST).all():
         raise NotFinite(
             f"a point needs {'two' if size == 2 else 'three'} finite numbers",
             where=where,
             value=values,
-            cause="another count of numbers, nan or inf",
+            cause=f"another count of numbers, nan, inf, or a number beyond {FARTHEST:g}",
             remedy="give its coordinates as finite numbers",
         )
     return [float(c) for c in vector]
@@ -110,12 +111,12 @@ def lengths(values: ArrayLike, where: str = "size", size: int = 3) -> list[float
 
 def positive(value: float, where: str, what: str = "radius") -> float:
     """A length that is finite and greater than zero."""
-    if not (np.isfinite(value) and value > 0):
+    if not 0.0 < value <= FARTHEST:
         raise InvalidValue(
             f"the {what} must be positive",
             where=where,
             value=value,
-            cause="a sign, a missing value, nan or inf",
+            cause=f"a sign, a missing value, nan, or beyond {FARTHEST:g}",
             remedy="give a length above zero",
         )
     return float(value)
@@ -123,12 +124,12 @@ def positive(value: float, where: str, what: str = "radius") -> float:
 
 def not_negative(value: float, where: str, what: str = "radius") -> float:
     """A length that is finite and at least zero."""
-    if not (np.isfinite(value) and value >= 0):
+    if not 0.0 <= value <= FARTHEST:
         raise InvalidValue(
             f"the {what} must not be negative",
             where=where,
             value=value,
-            cause="a sign, nan or inf",
+            cause=f"a sign, nan, or beyond {FARTHEST:g}",
             remedy="give a length, or zero",
         )
     return float(value)

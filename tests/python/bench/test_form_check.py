@@ -241,6 +241,23 @@ def test_what_cannot_be_meant_is_refused_by_its_name(values, where, said):
     assert any(row["where"] == where and said in row["what"] for row in found["problems"]), found["problems"]
 
 
+@pytest.mark.parametrize(
+    ("values", "where", "cause", "remedy"),
+    [
+        ({"work": "bottom"}, "travel", "none of them", "fill in one field"),
+        ({"work": "bend", "angle": 90.0, "stroke": 3.0}, "angle", "both are given", "leave one of them out"),
+        ({"yield_stress": 160.0}, "yield_stress", "one of them is missing", "both from the certificate"),
+        ({"work": "correct", "stroke": 3.0}, "measured_angle", "one of them is missing", "fill in both fields"),
+        ({"work": "sequence", "bends": [{"angle": 90.0}]}, "bend 1", "an empty field", "in mm from the left end"),
+        ({"work": "sequence", "bends": []}, "bends", "no bend", "add or delete rows"),
+        ({"nothing": 1.0}, "nothing", "another version", "load the page again"),
+    ],
+)
+def test_cause_and_remedy_are_said(values, where, cause, remedy):
+    (row,) = (row for row in look(values)["problems"] if row["where"] == where)
+    assert cause in row["cause"] and remedy in row["remedy"]
+
+
 def test_value_and_cause_of_a_small_blank_are_diameters():
     (problem,) = look({"work": "cup", "cup_blank": 60.0})["problems"]
     assert problem["value"] == "60.0" and "a diameter of 82.4" in problem["cause"]

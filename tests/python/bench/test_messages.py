@@ -50,6 +50,7 @@ MAKERS = {
     "length",
     "About",
     "unreachable",
+    "gone",
     "_level",
     "DiskFull",
     "NoAnswer",

@@ -44,6 +44,9 @@ from umform.cli import app
         (["--stroke", "2", "--die-dxf", "no.dxf", "--opening", "20"], "follows from the drawing"),
         (["--stroke", "2", "--punch-layer", "A"], "a layer without its drawing"),
         (["--stroke", "2", "--span", "3000"], "does not deflect"),
+        (["--stroke", "2", "--bed-thickness", "0"], "the thickness of the plate of the bed must be positive"),
+        (["--stroke", "2", "--punch-width", "2"], "narrower than its round tip"),
+        (["--stroke", "2", "--punch-width", "1e300"], "beyond 1e+50"),
         (["--stroke", "2", "--span", "3000", "--ram-height", "900"], "--ram-height and --ram-thickness"),
         (["--stroke", "2", "--span", "3000", "--bed-height", "900", "--bed-thickness", "50"], "needs its length"),
         (
@@ -85,6 +88,7 @@ def test_the_command_refuses(typed, message, tmp_path):
         ("--curve", "nan,0.004,0.22"),
         ("--yield-stress", "0"),
         ("--stroke", "0"),
+        ("--punch-width", "1e-9"),
     ],
 )
 def test_a_wrong_number_is_refused_with_its_option_before_the_run(option, value, tmp_path, monkeypatch):

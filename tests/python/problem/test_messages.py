@@ -5,6 +5,23 @@ import pytest
 from umform.errors import FileProblem
 from umform.problem import DeckError, Problem, load
 
+STRIP = 'generator = "strip"\nlength = 10.0\nwidth = 2.0\nthickness = 1.0\ncells = [4, 2]'
+GRID = 'generator = "grid"\nx = [0, 2, 1]\ny = [0, 1]\nz = [0, 1]'
+RING = 'generator = "ring"\ninner = 5\nouter = 4\nthickness = 1\ncells = [4, 4]'
+MOVE = 'kind = "move"\nto = { pull = 0.1 }\nincrements = 2'
+
+
+def limit(points):
+    """A forming limit instead of the last line."""
+    return MOVE, f"{MOVE}\n[output]\nforming_limit = {points}", 24, "output.forming_limit"
+
+
+def motion(times):
+    """A motion of one row instead of the last line."""
+    tool = '[tools.die]\nshape = "Plane"\n[contacts.die]\ntool = "die"\nfaces = "lower"'
+    return MOVE, f"{MOVE}\n{tool}\nmotion = {{ time = {times}, translation = [[0, 0, 0]] }}", 28
+
+
 #: What is written in the strip instead, and what is said: line, key, value, a word of the cause and of the remedy.
 SLIPS = {
     "unknown key": ("length = 10.0", "lenght = 10.0", 4, "mesh.lenght", "10.0", "length", "known keys"),
@@ -34,7 +51,44 @@ SLIPS = {
         "",
         "ANS3DEAS",
     ),
-    "too many cells": ("[4, 2]", "[90000, 9000]", 2, "mesh", None, "", ""),
+    "too many cells": ("[4, 2]", "[90000, 9000]", 7, "mesh.cells", None, "sizes", "fewer cells"),
+    "negative grading": ("[4, 2]", "[4, 2]\ngrading = [1.0, -2.0]", 8, "mesh.grading", "(1.0, -2.0)", "sign", "size"),
+    "tight roll": ("[4, 2]", "[4, 2]\nrolled = 0.2", 8, "mesh.rolled", "0.2", "curvature", "more than 0.5"),
+    "roll over itself": ("[4, 2]", "[4, 2]\nrolled = 1.0", 4, "mesh.length", "10.0", "overlap", "less than 6.283"),
+    "lines out of order": (STRIP, GRID, 4, "mesh.x", "[0.0, 2.0, 1.0]", "out of order", "sort them"),
+    "radii exchanged": (STRIP, RING, 5, "mesh.outer", "4.0", "exchanged", "more than 5"),
+    "corners exchanged": (
+        '"x0"',
+        "{ min = [1, 0, 0], max = [0, 0, 0] }",
+        14,
+        "supports[0].nodes",
+        None,
+        "",
+        "min <= max",
+    ),
+    "increments and pace": (
+        "increments = 2",
+        "increments = 2\npace = {}",
+        22,
+        "steps[0].increments",
+        "2",
+        "",
+        "one of",
+    ),
+    "increments and increment": (
+        MOVE,
+        'kind = "release"\ncontrol = "pull"\nincrements = 2\nincrement = 0.1',
+        22,
+        "steps[0].increments",
+        "2",
+        "each sets the size",
+        "one of them",
+    ),
+    "nothing freed": (MOVE, 'kind = "free"', 19, "steps[0]", None, "neither is given", "contacts = ["),
+    "limit of one point": (*limit("[[0.0, 0.3]]"), "[(0.0, 0.3)]", "major strains first", "Keeler-Brazier"),
+    "limit in per cent": (*limit("[[-20, 50], [20, 40]]"), None, "larger than 3", "ln(1.3)"),
+    "times out of order": (*motion("[0, 0]"), "motion.time", "[0.0, 0.0]", "out of order", "sort the rows"),
+    "row of a motion left out": (*motion("[0, 1]"), "motion.translation", None, "left out", "for each time"),
     "constants of two kinds": ("nu = 0.3", "mu = 0.3", 8, "material", None, "", ""),
     "no way": ('"x1"', "{ neerest = [0, 0, 0] }", 17, "controls.pull.nodes", None, "", ""),
     "bad name": ("{ pull", '{ "a b" = 1, pull', 21, "steps[0].to", "a b", "", ""),

@@ -13,7 +13,7 @@ from command_line import umform
 
 import umform as uf
 from umform.errors import UmformError
-from umform.problem import load
+from umform.problem import Problem, load
 from umform.problem.check import before_run
 from umform.problem.findings import Level
 from umform.problem.measured import Taken
@@ -192,6 +192,12 @@ def test_draw_in_is_measured_from_the_blank_wherever_the_part_is_placed(drawn):
     np.testing.assert_allclose(found[1:], [found[0]] * 2, atol=1e-12)
     assert values[0] < -0.03
     assert values[1] == pytest.approx(values[0], rel=1e-9)
+
+
+@pytest.mark.parametrize("row", ["[0.0, 0.0, -1.0]", "[0.0, 0.0, 0.999]"])
+def test_a_placement_is_a_rotation(row, drawn):
+    with pytest.raises(UmformError, match=r"right-handed(.*\n)*.*placement.rotation(.*\n)*.*cosines with all digits"):
+        Problem.read(PLACED.replace("[0.0, 0.0, 1.0]]", f"{row}]"), folder=drawn)
 
 
 @pytest.mark.parametrize("control", ["", 'control = "left"'])

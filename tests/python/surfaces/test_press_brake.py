@@ -130,6 +130,8 @@ def test_a_ready_tool_is_its_profile(rng):
         (lambda: WipingDie(math.inf), "at least 0"),
         (lambda: Punch(1, 0), "between 0 and 180"),
         (lambda: Punch(2.0, 90, width=2.5), "wider than its round tip"),
+        (lambda: Punch(2.0, 90, width=1e300), r"finite numbers(.*\n)*.*beyond 1e\+50"),
+        (lambda: Punch(1e300, 90), r"finite numbers(.*\n)*.*beyond 1e\+50"),
     ],
 )
 def test_tools_that_are_none_are_refused(make, message):

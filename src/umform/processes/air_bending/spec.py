@@ -425,6 +425,14 @@ def _check_room(case: AirBending) -> None:
             if _like_inches(case)
             else f"a smaller {name}, or a wider opening",
         )
+    if case.punch_width is not None and case.punch_width <= tip:
+        raise _unfit(
+            case,
+            "punch_width",
+            "the body of the punch is narrower than its round tip",
+            f"the tip is round on a width of {tip:.4g}",
+            "a wider body, or a smaller punch_radius",
+        )
     flank = 0.5 * case.opening / math.sin(math.radians(0.5 * case.die_angle))  # from the top to the apex of the V
     setback = case.die_radius * math.tan(math.radians(0.25 * (180.0 - case.die_angle)))
     if setback >= flank:

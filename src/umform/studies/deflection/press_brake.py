@@ -33,11 +33,11 @@ class PressBrake:
     ram_height: Length | None = None
     """Height of the plate of the ram; without it the ram is rigid."""
     ram_thickness: Length | None = None
-    """Its thickness."""
+    """Thickness of the plate of the ram."""
     bed_height: Length | None = None
     """Height of the plate of the bed; without it the bed is rigid."""
     bed_thickness: Length | None = None
-    """Its thickness."""
+    """Thickness of the plate of the bed."""
     crowning: Annotated[float, About("mm", cause="a parameter of the machine in place of a height")] = 0.0
     """Rise of the bed in the middle of the span, a parabola that is zero at the side frames."""
 
