@@ -74,7 +74,7 @@ def compensate(
 
     print_warnings_once()
     said: list[str] = []
-    with deck_errors("by", "want"):
+    with deck_errors("by", "want", "within"):
         problem = read(deck, changes or (), trust)
         place = results_folder(out, f"{deck.stem}-compensated", (TABLE,), overwrite=overwrite, say=said.append)
         if bool(want) == bool(shape) or (within is not None and not shape):

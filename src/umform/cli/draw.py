@@ -210,13 +210,16 @@ def _limit(file: Path | None) -> Any:
     """The forming limit of a CSV file; its first row may be a heading."""
     if file is None:
         return None
+    import warnings
+
     import numpy as np
 
     from umform.errors import FileProblem, InvalidValue
     from umform.results.forming import LimitTable
 
     try:
-        rows = np.genfromtxt(file, delimiter=",", comments="#")
+        with warnings.catch_warnings(action="ignore"):  # of an empty file
+            rows = np.genfromtxt(file, delimiter=",", comments="#")
         if rows.ndim == 2:
             known = np.isfinite(rows).all(axis=1)
             if not known[1:].all():

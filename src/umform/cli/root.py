@@ -83,7 +83,9 @@ class Commands(TyperGroup):
             raise  # the reader stopped: `main` ends silently
         except OSError as error:
             _show_traceback(ctx)
-            say_of(error, str(write_problem(Path(error.filename or "a file"), error)))
+            say_of(
+                error, str(write_problem(Path(error.filename or "a file"), error, "a file cannot be read or written"))
+            )
             raise typer.Exit(1) from error
         except Exception as error:
             if is_usage_error(error):

@@ -20,26 +20,32 @@ from umform.problem.source import Source
 from umform.problem.tagged import OWN, table, texts
 
 _BEYOND = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
-_CAUSES = dict.fromkeys(_BEYOND, "a sign, another unit, or a typing error") | {
-    "float_type": "a word or a truth value",
+_TABLES = ("dict_type", "model_type", "model_attributes_type")
+_CAUSES = {
+    **dict.fromkeys(_BEYOND, "a sign, another unit, or a typing error"),
+    **dict.fromkeys(_TABLES, "a value where keys should be"),
+    **dict.fromkeys(("tuple_type", "list_type"), "one value, or a table, in place of an array"),
+    "float_type": "a word, a truth value, or hundreds of digits",
     "int_type": "a fraction, a word or a truth value",
     "finite_number": "inf or nan",
     "string_type": "a value without quotes",
+    "string_too_short": "nothing between the quotes",
     "string_pattern_mismatch": "a letter that does not belong there",
     "too_long": "an entry too many, or a decimal comma, which makes two numbers of one",
 }
-_REMEDIES = dict.fromkeys(_BEYOND, "write a number within the bound") | {
+_TABLE = "write a table: a header, or keys between braces"
+_REMEDIES = {
+    **dict.fromkeys(_BEYOND, "write a number within the bound"),
+    **dict.fromkeys(_TABLES, _TABLE),
     "float_type": "write a number, without quotes",
     "int_type": "write a whole number, without a point and without quotes",
     "bool_type": "write true or false, without quotes",
     "string_type": "write it in quotes",
+    "string_too_short": "write the word, or leave the key out",
     "string_pattern_mismatch": "names begin with a letter and go on with letters, digits, _ and -; directions are "
     "letters such as xz",
     "tuple_type": "write an array: [0.0, 0.0, 1.0]",
     "list_type": "write an array: [0.0, 1.0]",
-    "dict_type": "write a table: a header, or keys between braces",
-    "model_type": "write a table: a header, or keys between braces",
-    "model_attributes_type": "write a table: a header, or keys between braces",
     "finite_number": "write a finite number",
     "too_long": "numbers have a decimal point, entries a comma between them: [25.0, 0.5]",
 }
@@ -130,8 +136,8 @@ def _wrong_kind(source: Source, path: Path, given: Any, context: Mapping[str, An
             "this should be a table",
             where=source.place(path),
             value=shortened(given),
-            cause="a value where keys should be",
-            remedy=_REMEDIES["dict_type"],
+            cause=_CAUSES["dict_type"],
+            remedy=_TABLE,
         )
     if key not in given:
         near = next((word for word in given if nearest(word, [key])), "")

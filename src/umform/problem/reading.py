@@ -146,9 +146,12 @@ def _limits(notes: Iterable[Any]) -> Iterator[tuple[str, Any]]:
 
 
 def _number(value: Any, *, finite: bool) -> float:
-    if type(value) not in (int, float) or (finite and not math.isfinite(value)):
-        raise Unfit
-    return float(value)
+    try:
+        if type(value) not in (int, float) or (finite and not math.isfinite(value)):
+            raise Unfit
+        return float(value)
+    except OverflowError:  # a whole number of hundreds of digits
+        raise Unfit from None
 
 
 def _only(fit: Sequence[Any]) -> Any:

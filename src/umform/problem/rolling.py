@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -71,7 +72,8 @@ def direction(part: str | Vector | AtAngle | EachCell, folder: Path) -> Rolling:
 def _vectors(path: Path) -> np.ndarray[Any, np.dtype[np.float64]]:
     remedy = "a CSV file with three numbers in each row, one row for each cell, and no header"
     try:
-        rows = np.loadtxt(path, delimiter=",", ndmin=2)
+        with warnings.catch_warnings(action="ignore"):  # of an empty file
+            rows = np.loadtxt(path, delimiter=",", ndmin=2)
     except OSError as error:
         raise FileProblem(
             "the rolling directions cannot be read", where=str(path), cause=error.strerror or "", remedy=remedy
@@ -82,6 +84,10 @@ def _vectors(path: Path) -> np.ndarray[Any, np.dtype[np.float64]]:
         ) from None
     if rows.shape[1] != 3:
         raise FileProblem(
-            "a rolling direction has three numbers", where=str(path), value=f"{rows.shape[1]} columns", remedy=remedy
+            "a rolling direction has three numbers",
+            where=str(path),
+            value=f"{rows.shape[1]} columns" if rows.size else "no row",
+            cause="another separator than a comma, or another table" if rows.size else "an empty file",
+            remedy=remedy,
         )
     return rows

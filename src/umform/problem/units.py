@@ -34,6 +34,8 @@ _POSSIBLE_E, _POSSIBLE_THICKNESS = (1e3, 1e6), (1e-2, 1e2)
 _METALS_IN_GPA = (10.0, 420.0)
 #: Ratio of the penalty to the stiffness of the sheet across its thickness above which the tangent is ill-conditioned.
 _STIFF = 100.0
+#: The same above which forces of contact lose all digits.
+_TOO_STIFF = 1e12
 
 
 def units(model: Model, *, millimetres: bool = False) -> Iterator[Finding]:
@@ -64,7 +66,8 @@ def units(model: Model, *, millimetres: bool = False) -> Iterator[Finding]:
         ratio = contact.penalty * thickness / stiffest.E
         if ratio > _STIFF:
             remedy = "a softer penalty: expected pressure / penetration that you allow"
-            yield warning(f"contact {contact.name}", f"the penalty is {ratio:.3g} times E / thickness", remedy)
+            level = error if ratio > _TOO_STIFF else warning
+            yield level(f"contact {contact.name}", f"the penalty is {ratio:.3g} times E / thickness", remedy)
 
 
 def extent(model: Model) -> Finding:

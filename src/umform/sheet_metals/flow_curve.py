@@ -33,6 +33,9 @@ def read_flow_curve(path: str | PathLike[str]) -> Table:
     rows = [(number, row) for number, row in rows if row]
     if rows and not any(character.isdigit() for character in rows[0][1]):
         del rows[0]
+    if len(rows) < 2:
+        cause = "one point only" if rows else "an empty file"
+        raise FileProblem("a flow curve has two points or more", where=str(path), cause=cause, remedy=_REMEDY)
     pairs = [_pair(row, f"{path}, line {number}") for number, row in rows]
     return Table(tuple(strain for strain, _ in pairs), tuple(stress for _, stress in pairs))
 

@@ -88,7 +88,7 @@ def test_the_command_refuses(typed, message, tmp_path):
         ("--curve", "nan,0.004,0.22"),
         ("--yield-stress", "0"),
         ("--stroke", "0"),
-        ("--punch-width", "1e-9"),
+        ("--punch-width", "0.1"),
     ],
 )
 def test_a_wrong_number_is_refused_with_its_option_before_the_run(option, value, tmp_path, monkeypatch):

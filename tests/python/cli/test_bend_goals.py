@@ -101,6 +101,10 @@ GPA = ["--young", "210", "--poisson", "0.3", "--curve", "Swift,520,0.004,0.22"]
             "forming limit cannot",
         ),
         (["draw", "u", "--limit-curve", "limit.csv"], "row 3 is no pair of numbers"),
+        (["draw", "u", "--limit-curve", "empty.csv"], "umform: the forming limit cannot be read"),
+        (["draw", "u", "--penalty", "1e300"], "a softer penalty"),
+        (["--thickness", "0.002", "--opening", "0.016", "--stroke", "0.004"], "if these are metres: thickness 2.000"),
+        (["--thickness", "0.08", "--opening", "0.6", "--stroke", "0.2"], "if these are inches: thickness 2.032"),
         (["--stroke", "4", "--scatter", "thickness=1%", "--tolerance-of", "thickness=0.1"], "cannot scatter twice"),
     ],
 )
@@ -108,6 +112,7 @@ def test_what_is_wrong_with_studies_is_said_before_the_first_run(words, said, tm
     monkeypatch.chdir(tmp_path)
     Path("part.toml").write_text("length = 45.0\n[[bends]]\nposition = 20.0\nstroke = 4.0\n")
     Path("limit.csv").write_text("minor,major\n-0.2,0.4\n0.0 mm,0.3\n0.2,0.4\n")
+    Path("empty.csv").touch()
     monkeypatch.setattr("umform.analysis.run.open_run.OpenRun.take", lambda *given: pytest.fail("a run"))
     done = CliRunner().invoke(app, words if words[0] == "draw" else ["bend", *words])
     assert done.exit_code == 1

@@ -36,6 +36,8 @@ def test_a_bend_with_a_wanted_radius_gets_another_opening(tmp_path):
         (["--want", "stroke_force:peak=45+-1", "--by", "strength=1"], "these are no bounds"),
         (["--want", "stroke_force:peak=45+-1", "--by", "nowhere"], "there is no number of this path"),
         (["--want", "nothing=45+-1", "--by", "strength"], "the run has no such quantity or column"),
+        (["--shape", "upper", "--by", "anvil"], "remedy: one of die, punch"),
+        (["--shape", "upper", "--by", "die", "--within", "0"], "where:  --within"),
     ],
 )
 def test_what_cannot_be_wanted_is_refused(words, text, tmp_path):

@@ -66,6 +66,7 @@ def test_a_deck_has_slopes_of_whole_runs_in_place_of_derivatives(deck, tmp_path)
         ([], "there is no parameter for derivatives"),
         (["--by", "material.E", "--width", "0.02", "--hold", "angle=E"], "slopes of whole runs hold no result"),
         (["--by", "material.E", "--width", "2"], "width"),
+        (["--by", "material.E", "--width", "1e-300"], "a number from 1e-06 to 0.5"),
     ],
 )
 def test_what_has_no_derivative_is_refused_by_name(deck, words, text, tmp_path):

@@ -159,6 +159,6 @@ def test_an_error_of_the_system_in_any_command_is_one_message(monkeypatch, tmp_p
     monkeypatch.setattr("umform.processes.bending.showcase.demo", fails)
     run = umform("demo", "free-bending", "--out", tmp_path)
     assert run.exit_code == 1
-    assert "the file cannot be written" in run.stderr
+    assert "a file cannot be read or written" in run.stderr
     assert "no permission" in run.stderr
     assert "nobody expected" not in run.stderr

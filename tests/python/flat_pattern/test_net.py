@@ -144,7 +144,13 @@ def test_the_command(tmp_path):
     assert "--outline" in str(refused.exception) + refused.output
     far = ["--height", "9", "--first", str(tmp_path / "far.csv")]
     np.savetxt(tmp_path / "far.csv", circle(1.0) + 100.0, delimiter=",")
-    for wrong in (["--height", "-3"], ["--height", "inf"], ["--height", "9", "--corrections", "0"], far):
+    for wrong in (
+        ["--height", "-3"],
+        ["--height", "inf"],
+        ["--height", "1e300"],
+        ["--height", "9", "--corrections", "0"],
+        far,
+    ):
         refused = CliRunner().invoke(cli.app, [*words[:2], *wrong, "--overwrite"])
         assert refused.exit_code == 1 and f"where:  {wrong[-2]}" in refused.output
     refused = CliRunner().invoke(cli.app, [*words[:2], "--height", "9", "--first-layer", "0"])

@@ -74,10 +74,11 @@ def test_all_ways_to_say_it(rolling, expected, tmp_path):
         ('rolling = { file = "words.csv" }', "are not numbers"),
         ('rolling = { file = "two.csv" }', "three numbers"),
         ('rolling = { file = "one.csv" }', "one for each cell"),
+        ('rolling = { file = "empty.csv" }', "three numbers"),
     ],
 )
 def test_what_is_refused(rolling, message, tmp_path):
-    for name, text in (("words", "a,b,c\n"), ("two", "1,2\n"), ("one", "1,0,0\n")):
+    for name, text in (("words", "a,b,c\n"), ("two", "1,2\n"), ("one", "1,0,0\n"), ("empty", "")):
         (tmp_path / f"{name}.csv").write_text(text)
     with pytest.raises(DeckError, match=message):
         body(rolling, tmp_path)

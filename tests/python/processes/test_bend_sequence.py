@@ -219,6 +219,11 @@ def test_a_file_is_read(tmp_path):
     file.write_text("length = [")
     with pytest.raises(FileProblem, match="cannot be read"):
         read_sequence(file)
+    file.write_bytes(b"\x9c")
+    with pytest.raises(FileProblem, match="not UTF-8"):
+        read_sequence(file)
+    with pytest.raises(FileProblem, match="cause:  Is a directory"):
+        read_sequence(tmp_path)
 
 
 @pytest.mark.parametrize(

@@ -244,7 +244,8 @@ def test_a_flow_curve_is_read(tmp_path):
     [
         ("0;186\n0.1;200\n", "line 1"),
         ("0,186\n0,1,200\n", "line 2"),
-        ("", "two or more pairs"),
+        ("", r"two points or more(.*\n)*.*coil.csv(.*\n)*.*an empty file"),
+        ("0,186\n", "one point only"),
         ("0,186\n0.1,nan\n", "finite"),
         ("0,186\n0.1,150\n", "must rise"),
     ],

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from umform.errors import FileProblem, InvalidValue
 from umform.flat_pattern.net.star import Star
 from umform.flat_pattern.one_step import distance_to_outline
+from umform.spec.types import FARTHEST
 from umform.surfaces import Profile
 
 Floats = NDArray[np.float64]
@@ -134,8 +135,12 @@ def height(value: float) -> AtHeight:
     InvalidValue
         If it is not positive and finite.
     """
-    if not 0.0 < value < np.inf:
+    if not 0.0 < value <= FARTHEST:
         raise InvalidValue(
-            "the height of a part is positive", where="height", value=value, remedy="in mm, from the bottom to the edge"
+            "the height of a part is positive",
+            where="height",
+            value=value,
+            cause=f"a sign, nan, or beyond {FARTHEST:g}",
+            remedy="in mm, from the bottom to the edge",
         )
     return AtHeight(value)

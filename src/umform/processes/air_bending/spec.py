@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 
 #: Range of opening over thickness for air bending; press brakes use 5 to 16.
 _NARROWEST, _WIDEST = 1.0, 500.0
-#: Thickness and opening below which a sheet and its die are more likely measured in inches; mm of one.
-_INCHES, _MM = (0.3, 3.0), 25.4
+#: Units with their mm, and thickness and opening below which a sheet and its die are more likely measured in them.
+_SMALL = (("metres", 1000.0, (0.012, 0.3)), ("inches", 25.4, (0.3, 3.0)))
 #: Penalty times thickness over E beyond which Newton's method converges slowly.
 _STIFFEST = 1e3
 
@@ -404,25 +404,29 @@ def _check_proportions(case: AirBending) -> None:
         )
 
 
-def _like_inches(case: AirBending) -> bool:
-    """Whether thickness and opening look like inches."""
-    return case.thickness < _INCHES[0] and case.opening < _INCHES[1]
+def _unit(case: AirBending) -> tuple[str, float] | None:
+    """The unit that thickness and opening look like, in mm, if these are small for mm."""
+    for name, mm, (thickness, opening) in _SMALL:
+        if case.thickness < thickness and case.opening < opening:
+            return name, mm
+    return None
 
 
 def _check_room(case: AirBending) -> None:
     """Refuse a tip that is wider than the die, shoulders without flanks, and a sheet that would be drawn in."""
     tip = 2.0 * case.punch_radius * math.cos(math.radians(0.5 * case.punch_angle))
     if tip >= case.opening:
+        unit = _unit(case)
         raise _unfit(
             case,
             name := "punch_radius",
             "the tip of the punch is wider than the opening of the die",
             f"the tip is round on a width of {tip:.4g}, the opening is {case.opening:.4g}",
             (
-                f"lengths in mm; if these are inches: thickness {_MM * case.thickness:.3f}, "
-                f"opening {_MM * case.opening:.2f}"
+                f"lengths in mm; if these are {unit[0]}: thickness {unit[1] * case.thickness:.3f}, "
+                f"opening {unit[1] * case.opening:.2f}"
             )
-            if _like_inches(case)
+            if unit
             else f"a smaller {name}, or a wider opening",
         )
     if case.punch_width is not None and case.punch_width <= tip:

@@ -108,10 +108,11 @@ def read_sequence(path: Path) -> SequenceForm | OutsideForm:
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        no_text = "another kind of file, or text that is not UTF-8" if isinstance(error, UnicodeDecodeError) else ""
         raise FileProblem(
             "the sequence of bends cannot be read",
             where=str(path),
-            cause=str(error),
+            cause=no_text or getattr(error, "strerror", None) or str(error),
             remedy="a TOML file with length or flanges, and a table [[bends]] for each bend, see "
             "docs/bending-operations.md",
         ) from error

@@ -54,7 +54,8 @@ class Wanted:
                 "a wanted result has a finite value and a tolerance above zero",
                 where="want",
                 value=f"{self.value} +- {self.tolerance}",
-                remedy="Wanted(90.0, 0.05)",
+                cause="a sign, or a tolerance of zero",
+                remedy="a tolerance such as 0.05",
             )
 
 

@@ -325,13 +325,14 @@ class _Source:
         """The problem with other fields."""
         if not isinstance(self.subject, Problem):
             return self
-        if unknown := [name for name in self.names if name not in self.subject.contents.tools]:
+        tools = self.subject.contents.tools
+        if unknown := [name for name in self.names if name not in tools]:
             raise InvalidValue(
                 "the deck has no tool of this name",
                 where="by",
                 value=", ".join(unknown),
                 cause="another name, or that of a contact",
-                remedy=f"one of {', '.join(self.subject.contents.tools)}",
+                remedy=f"one of {', '.join(tools)}" if tools else "a deck with tools",
             )
         tables = {
             f"tools.{name}.offset_field": {

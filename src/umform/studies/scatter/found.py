@@ -216,8 +216,8 @@ class Scattered(Study):
         """
         folder = Path(folder)
         folder.mkdir(parents=True, exist_ok=True)
-        write_csv(folder / TABLE, list_columns(self.quantities))
         write_json(folder / RECORD, self.record())
+        write_csv(folder / TABLE, list_columns(self.quantities))
         written = [folder / TABLE, folder / RECORD]
         if SHARES in self.tables:
             self.plot(folder / PICTURE)

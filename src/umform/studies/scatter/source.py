@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from umform.errors import InvalidValue
 from umform.processes.rules import positive
 from umform.spec import Scalar
+from umform.spec.types import FARTHEST
 
 #: Standard deviations in half of a tolerance band.
 BAND = 3.0
@@ -39,12 +40,12 @@ class Scatter:
     tolerance: bool = False
 
     def __post_init__(self) -> None:
-        if not positive(self.size):
+        if not (positive(self.size) and self.size <= FARTHEST):
             raise InvalidValue(
                 "a scatter is a positive number",
                 where="scatter",
                 value=self.size,
-                cause="a sign, or no number",
+                cause=f"a sign, no number, or beyond {FARTHEST:g}",
                 remedy="such as 0.02 or 5%; leave out what does not scatter",
             )
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from annotated_types import Ge, Gt, Le
+from annotated_types import Ge, Le
 
 from umform.errors import InvalidValue, UmformError
 from umform.pool import run_all
@@ -27,7 +27,7 @@ from umform.studies.sweep.measures import Function
 class SlopeOptions:
     """Which runs the slopes are taken from."""
 
-    width: Annotated[float, Gt(0.0), Le(0.5), About(cause="per cent instead of a part of one, or no range")] = 0.02
+    width: Annotated[float, Ge(1e-6), Le(0.5), About(cause="per cent instead of a part of one, or no range")] = 0.02
     """Half of the range of each parameter, over its value."""
     each_side: Annotated[int, Ge(1), Le(20)] = 2
     """Runs with smaller values of each parameter, and with larger ones, at equal distances."""

@@ -239,6 +239,7 @@ def test_how_a_scatter_is_written(text, expected):
         ({}, {}, "sources", "no parameter scatters"),
         ({"E": "0%"}, {}, "E", "a scatter is a positive number"),
         ({"E": None}, {}, "E", "a scatter is a positive number"),
+        ({"E": 1e300}, {}, "E", "a scatter is a positive number"),
         ({"E": True}, {}, "E", "a scatter is a positive number"),
         ({"E": "3,5%"}, {}, "E", "a decimal comma"),
         ({"E": "much"}, {}, "E", "write 0.02, 5% or ±0.1"),
