@@ -12,6 +12,14 @@ _COMMA = re.compile(r"[-+]?\d*,\d+")
 _UNIT = re.compile(r"(?P<number>[-+]?\d*\.?\d+)\s*(?P<unit>[^\W\d]\w*|[\"″])")
 #: Other units of length in mm.
 _MILLIMETRES = {"in": 25.4, "inch": 25.4, "inches": 25.4, '"': 25.4, "″": 25.4, "cm": 10.0}
+#: Likely causes by the beginnings of the texts of click.
+_CAUSES = {
+    "Missing": "it was left out",
+    "No such command": "a typing mistake",
+    "Got unexpected extra argument": "a name with blanks without quotes, or an option without its dashes",
+    "Invalid value": "a sign, or a typing mistake",
+    "Option": "nothing stands behind it, or a value behind a switch",
+}
 #: Commands of a group that are too many for a message.
 _MANY = 10
 #: What there is beside the commands of a group.
@@ -44,7 +52,8 @@ def usage_problem(error: Any) -> InvalidValue:
     value, kind = _refused(error, text)
     if kind in ("float", "integer", "int"):
         return _no_number(value, place, whole=kind != "float")
-    return InvalidValue(text[:1].lower() + text[1:].rstrip("."), where=place, remedy=more)
+    cause = next((cause for begin, cause in _CAUSES.items() if text.startswith(begin)), "")
+    return InvalidValue(text[:1].lower() + text[1:].rstrip("."), where=place, cause=cause, remedy=more)
 
 
 def _refused(error: BaseException, text: str) -> tuple[str, str]:
@@ -77,5 +86,5 @@ def _no_number(value: str, place: str, *, whole: bool) -> InvalidValue:
 def _place(error: Any, command: str) -> str:
     """The option, or the command of an argument."""
     parameter = getattr(error, "param", None)
-    names = getattr(parameter, "opts", None) or [command]
+    names = getattr(parameter, "opts", None) or [getattr(error, "option_name", command)]
     return str(names[0]) if str(names[0]).startswith("-") else command

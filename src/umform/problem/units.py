@@ -34,7 +34,7 @@ _POSSIBLE_E, _POSSIBLE_THICKNESS = (1e3, 1e6), (1e-2, 1e2)
 _METALS_IN_GPA = (10.0, 420.0)
 #: Ratio of the penalty to the stiffness of the sheet across its thickness above which the tangent is ill-conditioned.
 _STIFF = 100.0
-#: The same above which forces of contact lose all digits.
+#: The same above which forces of contact lose all digits; below its inverse there is no contact.
 _TOO_STIFF = 1e12
 
 
@@ -68,6 +68,9 @@ def units(model: Model, *, millimetres: bool = False) -> Iterator[Finding]:
             remedy = "a softer penalty: expected pressure / penetration that you allow"
             level = error if ratio > _TOO_STIFF else warning
             yield level(f"contact {contact.name}", f"the penalty is {ratio:.3g} times E / thickness", remedy)
+        elif ratio < 1.0 / _TOO_STIFF:
+            remedy = "a stiffer penalty, or a smaller penetration that is allowed; or neither of them"
+            yield error(f"contact {contact.name}", f"the penalty is {ratio:.3g} times E / thickness", remedy)
 
 
 def extent(model: Model) -> Finding:

@@ -89,6 +89,8 @@ def test_the_command_refuses(typed, message, tmp_path):
         ("--yield-stress", "0"),
         ("--stroke", "0"),
         ("--punch-width", "0.1"),
+        ("--penetration", "1.5"),
+        ("--elements-per-thickness", "0.2"),
     ],
 )
 def test_a_wrong_number_is_refused_with_its_option_before_the_run(option, value, tmp_path, monkeypatch):

@@ -26,13 +26,16 @@ TYPED = [
     ("--thicknes 3", 2, ["no such option", "umform --help"]),
     ("metal fit --yield-function hill48", 2, ["--young", "`umform metal fit --help`"]),
     ("draw cup --opening 200", 1, ["half of --opening"]),
-    ("view", 2, ["where:  umform view"]),
+    ("view", 2, ["where:  umform view", "it was left out"]),
+    ("bend --stroke", 2, ["where:  --stroke", "nothing stands behind it"]),
+    ("identify deck.toml --find E --most 0", 2, ["where:  --most", "a sign, or a typing mistake"]),
+    ("store list all", 2, ["where:  umform store list", "an option without its dashes"]),
     ("draw box", 2, ["umform draw cup, u", "umform new"]),
     ("bend --stroke 6 --thickness 0.08in", 2, ["lengths are in mm", "write 2.032"]),
     ('bend --stroke 6 --thickness .5"', 2, ["lengths are in mm", "write 12.7"]),
     ("bend --stroke 6 --thickness 2mm", 2, ["write 2;"]),
     ("hem --gap 1", 1, ["a flat hem has no gap", "the form open, inner or insert"]),
-    ("bnd", 2, ["'bend'", "remedy:"]),
+    ("bnd", 2, ["'bend'", "a typing mistake", "remedy:"]),
 ]
 
 

@@ -129,6 +129,8 @@ def test_a_metal_of_the_library_in_other_units(units, warned, strip):
 def test_a_stiff_penalty(texts, found):
     stiff = found(texts("free-bending"), "contact cylinder", contacts__cylinder__penalty=1e9)
     assert Level.WARNING in levels(stiff)
+    for wild in (1e300, 1e-300):
+        assert Level.ERROR in levels(found(texts("free-bending"), "contact cylinder", contacts__cylinder__penalty=wild))
 
 
 def test_errors_are_refused_together_unless_forced():

@@ -126,7 +126,7 @@ class AirBending:
     """Elements stacked through the thickness."""
     thickness_points: Annotated[int, Ge(2), Le(15)] = 6
     """Points through the thickness of each layer."""
-    elements_per_thickness: Annotated[float, Gt(0.0), Le(100.0), About(cause="the number of all elements instead")] = (
+    elements_per_thickness: Annotated[float, Ge(0.5), Le(100.0), About(cause="the number of all elements instead")] = (
         3.0
     )
     """Elements along the sheet per thickness, in the bend and where the shoulder touches; in dies wider than 16
@@ -332,7 +332,7 @@ def _check_consistency(case: AirBending) -> None:
 
 
 def _check_penalty(case: AirBending) -> None:
-    """Refuse a penalty together with the allowed penetration."""
+    """Refuse a penalty together with the allowed penetration, and a penetration that is no contact."""
     if case.penalty is not None and case.penetration is not None:
         raise _unfit(
             case,
@@ -340,6 +340,14 @@ def _check_penalty(case: AirBending) -> None:
             "the penalty follows from the penetration that is allowed",
             "both are given",
             "leave one of them out",
+        )
+    if case.penetration is not None and case.penetration > 0.5 * case.thickness:
+        raise _unfit(
+            case,
+            "penetration",
+            "the allowed penetration is more than half of the thickness of the sheet",
+            "another unit, or a part of the thickness in per cent",
+            f"{0.005 * case.thickness:.3g}, 1/200 of the thickness, or leave it out",
         )
 
 
