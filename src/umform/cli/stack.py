@@ -50,7 +50,8 @@ def stacked(texts: Sequence[str]) -> list[StackedSheet]:
             sheet = StackedSheet(numbers[0], metal_of(name.strip(), numbers[0]).law, bonded=bonded)
             sheets.append(replace(sheet, friction=numbers[1]) if numbers[1:] else sheet)
         except InvalidValue as error:
-            if error.where in ("thickness", "friction"):
-                error.where = f"--on-top, {error.where}"
+            size = error.where.rpartition(", ")[2]  # of the sheet, or of the metal at this thickness
+            if size in ("thickness", "friction"):
+                error.where = f"--on-top, {size}"
             raise
     return sheets

@@ -142,11 +142,11 @@ def _drawing(path: Path) -> Any:
     try:
         return ezdxf.readfile(str(path))
     except Exception as error:  # ezdxf lets many kinds through on a broken file
-        missing = not path.exists()
+        missing, why = not path.exists(), getattr(error, "strerror", None) or str(error)
         raise FileProblem(
             "there is no such file" if missing else "this is no DXF drawing that can be read",
             where=str(path),
-            cause="another name or folder" if missing else " ".join(str(error).split()),
+            cause="another name or folder" if missing else " ".join(why.split()),
             remedy="give the path of a DXF file" if missing else "save it as DXF (text or binary) again, not as DWG",
         ) from error
 

@@ -30,6 +30,8 @@ TYPED = [
     ("bend --stroke", 2, ["where:  --stroke", "nothing stands behind it"]),
     ("identify deck.toml --find E --most 0", 2, ["where:  --most", "a sign, or a typing mistake"]),
     ("store list all", 2, ["where:  umform store list", "an option without its dashes"]),
+    ("bend --stroke 3 --material DC04 --on-top DC04,-1", 1, ["where:  --on-top, thickness"]),
+    ("bend --stroke 3 --die-dxf .", 1, ["where:  .\n", "cause:  Is a directory\n"]),
     ("draw box", 2, ["umform draw cup, u", "umform new"]),
     ("bend --stroke 6 --thickness 0.08in", 2, ["lengths are in mm", "write 2.032"]),
     ('bend --stroke 6 --thickness .5"', 2, ["lengths are in mm", "write 12.7"]),
