@@ -105,7 +105,7 @@ class Moving:
         except Failed as failure:
             self._cut(run, step, failure, target)
             return
-        if saved is not None and self._repeats(run, step, target, converged):
+        if saved is not None and not self.leaps and self._repeats(run, step, target, converged):
             saved.restore(run)
             self.size = 0.5 * (target - self.fraction)
             run.newton.timing.attempts.take_back(mark, "difference of work and energies")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 import umform as uf
@@ -39,6 +40,23 @@ def test_a_gap_of_less_than_an_increment_is_stepped_over(monkeypatch, steps):
     assert result["pull"][-1] == 1.0 and 0.3 < result["pull"][at - 1] <= 0.33
     assert result["pull"][at] >= 0.42
     assert sum(0.33 < end < 0.42 for end in tried) >= 4  # smaller ones were tried first
+
+
+def test_the_step_over_a_gap_is_not_repeated_for_its_work(monkeypatch):
+    """Its halves do not converge: it would be repeated without an end."""
+
+    def repeats(pace, size, worked):
+        asked.append(size)
+        assert len(asked) < 400
+        return size > 0.04
+
+    asked = list[float]()
+    monkeypatch.setattr(uf.Pace, "repeats", repeats)
+    monkeypatch.setattr(uf.Pace, "factor", lambda pace, happened: 1.0)
+    result, _ = run(monkeypatch, (0.33, 0.42), uf.Pace(first=0.1, largest=0.1))
+    sizes = np.diff(result["pull"], prepend=0.0)
+    assert result["pull"][-1] == 1.0
+    assert sorted(sizes)[-1] > 0.09 and sorted(sizes)[-2] < 0.04
 
 
 @pytest.mark.parametrize("gap", [(0.3, 0.6), (0.33, 0.6), (0.97, 1.1)])
