@@ -120,13 +120,14 @@ class Cup(Draw):
                 cause="a hemispherical punch, or a diameter",
                 remedy=f"less than {0.9 * self.punch_radius:.4g}",
             )
-        if not self.blank_radius > self.throat + 0.5 * self.die_edge:
+        least = self.throat + 0.5 * self.die_edge
+        if not self.blank_radius > least:
             raise InvalidValue(
                 "the blank does not lie on the die",
                 where="blank_radius",
                 value=self.blank_radius,
                 cause=f"the flat of the die begins at a diameter of {2.0 * (self.throat + self.die_edge):.4g}",
-                remedy=f"a larger blank: a diameter above {2.0 * (self.throat + self.die_edge):.4g}",
+                remedy=f"a larger blank: a diameter above {2.0 * least:.4g}",
             )
         if self.gap < self.thickness:
             raise InvalidValue(

@@ -420,6 +420,15 @@ def test_a_cup_that_cannot_be_drawn_is_refused(wrong):
         replace(CUP, **wrong)
 
 
+def test_a_blank_is_refused_up_to_the_diameter_that_the_remedy_names():
+    with pytest.raises(InvalidValue, match="does not lie on the die") as refused:
+        replace(CUP, blank_radius=CUP.throat)
+    least = float(refused.value.remedy.split()[-1])
+    replace(CUP, blank_radius=0.5 * least + 0.01)
+    with pytest.raises(InvalidValue, match="does not lie on the die"):
+        replace(CUP, blank_radius=0.5 * least - 0.01)
+
+
 @pytest.mark.parametrize(
     "wrong", [{"opening": 50.1}, {"thickness": 1.2}, {"stroke": 90.0}, {"holder_force": None}, {"width": 0.0}]
 )
