@@ -52,8 +52,9 @@ def test_a_job_beyond_a_limit_is_red_in_words_and_colour(visit):
 
     page.route("**/api/jobs", answer)
     page.wait_for_selector("#jobs .dot.missed")
-    colour = page.locator("#jobs .dot.missed").first.evaluate("(one) => getComputedStyle(one).backgroundColor")
-    assert colour == "rgb(179, 64, 10)"
+    # in one call: the list is drawn anew while jobs run
+    colour = "(dot) => getComputedStyle(document.querySelector(dot)).backgroundColor"
+    assert page.evaluate(colour, "#jobs .dot.missed") == "rgb(179, 64, 10)"
     page.locator("#jobs li").first.locator("b", has_text="limit missed").wait_for()  # until then its progress
 
 
