@@ -160,7 +160,9 @@ class ScatterOptions:
 
 def _from_contact(case: Any) -> bool:
     """Whether the stroke of a case counts from first contact with the upper face of its sheet: an air bend."""
-    return getattr(case, "stroke", None) is not None and hasattr(case, "die_angle") and not case.bottoming
+    from umform.processes.air_bending.spec import AirBending  # not for the help of the command
+
+    return isinstance(case, AirBending) and case.stroke is not None and not case.bottoming
 
 
 def _two(pair: str) -> tuple[str, str]:
