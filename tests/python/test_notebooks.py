@@ -27,6 +27,14 @@ def test_notebooks_are_stored_without_outputs(path: Path) -> None:
     assert not any(cell.get("outputs") for cell in notebook.cells), "store notebooks without outputs"
 
 
+@pytest.mark.parametrize("path", STORED, ids=lambda path: path.stem)
+def test_notebooks_run_without_warnings(path: Path, tmp_path: Path) -> None:
+    nbclient = pytest.importorskip("nbclient")
+    ran = nbclient.execute(nbformat.read(path, as_version=4), cwd=str(tmp_path))
+    said = [out.text for cell in ran.cells for out in cell.get("outputs", ()) if out.get("name") == "stderr"]
+    assert not said
+
+
 def site(root: Path) -> Path:
     """Pages of the notebooks with all that they show."""
     folder = root / "notebooks"
