@@ -401,6 +401,14 @@ def test_a_tool_on_the_wrong_side_is_refused(model):
     assert "gap" in caught.value.value
 
 
+def test_chords_of_a_formed_sheet_may_overlap_the_radius_of_a_tool(model):
+    """Its contact points lie on the tool, its nodes do not: no tool has been placed wrongly."""
+    model.fix("x0")
+    contact = model.contact("lower", Plane((0, 0, 0.6 * T)), penalty=100.0)
+    contact.restore(contact.state())  # its points have a history
+    model.system.check()
+
+
 def test_a_tool_that_touches_with_its_normal_into_the_sheet_is_refused(model):
     """All gaps of the contact points are zero; the far face tells."""
     model.fix("x0")

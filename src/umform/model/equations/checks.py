@@ -214,7 +214,7 @@ def _touching(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
             )
         gap = contact.gap(mesh.displaced(model.u)[contact.nodes])  # the far face has the wrong sign
         deepest = int(np.argmin(gap))
-        if gap[deepest] < -0.5 * thickness:
+        if gap[deepest] < -0.5 * thickness and not contact.has_begun:  # chords of a formed sheet overlap a radius
             raise ToolSwallowsSheet(
                 "a tool overlaps the sheet before anything has moved",
                 where=f"contact {contact.name}, node {model.whole.node_number(contact.nodes[deepest])}",
