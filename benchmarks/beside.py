@@ -116,14 +116,14 @@ class Purposes:
     @contextmanager
     def watching(self) -> Iterator[None]:
         """Note the evaluations meanwhile."""
-        evaluate, throw, keep = Evaluated.evaluate, Attempts._throw, Run.keep
+        evaluate, discard, keep = Evaluated.evaluate, Attempts._discard, Run.keep
 
         def evaluated(model: Any, *given: Any, **named: Any) -> Any:
             self.log.append(self._now[-1])
             return evaluate(model, *given, **named)
 
-        def thrown(attempts: Attempts, mark: tuple[int, int]) -> None:
-            throw(attempts, mark)
+        def discarded(attempts: Attempts, mark: tuple[int, int]) -> None:
+            discard(attempts, mark)
             count = attempts.evaluations - mark[0]
             self.log[len(self.log) - count :] = ["discarded"] * count
 
@@ -136,7 +136,7 @@ class Purposes:
         with ExitStack() as stack:
             for owner, name, new in (
                 (Evaluated, "evaluate", evaluated),
-                (Attempts, "_throw", thrown),
+                (Attempts, "_discard", discarded),
                 (Run, "keep", kept),
                 (newton, "shortened", self._for("line search", newton.shortened)),
                 (newton, "lengthened", self._for("line search", newton.lengthened)),

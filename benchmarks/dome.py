@@ -1,4 +1,4 @@
-"""A sphere that is pressed into a clamped sheet, on ever finer meshes: what Newton's method takes and throws away.
+"""A sphere that is pressed into a clamped sheet, on ever finer meshes: what Newton's method takes and discards.
 
 A quarter of the sheet, one layer of ANS3DEAS with five points through the thickness, J2 and contact. Each size runs in
 a process of its own, so that its peak of memory is its own; 160 000 elements need some 6 GB.
@@ -75,8 +75,8 @@ def measured(elements: int, increments: int, solver: str) -> dict[str, Any]:
         "iterations": iterations,
         "evaluations": attempts.evaluations,
         "factorisations": timing.factorisation.calls,
-        "thrown away": attempts.thrown,
-        "share thrown away": attempts.share,
+        "discarded": attempts.discarded,
+        "share discarded": attempts.share,
         "share beyond accepted iterations": 1.0 - iterations / attempts.evaluations,
         "s per iteration": cpu / wall * one_iteration(timing),
         "us per element and accepted iteration": 1e6 * cpu / (count * max(1, iterations)),
@@ -110,7 +110,7 @@ COLUMNS = {
     "iterations": "d",
     "evaluations": "d",
     "factorisations": "d",
-    "share thrown away": ".0%",
+    "share discarded": ".0%",
     "share beyond accepted iterations": ".0%",
     "us per element and accepted iteration": ".1f",
 }
@@ -138,13 +138,13 @@ def failures(rows: list[dict[str, Any]]) -> str:
 
 
 def draw(rows: list[dict[str, Any]], path: Path) -> None:
-    """Time of an iteration, memory and share thrown away, against the elements."""
+    """Time of an iteration, memory and share discarded, against the elements."""
     from umform.plotting import Picture, house_style, save
 
     n = np.array([row["elements"] for row in rows], dtype=float)
     with house_style():
         figure = Picture(figsize=(7.2, 2.6), layout="tight")
-        for axes, name in zip(figure.subplots(1, 3), [*GOALS, "share thrown away"], strict=True):
+        for axes, name in zip(figure.subplots(1, 3), [*GOALS, "share discarded"], strict=True):
             values = np.array([row[name] for row in rows])
             axes.plot(n, values, "o-")
             axes.set_xscale("log")

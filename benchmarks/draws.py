@@ -71,7 +71,7 @@ def measured(name: str, variant: str) -> dict[str, str]:
         "CPU s": f"{seconds:.1f}",
         "evaluations": str(attempts.evaluations),
         "beside, %": f"{100.0 * attempts.beside:.0f}",
-        "thrown away, %": f"{100.0 * attempts.share:.0f}",
+        "discarded, %": f"{100.0 * attempts.share:.0f}",
         "increments": str(sum(len(run) - 1 for run in (drawn.result, drawn.released) if run is not None)),
         "numbers": numbers(drawn),
     }

@@ -49,7 +49,7 @@ def row(changes: Mapping[str, Any]) -> dict[str, Any]:
         "ripple": drawn.punch_force.ripple / 1000.0,
         "CPU s": time.process_time() - start,
         "iterations": drawn.iterations,
-        "thrown": drawn.result.timing.attempts.share,
+        "discarded": drawn.result.timing.attempts.share,
         "ending": "" if drawn.ending is None else drawn.ending.kind,
     }
 
@@ -64,7 +64,7 @@ def line(name: str, found: Mapping[str, Any]) -> str:
     return (
         f"| {name} | {found['elements']} | {found['mean height']:.2f} | {found['fourth harmonic']:.3f} | {force} | "
         f"{found['peak']:.1f} | "
-        f"{found['CPU s']:.0f} | {found['iterations']} | {100 * found['thrown']:.1f} % | {found['ending']} |"
+        f"{found['CPU s']:.0f} | {found['iterations']} | {100 * found['discarded']:.1f} % | {found['ending']} |"
     )
 
 

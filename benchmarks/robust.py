@@ -72,7 +72,7 @@ def outcome(task: Job) -> dict[str, Any]:
         "increments": sum(len(result) - 1 for result in done.results),
         "iterations": int(sum(result["iterations"].sum() for result in done.results)),
         "evaluations": made.evaluations,
-        "share thrown away": round(made.share, 3),
+        "share discarded": round(made.share, 3),
         "jumps": sum(JUMPED in warning for result in done.results for warning in result.warnings),
         "warnings": [warning for result in done.results for warning in result.warnings],
         "failed attempts": dict(made.causes.most_common()),
@@ -108,7 +108,7 @@ def in_a_process(rated: Rated, number: int, limit: int = LIMIT) -> dict[str, Any
         "kind": rated.lot.job(number).kind,
         "CPU s": float(limit),
         "evaluations": 0,
-        "share thrown away": 0.0,
+        "share discarded": 0.0,
     }
     try:
         done = subprocess.run(

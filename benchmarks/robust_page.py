@@ -65,16 +65,16 @@ def table(rated: Rated, outcomes: _Outcomes) -> str:
     """Jobs of each kind and how they ended, in Markdown."""
     kinds = list(dict.fromkeys(one["kind"] for one in outcomes))
     rows = [
-        "| jobs | number | finished | CPU s, median | CPU s, most | evaluations | thrown away |",
+        "| jobs | number | finished | CPU s, median | CPU s, most | evaluations | discarded |",
         "|---" + "|---:" * 6 + "|",
     ]
     for kind in [*kinds, "all"]:
         of_kind = [one for one in outcomes if kind in (one["kind"], "all")]
         seconds, evaluations = sorted(one["CPU s"] for one in of_kind), sum(one["evaluations"] for one in of_kind)
-        thrown = sum(one["evaluations"] * one["share thrown away"] for one in of_kind)
+        discarded = sum(one["evaluations"] * one["share discarded"] for one in of_kind)
         rows.append(
             f"| {kind} | {len(of_kind)} | {rate(rated, of_kind):.1%} | {seconds[len(seconds) // 2]:.1f} | "
-            f"{seconds[-1]:.1f} | {evaluations} | {thrown / max(1, evaluations):.0%} |"
+            f"{seconds[-1]:.1f} | {evaluations} | {discarded / max(1, evaluations):.0%} |"
         )
     return "\n".join(rows)
 
@@ -83,7 +83,7 @@ def failures(outcomes: _Outcomes) -> str:
     """A line for each job that did not arrive."""
     return "\n".join(
         f"job {one['number']}, {one['kind']}: {one['outcome']}; {one['reason']}; {one['evaluations']} evaluations, "
-        f"{one['share thrown away']:.0%} thrown away"
+        f"{one['share discarded']:.0%} discarded"
         for one in outcomes
         if one["outcome"] != "arrived"
     )

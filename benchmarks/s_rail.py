@@ -60,7 +60,7 @@ def row(setup: Setup, stroke: float, release: bool, checkpoint: Path | None) -> 
         "thinning": float(forming_fields(model.mesh, model.u)["thinning"].max()),
         "CPU s": time.process_time() - start,
         "iterations": int(result["iterations"].sum()),
-        "thrown": result.timing.attempts.share,
+        "discarded": result.timing.attempts.share,
         "MB": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
     }
 
@@ -69,7 +69,7 @@ def line(name: str, found: dict[str, Any]) -> str:
     """A row of the table."""
     return (
         f"| {name} | {found['elements']} | {found['stroke']:g} | {found['force']:.2f} | {found['thinning']:.1f} | "
-        f"{found['CPU s']:.0f} | {found['iterations']} | {100 * found['thrown']:.1f} % | {found['MB']:.0f} |"
+        f"{found['CPU s']:.0f} | {found['iterations']} | {100 * found['discarded']:.1f} % | {found['MB']:.0f} |"
     )
 
 

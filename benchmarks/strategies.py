@@ -95,7 +95,7 @@ def tables(found: dict[str, Attempts]) -> str:
     """Two tables in Markdown: shares and strategies by workload, causes over all of them."""
     names = list(dict.fromkeys(name for one in found.values() for name in one.tried))
     lines = [
-        "| | evaluations | thrown away | " + " | ".join(names) + " |",
+        "| | evaluations | discarded | " + " | ".join(names) + " |",
         "|---|---:|---:|" + "---:|" * len(names),
     ]
     for workload, one in found.items():

@@ -79,7 +79,7 @@ def in_umform(friction: float | None, stroke: float, rule: str) -> dict[str, Any
         "increments": len(result) - 1,
         "iterations": int(result["iterations"].sum()),
         "median": float(np.median(iterations)),
-        "thrown": result.timing.attempts.share,
+        "discarded": result.timing.attempts.share,
     }
 
 
@@ -219,14 +219,14 @@ def in_calculix(seconds: float) -> dict[str, Any] | None:
 def table(rows: list[dict[str, Any]]) -> str:
     """Rows as a table in Markdown."""
     lines = [
-        "| | stroke, mm | punch force, N/mm | CPU s | increments | iterations | thrown away |",
+        "| | stroke, mm | punch force, N/mm | CPU s | increments | iterations | discarded |",
         "|---|---:|---:|---:|---:|---:|---:|",
     ]
     for row in rows:
         force = f"{row['force']:.2f}" if "force" in row else ""
-        thrown = f"{100 * row['thrown']:.1f} %" if "thrown" in row else ""
+        discarded = f"{100 * row['discarded']:.1f} %" if "discarded" in row else ""
         counts = f"{row['increments']} | {row['iterations']}"
-        lines.append(f"| {row['what']} | {row['stroke']:.1f} | {force} | {row['CPU s']:.0f} | {counts} | {thrown} |")
+        lines.append(f"| {row['what']} | {row['stroke']:.1f} | {force} | {row['CPU s']:.0f} | {counts} | {discarded} |")
     return "\n".join(lines)
 
 

@@ -27,7 +27,7 @@ class Attempts:
     accepted : int
         Those that were iterations of accepted increments; the rest are line searches, passes of multipliers and
         penalties, starts, and discarded attempts.
-    thrown : int
+    discarded : int
         Evaluations in discarded attempts.
     tried, won : Counter of str
         How often each strategy was tried, and succeeded.
@@ -38,7 +38,7 @@ class Attempts:
     """
 
     def __init__(self) -> None:
-        self.evaluations = self.accepted = self.thrown = self.staged = 0
+        self.evaluations = self.accepted = self.discarded = self.staged = 0
         self.tried: Counter[str] = Counter()
         self.won: Counter[str] = Counter()
         self.causes: Counter[str] = Counter()
@@ -46,7 +46,7 @@ class Attempts:
     @property
     def share(self) -> float:
         """Fraction of discarded evaluations."""
-        return self.thrown / self.evaluations if self.evaluations else 0.0
+        return self.discarded / self.evaluations if self.evaluations else 0.0
 
     @property
     def beside(self) -> float:
@@ -57,7 +57,7 @@ class Attempts:
     def summary(self) -> str:
         """Both fractions as text."""
         text = f"{self.evaluations} evaluations, {self.beside:.1%} beside the iterations of accepted increments"
-        return f"{text} (line searches, repeats), {self.share:.1%} thrown away".replace("%", " %")
+        return f"{text} (line searches, repeats), {self.share:.1%} discarded".replace("%", " %")
 
     @contextmanager
     def trying(self, strategy: str) -> Iterator[None]:
@@ -67,28 +67,28 @@ class Attempts:
         try:
             yield
         except BaseException:
-            self._throw(mark)
+            self._discard(mark)
             raise
         self.won[strategy] += 1
 
     def mark(self) -> tuple[int, int]:
         """The counts before an increment, for :meth:`take_back`."""
-        return self.evaluations, self.thrown
+        return self.evaluations, self.discarded
 
     def take_back(self, mark: tuple[int, int], cause: str) -> None:
         """Count all evaluations since a mark as discarded: a converged increment is not accepted."""
-        self._throw(mark)
+        self._discard(mark)
         self.causes[cause] += 1
 
-    def _throw(self, mark: tuple[int, int]) -> None:
-        evaluations, thrown = mark
-        self.thrown = thrown + self.evaluations - evaluations
+    def _discard(self, mark: tuple[int, int]) -> None:
+        evaluations, discarded = mark
+        self.discarded = discarded + self.evaluations - evaluations
 
     def add(self, other: Attempts) -> None:
         """Add the counts of another run."""
         self.evaluations += other.evaluations
         self.accepted += other.accepted
-        self.thrown += other.thrown
+        self.discarded += other.discarded
         self.staged += other.staged
         self.tried.update(other.tried)
         self.won.update(other.won)
@@ -101,5 +101,5 @@ class Attempts:
     def record(self) -> dict[str, object]:
         """All counts, for JSON and checkpoints."""
         counts = {name: dict(getattr(self, name)) for name in ("tried", "won", "causes")}
-        numbers = {name: getattr(self, name) for name in ("evaluations", "accepted", "thrown", "staged")}
+        numbers = {name: getattr(self, name) for name in ("evaluations", "accepted", "discarded", "staged")}
         return {**numbers, **counts}

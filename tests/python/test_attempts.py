@@ -1,4 +1,4 @@
-"""Counts of attempts: what a run tried, what won, what was thrown away."""
+"""Counts of attempts: what a run tried, what won, what was discarded."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from umform.attempts import Attempts
 from umform.timing import Timing, timings
 
 
-def test_what_fails_is_thrown_away_once_however_deep_it_lies():
+def test_what_fails_is_discarded_once_however_deep_it_lies():
     attempts = Attempts()
     with attempts.trying("outer"):
         attempts.evaluations += 1
@@ -24,12 +24,12 @@ def test_what_fails_is_thrown_away_once_however_deep_it_lies():
             attempts.evaluations += 4
             raise ValueError("x")
         _ = 1 / 0
-    assert (attempts.evaluations, attempts.thrown) == (8, 7)
+    assert (attempts.evaluations, attempts.discarded) == (8, 7)
     assert attempts.share == 7 / 8
     assert attempts.rows() == [("outer", 2, 1), ("inner", 2, 0)]
 
 
-def test_an_increment_that_is_taken_back_is_thrown_away_whole():
+def test_an_increment_that_is_taken_back_is_discarded_whole():
     attempts = Attempts()
     attempts.evaluations = 10
     mark = attempts.mark()
@@ -38,7 +38,7 @@ def test_an_increment_that_is_taken_back_is_thrown_away_whole():
         _ = 1 / 0
     attempts.evaluations += 3
     attempts.take_back(mark, "too far")
-    assert (attempts.thrown, attempts.causes) == (5, {"too far": 1})
+    assert (attempts.discarded, attempts.causes) == (5, {"too far": 1})
 
 
 def strip(law):
@@ -63,7 +63,7 @@ def test_a_run_counts_its_evaluations_and_strategies():
     assert attempts.evaluations == result.timing.elements.calls
     assert sum(attempts.won.values()) >= len(result) - 1  # and the increments of the release that were taken back
     assert set(attempts.won) <= {"extrapolation", "tangent", "softer penalties"}
-    assert attempts.evaluations - attempts.thrown >= result["iterations"].sum() >= attempts.accepted > 0
+    assert attempts.evaluations - attempts.discarded >= result["iterations"].sum() >= attempts.accepted > 0
     assert attempts.beside == pytest.approx(1.0 - attempts.accepted / attempts.evaluations)
     assert sum(attempts.tried.values()) - sum(attempts.won.values()) <= sum(attempts.causes.values())
     whole = Timing.sum([*runs, *runs]).attempts
@@ -71,7 +71,7 @@ def test_a_run_counts_its_evaluations_and_strategies():
     assert whole.won == {name: 2 * won for name, won in attempts.won.items()}
 
 
-def test_attempts_that_run_out_of_iterations_are_thrown_away():
+def test_attempts_that_run_out_of_iterations_are_discarded():
     model, punch = strip(steel())
     options = uf.NewtonOptions(max_iterations=5)
     result = uf.solve(model, uf.Move(punch, to=-3, steps=4), options=options, frames=0, progress=False)

@@ -148,7 +148,7 @@ def outcome(number: int, ended: str = "arrived") -> dict[str, object]:
         "reason": "why" if ended != "arrived" else "",
         "CPU s": 1.0 + number,
         "evaluations": 10,
-        "share thrown away": 0.5,
+        "share discarded": 0.5,
     }
 
 

@@ -154,7 +154,7 @@ def test_all_files_are_written(tmp_path, bend, errors):
     assert len(rows) == len(bend.stroke)
     assert float(rows[-1]["stroke mm"]) == bend.stroke[-1]
     page = (tmp_path / "out" / "report.html").read_text()
-    assert "% thrown away" in page and "<td>work of punch</td>" in page
+    assert "% discarded" in page and "<td>work of punch</td>" in page
     assert all(one.label in page for one in declared(Measures).values())
     assert all(f'id="{part}"' in page for part in ("shape-canvas", "curves", "scene", "history-csv"))
     deck = (tmp_path / "out" / "bend.toml").read_text()

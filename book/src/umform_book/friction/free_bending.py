@@ -1,4 +1,4 @@
-"""The paper's example with friction, and the cost of friction: iterations and abandoned evaluations."""
+"""The paper's example with friction, and the cost of friction: iterations and discarded evaluations."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from umform_book.page import Page
 COEFFICIENTS, MESHES, STEPS = (0.0, 0.1, 0.3), ((24, 1), (48, 1), (96, 1)), 100
 #: Force over that without friction, at the marks of the paper, against that on the finest mesh.
 EXPECTED = {24: 0.02, 48: 0.01}
-#: Limits of the iterations with friction over those without, and of the share of abandoned evaluations.
-ITERATIONS, THROWN = 1.5, 0.15
+#: Limits of the iterations with friction over those without, and of the share of discarded evaluations.
+ITERATIONS, DISCARDED = 1.5, 0.15
 
 
 def bend(page: Page, mesh: tuple[int, int], mu: float) -> Result:
@@ -76,7 +76,7 @@ def by_mesh(page: Page) -> dict[tuple[int, float], Result]:
 
 
 def cost(page: Page, bent: dict[tuple[int, float], Result]) -> None:
-    """Iterations with friction over those without, and abandoned evaluations."""
+    """Iterations with friction over those without, and discarded evaluations."""
     count = max(mesh for mesh, _ in bent)
     pairs = {f"free bending, mu = {mu:g}": (bent[count, mu], bent[count, 0.0]) for mu in COEFFICIENTS[1:]}
     if not page.short:
@@ -86,27 +86,27 @@ def cost(page: Page, bent: dict[tuple[int, float], Result]) -> None:
         runs = [bending_work.draw(page, mu, 54, 100) for mu in (0.1, 0.0)]
         pairs["plastic strip over R = 8"] = (runs[0], runs[1])
     rows: list[tuple[str | float | None, ...]] = []
-    ratios, evaluations, thrown = [], [0, 0], [0, 0]
+    ratios, evaluations, discarded = [], [0, 0], [0, 0]
     for label, pair in pairs.items():
         ratios.append(per_increment(pair[0]) / per_increment(pair[1]))
         attempts = [result.timing.attempts for result in pair]
         for k, attempt in enumerate(attempts):
-            evaluations[k], thrown[k] = evaluations[k] + attempt.evaluations, thrown[k] + attempt.thrown
+            evaluations[k], discarded[k] = evaluations[k] + attempt.evaluations, discarded[k] + attempt.discarded
         shares = [100 * attempt.share for attempt in attempts]
         rows.append((label, *(round(value, 1) for value in (*map(per_increment, pair), ratios[-1], *shares))))
-    share = [100 * thrown[k] / evaluations[k] for k in (0, 1)]
+    share = [100 * discarded[k] / evaluations[k] for k in (0, 1)]
     rows.append(("all", None, None, *(round(value, 1) for value in (median(ratios), *share))))
     columns = (
         "",
         "iterations per increment",
         "without friction",
         "ratio",
-        "abandoned evaluations %",
+        "discarded evaluations %",
         "without friction %",
     )
     page.table("Cost of friction; last row: median, sums", columns, rows)
     page.at_most("iterations per increment with friction over those without, median", float(median(ratios)), ITERATIONS)
-    page.at_most("share of abandoned evaluations, with friction", share[0] / 100, THROWN)
+    page.at_most("share of discarded evaluations, with friction", share[0] / 100, DISCARDED)
 
 
 def run(page: Page) -> None:
@@ -122,13 +122,13 @@ CASE = Case(
     problem=f"""
 The paper's free bending ([reproduction](bending-reproduction.md)) with friction on the cylinder, mu = 0, 0.1, 0.3; 24,
 48 and 96 elements ANS3DEAS along the strip, 5 x 5 contact points, allowed elastic slip 0.005, {STEPS} increments. Cost:
-iterations per increment with and without friction, and the share of evaluations in abandoned attempts, also for the
+iterations per increment with and without friction, and the share of evaluations in discarded attempts, also for the
 strips of the [capstan](friction-capstan.md) and of [bending and unbending](friction-bending-work.md).
 """,
     reference="""
 No external reference. The force over that without friction on the same mesh is compared with the finest mesh, within 2
 % and 1 %; meshes without friction: [reproduction](bending-reproduction.md). Also the balance of work. Limits of the
-cost: half as many iterations more in the median, 15 % abandoned evaluations.
+cost: half as many iterations more in the median, 15 % discarded evaluations.
 """,
     run=run,
     cost=60.0,
