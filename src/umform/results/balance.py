@@ -63,8 +63,8 @@ class Balance:
     force_imbalance : ndarray
         Sum of all external forces on the sheet, relative to the largest sum of their magnitudes so far. eq. (5.34)
     moment_imbalance : ndarray
-        Sum of their moments about the origin, relative to the same sum times the largest initial distance of a node
-        from it.
+        Sum of their moments about the middle of the undeformed mesh, relative to the same sum times the largest initial
+        distance of a node from it.
     works : mapping of str to ndarray
         Work of each tool on the sheet by its name, of "loads and supports" together, and of "contact beyond the mean",
         the part of it within increments that no mean of forces contains, since the run began. Their sum is the change
@@ -231,8 +231,9 @@ class ExternalWork:
         self.works: list[Floats] = []
         self._before: _State | None = None
         self._largest = 0.0  # sum of the magnitudes of the external forces
-        distances = np.linalg.norm(model.positions, axis=1)
-        self._length = model.system.ranks.max(float(distances.max()))
+        ranks, x = model.system.ranks, model.positions
+        self._centre = np.array([0.5 * (ranks.max(float(part.max())) - ranks.max(float(-part.min()))) for part in x.T])
+        self._length = ranks.max(float(np.linalg.norm(x - self._centre, axis=1).max()))
 
     def advance(self, evaluation: Evaluation) -> None:
         """Continue to the converged state of the model at which the evaluation was made."""
@@ -281,7 +282,6 @@ class ExternalWork:
             "imbalances": np.array(self.imbalances),
             "works": np.array(self.works),
             "largest": self._largest,
-            "length": self._length,
         }
 
     def recall(self, memory: Mapping[str, Any], evaluation: Evaluation) -> None:
@@ -297,7 +297,7 @@ class ExternalWork:
         self.advance(evaluation)
         self.imbalances = [(force, moment) for force, moment in memory["imbalances"].tolist()]
         self.works = list(memory["works"])
-        self.value, self._largest, self._length = memory["value"], memory["largest"], memory["length"]
+        self.value, self._largest = memory["value"], memory["largest"]
 
     def _nodal_forces(self, evaluation: Evaluation) -> tuple[Floats, Floats]:
         """Dead loads, pressures and reactions on the nodes; and the same with the forces of foundations."""
@@ -324,11 +324,11 @@ class ExternalWork:
         ranks, owned = self.model.system.ranks, self.model.system.whole.owned
         x = self.model.mesh.displaced(state.u)[owned]
         forces = self.model.system.whole.sum_at_nodes(state.all_forces.reshape(-1, 3))[owned]
-        force, moment = ranks.sum(forces.sum(axis=0)), ranks.sum(moment_of(x, forces))
+        force, moment = ranks.sum(forces.sum(axis=0)), ranks.sum(moment_of(x - self._centre, forces))
         magnitude = ranks.sum(float(np.sqrt((forces * forces).sum(axis=1)).sum()))
         for tool in state.tools:
             force -= tool.force
-            moment -= tool.moment + moment_of(tool.point[None], tool.force[None])
+            moment -= tool.moment + moment_of((tool.point - self._centre)[None], tool.force[None])
             magnitude += tool.magnitude
         self._largest = max(self._largest, magnitude)
         if self._largest == 0.0:
