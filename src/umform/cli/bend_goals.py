@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -74,12 +75,12 @@ class BendGoal:
         strokes = [] if table is None else _strokes_of(table)
         wanted = [] if angles is None else sorted(set(values_of(angles, "--angles")), reverse=True)
         table_only = angle is None and stroke is None and not bottoming
+        given["stroke"] = stroke
         if strokes and table_only:
             stroke = strokes[-1]
         last_row = bool(wanted) and table_only
         angle = wanted.pop() if last_row else angle
         check_value(Goal, "tolerance", tolerance)
-        given["stroke"] = stroke
         return cls(angle, stroke, force, travel, tolerance, bottoming, strokes, wanted, last_row, typed)
 
     @property
@@ -106,11 +107,20 @@ class BendGoal:
             case = case if self.travel is None else with_travel(case, self.travel)
             check_value(Goal, "force_per_metre", self.force)
         if self.strokes:
-            replace(case, stroke=self.strokes[-1])  # refuses a stroke beyond air bending before the first run
-        for one in [*self.angles, self.angle]:
-            if one is not None:
-                check_angle(case, one)
+            with _typed("--table"):  # refuses a stroke beyond air bending before the first run
+                longest = replace(case, stroke=self.strokes[-1])
+            case = longest if case.stroke is None else case
+        for option, angles in (("--angles", self.angles), (self._angle_of, [self.angle])):
+            for one in angles:
+                if one is not None:
+                    with _typed(option):
+                        check_angle(case, one)
         return case
+
+    @property
+    def _angle_of(self) -> str:
+        """Option that has the angle of the bend."""
+        return "--angles" if self.last_row else "--angle"
 
     def rows(self, brake: Brake) -> Iterator[list[Measures]]:
         """Rows of the bending tables before the bend."""
@@ -119,7 +129,9 @@ class BendGoal:
         if self.strokes:
             yield bending_table(brake.case, self.strokes, brake=brake)
         if self.angles:
-            yield angle_table(brake.case, self.angles, tolerance=self.tolerance, brake=brake)
+            with _typed("--angles"):
+                angles = angle_table(brake.case, self.angles, tolerance=self.tolerance, brake=brake)
+            yield angles
 
     def bent(self, brake: Brake) -> AirBend:
         """The bend to a force, to an angle after springback, or to the stroke."""
@@ -130,7 +142,8 @@ class BendGoal:
         if self.force is not None:
             return press_to_force(brake.case, self.force, brake=brake).bend
         if self.angle is not None:
-            return find_stroke(brake.case, self.angle, tolerance=self.tolerance, brake=brake).bend
+            with _typed(self._angle_of):
+                return find_stroke(brake.case, self.angle, tolerance=self.tolerance, brake=brake).bend
         return air_bending(brake.case, brake=brake)
 
     def with_stroke(self, case: AirBending) -> AirBending:
@@ -159,6 +172,17 @@ class BendGoal:
                 cause="--angle, --table, --angles or --budget beside it",
                 remedy="the angle is about that of the die; leave them out",
             )
+
+
+@contextmanager
+def _typed(option: str) -> Iterator[None]:
+    """Name the option in errors of a stroke or of an angle."""
+    try:
+        yield
+    except InvalidValue as error:
+        if error.where in ("angle", "stroke"):
+            error.where = option
+        raise
 
 
 def check_length(length: float | None) -> None:

@@ -224,6 +224,9 @@ def test_a_file_is_read(tmp_path):
         read_sequence(file)
     with pytest.raises(FileProblem, match="cause:  Is a directory"):
         read_sequence(tmp_path)
+    file.write_text("[mesh]\nlength = 30.0\n[[steps]]\nkind = 'move'\n")
+    with pytest.raises(FileProblem, match=r"a deck and no sequence of bends [\s\S]*remedy: umform run .*part.toml"):
+        read_sequence(file)
 
 
 @pytest.mark.parametrize(

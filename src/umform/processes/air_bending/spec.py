@@ -14,7 +14,7 @@ from umform.errors import InvalidValue
 from umform.processes.air_bending.stack import StackedSheet, bonded_sheets, check_stack
 from umform.processes.rules import PLASTIC, WITHOUT_RATE, check_contact_points, check_rolling
 from umform.spec import About, check_fields, listed, names_its_words, note_of, parameters
-from umform.spec.types import ContactPoints, Degrees, Friction, Length, Positive, Rolling
+from umform.spec.types import ContactPoints, Degrees, Friction, Length, Positive, Rolling, Size
 
 if TYPE_CHECKING:
     from umform.elements.technology import Element
@@ -94,7 +94,7 @@ class AirBending:
     """Opening of the die: distance of the lines where its flanks, drawn on as planes, meet its top."""
     die_angle: Annotated[Degrees, Gt(1.0), SizeOf("die", "angle")] = 85.0
     """Angle between the flanks of the die."""
-    die_radius: Annotated[Length, SizeOf("die", "radius")] = 2.0
+    die_radius: Annotated[Size, SizeOf("die", "radius")] = 2.0
     """Radius of the shoulders of the die."""
     punch_angle: Annotated[Degrees, Gt(1.0), SizeOf("punch", "angle")] = 85.0
     """Angle between the flanks of the punch."""

@@ -116,6 +116,13 @@ def read_sequence(path: Path) -> SequenceForm | OutsideForm:
             remedy="a TOML file with length or flanges, and a table [[bends]] for each bend, see "
             "docs/bending-operations.md",
         ) from error
+    if "steps" in data:
+        raise FileProblem(
+            "this is a deck and no sequence of bends",
+            where=str(path),
+            cause="it has a table [[steps]]",
+            remedy=f"umform run {path}",
+        )
     return sequence_form(data, str(path))
 
 
