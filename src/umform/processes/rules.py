@@ -8,6 +8,7 @@ from typing import Any
 
 from umform.errors import InvalidValue
 from umform.spec import Rule
+from umform.spec.types import FARTHEST
 
 
 def whole(value: Any, least: int, most: float = math.inf) -> bool:
@@ -23,6 +24,11 @@ def number(value: Any) -> bool:
 def positive(value: Any) -> bool:
     """Whether a value is a finite number above zero."""
     return number(value) and value > 0
+
+
+def bound(value: float) -> float:
+    """A bound of a search; one beyond `FARTHEST` is none, since squares would overflow."""
+    return value if abs(value) <= FARTHEST else math.copysign(math.inf, value)
 
 
 def length(what: str, remedy: str) -> Rule:

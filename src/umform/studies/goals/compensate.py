@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.run import Result
-from umform.errors import InvalidPath, InvalidValue, SolveError, UmformError
+from umform.errors import InvalidPath, InvalidValue, UmformError
+from umform.processes.rules import bound
 from umform.progress import Tick, progress_bar, silent
 from umform.results.quantity import Quantity
 from umform.spec import Scalar, check_value
@@ -207,7 +208,7 @@ class _Search:
                 break  # at a bound
             try:
                 x_new, y_new = self._next(x, step, most)
-            except (SolveError, InvalidValue) as error:
+            except UmformError as error:
                 self.stopped = " ".join(str(error).split())
                 break
             moved, found = (x_new - x) / self.scale, y_new - y
@@ -288,8 +289,8 @@ class _Search:
         for halving in range(_HALVINGS):
             try:
                 return x + step * 0.5**halving, self._plain(x + step * 0.5**halving)
-            except (SolveError, InvalidValue) as error:
-                last: UmformError = error
+            except UmformError as error:
+                last = error
                 if len(self.trials) >= most:
                     break
         raise last
@@ -437,5 +438,5 @@ def _limits(parameters: Sequence[Scalar], bounds: Mapping[str, tuple[float, floa
                 cause=f"they are {low:g} and {high:g}",
                 remedy="a start between them, or wider bounds",
             )
-        limits.append((low, high))
+        limits.append((bound(low), bound(high)))
     return np.array(limits, dtype=float)

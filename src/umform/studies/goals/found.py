@@ -15,6 +15,7 @@ from umform.processes.rules import number as is_number
 from umform.processes.rules import positive
 from umform.results.outcome import Annex, Study
 from umform.results.quantity import Quantity
+from umform.spec.types import FARTHEST
 from umform.studies.goals.files import write_deck, write_tools
 from umform.studies.goals.shapes import Shapes, Tools, picture
 
@@ -49,12 +50,14 @@ class Wanted:
     tolerance: float
 
     def __post_init__(self) -> None:
-        if not (is_number(self.value) and positive(self.tolerance)):
+        if not (is_number(self.value) and abs(self.value) <= FARTHEST and positive(self.tolerance)) or (
+            self.tolerance < 1.0 / FARTHEST
+        ):
             raise InvalidValue(
-                "a wanted result has a finite value and a tolerance above zero",
+                f"a wanted result has a value up to {FARTHEST:g} and a tolerance of at least {1.0 / FARTHEST:g}",
                 where="want",
                 value=f"{self.value} +- {self.tolerance}",
-                cause="a sign, or a tolerance of zero",
+                cause="a sign, a tolerance of zero, or a typing error",
                 remedy="a tolerance such as 0.05",
             )
 

@@ -14,6 +14,7 @@ from umform.errors import InvalidValue
 from umform.problem.errors import slip
 from umform.processes.rules import number as is_number
 from umform.results.quantity import Quantity
+from umform.spec.types import FARTHEST
 from umform.studies.calibration.columns import number, read_rows
 from umform.studies.derivatives import Derivatives
 from umform.studies.identification.branches import NOISE, at_abscissae, branches
@@ -325,7 +326,7 @@ class MeasuredCurve:
 
 
 def _check(name: str, values: Floats, deviations: Floats) -> None:
-    numbers, wide = np.isfinite(values), np.isfinite(deviations) & (deviations > 0.0)
+    numbers, wide = abs(values) <= FARTHEST, (deviations >= 1.0 / FARTHEST) & (deviations <= FARTHEST)
     if not (numbers.all() and wide.all()):
         raise _unfit(name, values[~numbers][0] if not numbers.all() else deviations[~wide][0])
 
@@ -335,7 +336,7 @@ def _unfit(name: str, value: object) -> InvalidValue:
         "a measurement is a number with a positive standard deviation",
         where=name,
         value=value,
-        cause="an empty cell, a number that is not finite, or one that is zero and has no standard deviation",
+        cause=f"an empty cell, a number beyond {FARTHEST:g}, or one that is zero and has no standard deviation",
         remedy="such as 91.3+-.2; in Python 91.3, 0.2",
     )
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Self
 
 from umform.errors import InvalidValue
+from umform.processes.rules import bound
 
 
 @dataclass(frozen=True)
@@ -56,6 +57,7 @@ class Sought:
                 made = cls(float(low), float(high))
             except (TypeError, ValueError):
                 raise _wrong(path, given, "neither bounds nor a first value") from None
+        made = replace(made, low=bound(made.low), high=bound(made.high))
         if not made.low < made.high:
             raise _wrong(path, f"{made.low:g}:{made.high:g}", "the lower bound is not below the upper one")
         if made.start is not None and not made.low <= made.start <= made.high:

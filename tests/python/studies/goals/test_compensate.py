@@ -7,7 +7,7 @@ import pytest
 
 import umform as uf
 from umform.errors import InvalidValue
-from umform.problem import load
+from umform.problem import DeckError, load
 from umform.problem.templates import template_file
 from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.bend_sequence import Bend, BendSequence
@@ -116,10 +116,11 @@ def test_an_unknown_derivative_is_a_secant_of_one_run_more(monkeypatch):
     assert found.trials[1].parameters[0] == pytest.approx(0.5 * 1.09)
 
 
-def test_a_search_that_ends_at_a_run_that_fails_keeps_its_runs():
+@pytest.mark.parametrize("refused", [lambda error: error, lambda error: DeckError([error])])
+def test_a_search_that_ends_at_a_run_that_fails_keeps_its_runs(refused):
     def short(way):
         if way > 1.0:
-            raise InvalidValue("the way ends in a stop", where="way")
+            raise refused(InvalidValue("the way ends in a stop", where="way"))
         return cantilever(way, 210e3)
 
     found = uf.compensate(short, {"tip_force": uf.Wanted(-4.0, 1e-3)}, {"way": 0.8})
@@ -162,7 +163,7 @@ def test_what_is_no_goal_is_refused_before_a_run(by, more, where):
     assert refused.value.where == where
 
 
-@pytest.mark.parametrize("given", [("a", 1.0), (1.0, "a"), (1.0, 0.0), (None, 1.0)])
+@pytest.mark.parametrize("given", [("a", 1.0), (1.0, "a"), (1.0, 0.0), (None, 1.0), (1e300, 1.0), (1.0, 1e-300)])
 def test_a_wanted_result_is_two_numbers(given):
     with pytest.raises(InvalidValue, match="a wanted result has"):
         uf.Wanted(*given)
@@ -226,6 +227,14 @@ def test_a_part_that_does_not_respond_is_refused(monkeypatch):
 def test_a_start_outside_of_its_bounds_is_refused():
     with pytest.raises(InvalidValue, match="starts outside of its bounds"):
         uf.compensate(BEND, {"angle": uf.Wanted(128.0, 0.02)}, ["stroke"], bounds={"stroke": (4.0, 5.0)})
+
+
+def test_a_bound_whose_square_overflows_is_none():
+    bounds = {"E": (1e-300, 1e300)}
+    found = uf.compensate(
+        lambda E: cantilever(0.5, E), {"tip_force": uf.Wanted(-2.0, 1e-6)}, {"E": 210e3}, bounds=bounds
+    )
+    assert found.reached
 
 
 def test_a_deck_is_compensated_and_written(tmp_path):
