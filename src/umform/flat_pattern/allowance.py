@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Protocol
@@ -202,7 +203,11 @@ class DeductionTable:
         """The allowance of a bend; the table must have one set of tools for its thickness, and reach its angle."""
         fits = [one for one in self.readings.values() if abs(one.thickness - thickness) <= _ROW * thickness]
         if len(fits) != 1:
-            have = f"{len(fits)} metals and tools have this thickness; give a table of one of them"
+            have = (
+                f"{len(fits)} metals and tools have this thickness; give a table of one of them"
+                if fits
+                else f"it has thicknesses of {', '.join(f'{t:g}' for t in sorted({key[1] for key in self.readings}))}"
+            )
             raise _not_in_table(self.name, angle, radius, thickness, have)
         known = sorted(fits[0].deductions)
         if not known[0] - 1e-6 <= 180.0 - angle <= known[-1] + 1e-6:
@@ -222,6 +227,16 @@ def _of_bend_table(path: Path) -> DeductionTable:
             cause=f"the column {error} is missing" if isinstance(error, KeyError) else str(error),
             remedy="the file as the command has written it, with commas and decimal points",
         ) from error
+
+
+@contextmanager
+def angle_of(bend: str) -> Iterator[None]:
+    """Name the bend of a part whose angle is refused."""
+    try:
+        yield
+    except InvalidValue as error:
+        error.where = bend if error.where == "angle" else error.where
+        raise
 
 
 def outside(angle: float, radius: float, thickness: float) -> float:

@@ -7,7 +7,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from umform.errors import InvalidValue
-from umform.flat_pattern.allowance import Allowance, AllowanceProvider, AllowanceTable, DeductionTable, KFactor, outside
+from umform.flat_pattern.allowance import (
+    Allowance,
+    AllowanceProvider,
+    AllowanceTable,
+    DeductionTable,
+    KFactor,
+    angle_of,
+    outside,
+)
 from umform.io.store import Store
 from umform.processes.air_bending.formulas import INNER_RADIUS
 from umform.processes.air_bending.spec import AirBending
@@ -103,12 +111,13 @@ def developed(
         If the tools do not bend so far, or the table has no such bend, metal or die.
     """
     found = []
-    for bend in part.bends:
+    for number, bend in enumerate(part.bends, start=1):
         case = case_of(sheet, bend)
         if allowance is not None:
             found.append(_of(allowance, case, bend, part.acute))
         else:
-            found.append(_computed(stored_bend(case, bend.angle, store=store), part.acute))
+            with angle_of(f"bend {number}, angle"):
+                found.append(_computed(stored_bend(case, bend.angle, store=store), part.acute))
     return Developed(part, tuple(found))
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any
 
-from umform.flat_pattern.allowance import Allowance, outside
+from umform.flat_pattern.allowance import Allowance, angle_of, outside
 from umform.io.store import Store
 from umform.problem.metal_file import metal_of
 from umform.processes.air_bending.formulas import INNER_RADIUS
@@ -104,7 +104,8 @@ class ComputedBends:
         """
         case = self.tooling.case(angle, radius, thickness)
         warnings = accepted(case)
-        found = stored_bend(case, 180.0 - angle, store=self.store)
+        with angle_of(f"the bend by {angle:.4g} degrees"):
+            found = stored_bend(case, 180.0 - angle, store=self.store)
         drawn = 2.0 * outside(angle, radius, thickness)
         words = [
             self.tooling.metal or "",

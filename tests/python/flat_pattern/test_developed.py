@@ -9,6 +9,7 @@ from umform import sheet_metals
 from umform.errors import InvalidValue
 from umform.flat_pattern.allowance import KFactor
 from umform.flat_pattern.developed import developed, developed_at_once, developed_of
+from umform.flat_pattern.tooling import ComputedBends
 from umform.io.store import Store
 from umform.processes.air_bending import AirBending
 from umform.processes.bend_sequence import bend_sequence
@@ -76,6 +77,15 @@ def test_stored_bends_are_known_at_once_and_others_follow_the_factor(tmp_path):
     after = developed_at_once(part, COARSE, KFactor(0.44), store)
     assert before.deductions[0].source == "K-factor 0.44"
     assert after == computed and after.deductions[0].source.startswith("computed")
+
+
+def test_a_bend_whose_angle_is_not_computed_is_named():
+    with pytest.raises(InvalidValue, match="15 to 165 degrees") as refused:
+        developed(OutsidePart((20.0, 20.0), (OutsideBend(170.0),)), COARSE)
+    assert refused.value.where == "bend 1, angle" and "a K-factor" in refused.value.remedy
+    with pytest.raises(InvalidValue) as refused:
+        ComputedBends()(10.0, 2.0, 2.0)
+    assert refused.value.where == "the bend by 10 degrees"
 
 
 def test_the_computed_deduction_to_the_tangent_is_smaller_below_90_degrees(tmp_path):

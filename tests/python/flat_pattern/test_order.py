@@ -142,6 +142,8 @@ def test_a_table_of_bend_table_gives_deductions(tmp_path, step):
         path.write_text(head + rows + other)
         with pytest.raises(ValueError, match="2 metals and tools have this thickness"):
             AllowanceTable.read(path)(90.0, 2.0, 2.0)
+    with pytest.raises(ValueError, match="has thicknesses of 2;"):
+        AllowanceTable.read(path)(90.0, 2.0, 1.0)
 
 
 @pytest.mark.parametrize("name", ["l", "z"])

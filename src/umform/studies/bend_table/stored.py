@@ -227,11 +227,11 @@ def check_bend(case: AirBending, angle: float, tolerance: float = TOLERANCE) -> 
     check_value(Goal, "tolerance", tolerance)
     if not LEAST <= angle <= MOST:
         raise InvalidValue(
-            "a bend of a table has an angle between its legs of 15 to 165 degrees",
+            "the flat length of a bend is computed for 15 to 165 degrees between its legs",
             where="angle",
             value=angle,
-            cause="the angle by which the sheet is bent, or radians",
-            remedy="180 degrees less the bend angle",
+            cause="a flatter or a sharper bend, the angle by which the sheet is bent, or radians",
+            remedy="180 degrees less the bend angle; a K-factor or a table for the flat pattern of such a bend",
         )
     if case.bottoming:
         raise InvalidValue(
