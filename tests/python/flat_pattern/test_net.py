@@ -182,6 +182,13 @@ def test_an_outline_on_a_layer_of_a_drawing(tmp_path):
         outline_of(tmp_path / "flange.csv", "EDGE")
 
 
+def test_an_outline_to_which_no_mesh_is_stretched_is_refused():
+    disc = uf.mesh.disc(20.0, 1.0, (4, 6), part="quarter")
+    edge = Edge.of(disc, [Mirror(0, 0.0), Mirror(1, 0.0)]).star
+    with pytest.raises(uf.errors.InvalidValue, match=r"value:  0\.3 to 0\.3 of its distance"):
+        stretched(disc, edge, Star.of(0.3 * edge.points, edge.centre, "here"))
+
+
 def test_a_search_that_fails_leaves_no_mesh(tmp_path):
     with pytest.raises(uf.errors.InvalidValue, match="far from the formed sheet"):
         net_blank(deck(), 5000.0, tmp_path / "net.inp", corrections=1, first=circle(44.0))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from umform.errors import InvalidValue
+from umform.errors import FoldedElement, InvalidValue, InvertedElement
 from umform.mesh import Mesh
 
 Floats = NDArray[np.float64]
@@ -90,7 +90,7 @@ def stretched(mesh: Mesh, before: Star, after: Star) -> Mesh:
 
     Raises
     ------
-    InvertedElement, FoldedElement
+    InvalidValue
         If the outlines are too different.
     """
 
@@ -102,4 +102,15 @@ def stretched(mesh: Mesh, before: Star, after: Star) -> Mesh:
         factor = 1.0 + share * (after.radius(angle) / edge - 1.0)
         return np.concatenate([before.centre + factor[:, None] * away, x[:, 2:]], axis=1)
 
-    return mesh.transformed(moved)
+    try:
+        return mesh.transformed(moved)
+    except (InvertedElement, FoldedElement) as error:
+        angle = np.arctan2(*(after.points[:, :2] - after.centre).T[::-1])
+        share = after.radius(angle) / before.radius(angle)
+        raise InvalidValue(
+            "the mesh of the blank cannot be stretched to an outline so far from its edge",
+            where="edge of the blank",
+            value=f"{share.min():.3g} to {share.max():.3g} of its distance from the middle",
+            cause="a wanted or a first outline, or a height, in another unit or far from that of the formed part",
+            remedy="one that is nearer, or another blank in the deck",
+        ) from error
