@@ -45,6 +45,7 @@ def test_the_force_is_the_one_asked_for(pressed):
     assert m.force == pytest.approx(400.0, rel=0.005)
     assert m.largest_force == m.force
     assert pressed.bend.against == "die"
+    assert pressed.bend["stroke"].band is None  # found, not given
     assert not any("air bending" in text or "bottoms" in text for text in pressed.bend.warnings)
 
 
