@@ -95,7 +95,8 @@ class Shadows:
         reference, model = self.reference, self.reference.run.model
         start, change = _Unknowns.of(model), self._lead.since(before)
         try:
-            passes = _repeat(reference, lead, growth, change, None, None, frame=frame)
+            stay = any(contact.multipliers_stay for contact in lead.model.system.multiplied)
+            passes = _repeat(reference, lead, growth, change, None, [0] if stay else None, frame=frame)
             solver = factored(reference.run, reference.evaluation)
         except (Failed, UmformError) as failure:
             for one in (reference, *self.others):

@@ -13,15 +13,17 @@ from numpy.typing import NDArray
 from umform.analysis.newton.bordered import Bordered
 from umform.analysis.newton.criteria import EPS
 from umform.analysis.newton.shift import Shift
+from umform.analysis.newton.strategies import Increment, equilibrium
 from umform.analysis.run.checkpoint import memory_of, recall
 from umform.analysis.run.run_steps import loop_for
 from umform.analysis.steps import Step
 from umform.analysis.steps.run_state import Run
 from umform.errors import NotFinite, SingularMatrix, UmformError
 from umform.model import Evaluation, Model, State
+from umform.model.equations.changed_forces import changed_residual
 from umform.model.terms.control import Control, OnDofs
 from umform.model.tools.tool_controls import ToolWay
-from umform.results.records import Failed
+from umform.results.records import Converged, Failed
 
 Floats = NDArray[np.float64]
 
@@ -215,16 +217,17 @@ class Shadow:
             for done in range(_PASSES if passes is None else passes):
                 if passes is None and not self._loose(evaluation, first=done == 0):
                     break
-                for contact in system.multiplied:
-                    contact.augment(evaluation.found[contact], np.zeros(run.model.u.size))
-                evaluation = self._correct(goal, evaluation.x, np.zeros_like(u), factors)
+                evaluation = self._augmented(goal, evaluation, factors)
             else:
                 done = _PASSES if passes is None else passes
         except (SingularMatrix, NotFinite) as error:
             system.revert()
             raise Failed(str(error), []) from error
-        except BaseException:
+        except BaseException as error:
             system.revert()
+            if passes and factors is not None and isinstance(error, Failed):  # as the reference does
+                self.kept.own += 1
+                return self.increment(values, controls, time, guess, None, passes)
             raise
         system.commit(evaluation)
         self.evaluation, run.evaluation = evaluation, evaluation.without_tangent()
@@ -234,7 +237,8 @@ class Shadow:
         """Equilibrium from ``u + du``.
 
         A run that does not get there by the factors of the reference takes its own: where the reference is free of its
-        tools, and this run not yet, they are those of a sheet that nothing holds. Then it begins with a line search.
+        tools, and this run not yet, they are those of a sheet that nothing holds. Then it begins with a line search,
+        and the reference at last like the run.
         """
         system, newton = self.run.model.system, self.run.newton
         missed: Failed | None = None
@@ -249,13 +253,33 @@ class Shadow:
                 return found
         assert missed is not None
         system.prepare(goal)
-        near = newton.but(residual=_NEAR).solve(goal, du, newton.mode(friction=True))
+        rough = newton.but(residual=_NEAR)
+        try:
+            near = rough.solve(goal, du, newton.mode(friction=True))
+        except Failed:
+            if factors is not None:
+                raise
+            run, controls = self.run, tuple(self.run.model.controls)
+            system.prepare(goal)
+            last = run.evaluation
+            near = equilibrium(Increment(run.model, rough, run.statistics, goal, controls, None, last, grows=False))
         found = self._correct(goal, near.x, np.zeros_like(u), None)
         if factors is not None:
             if float(np.abs(found.x - factors.x).max()) > _FAR * system.thickness:  # on another branch
                 raise missed
             self.kept.own += 1
         return found
+
+    def _augmented(self, goal: State, evaluation: Evaluation, factors: Factors | None) -> Evaluation:
+        """Equilibrium after a pass of the multipliers; without factors of the reference with a line search first."""
+        model, newton = self.run.model, self.run.newton
+        parts = {contact: np.zeros(model.u.size) for contact in model.system.multiplied}
+        for contact, part in parts.items():
+            contact.augment(evaluation.found[contact], part)
+        if factors is None:
+            change = changed_residual(model.system, evaluation, parts)
+            evaluation = newton.but(residual=_NEAR).go_on(Converged(evaluation, [], goal), change).evaluation
+        return self._correct(goal, evaluation.x, np.zeros_like(evaluation.x), factors)
 
     def _loose(self, evaluation: Evaluation, *, first: bool) -> bool:
         pairs = [one for one in self.run.model.system.multiplied if evaluation.found[one].active.any()]

@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 
 import umform as uf
+from umform.analysis.newton.augmentation import augmented
 from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.run import resume, solve
 from umform.analysis.shadows import resume_with_shadows, solve_with_shadows
 from umform.analysis.shadows.group import Shadows
 from umform.analysis.shadows.shadow import Shadow
+from umform.analysis.steps import increment
 from umform.errors import FileProblem, InvalidValue
 from umform.results.records import Failed
 
@@ -137,6 +139,54 @@ def test_the_derivative_of_a_limit_load():
     assert found["peak", "h"].value == pytest.approx((ends[0] - ends[1]) / 32e-3, rel=5e-4)
     raw = uf.derivatives(arch, by=values, of=["load:max"], options=TIGHT, progress=False)
     assert raw["load:max", "h"].value == pytest.approx(found["peak", "h"].value, rel=5e-2)
+
+
+# Multipliers ----------------------------------------------------------------------------------------------------
+
+
+def pressed(strength=300.0, down=4, up=4, cells=5, below=0):
+    """A strip, on another one if that has elements, which a roll with multipliers presses down and leaves."""
+    mesh = uf.mesh.strip(20.0, 1.0, 0.8, (cells, 1))
+    if below:
+        mesh = uf.mesh.together(below=uf.mesh.strip(20.0, 1.0, 1.0, (below, 1)).moved((0, 0, -0.92)), above=mesh)
+    model = uf.Model(mesh, material=uf.J2(E=70e3, nu=0.33, hardening=uf.Swift(strength, 0.01, 0.2)))
+    model.fix(lambda x, y, z: x < 1e-9)
+    how = {"friction": 0.1, "augmented": True, "points": 3}
+    if below:
+        model.sheet_contact("upper of below", "lower of above", name="stack", **how | {"friction": 0.15})
+    roll = uf.Cylinder((17.0, 0.0, 4.45), "y", 4.0)
+    stroke = model.drive(
+        model.contact("upper of above" if below else "upper", roll, name="roll", **how), "-z", "stroke"
+    )
+    return model, [uf.Move(stroke, 1.5, steps=down), uf.Move(stroke, -0.5, steps=up)]
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{}, {"down": 3, "up": 3, "cells": 7, "below": 5}, {"cells": 8, "below": 10}],
+    ids=["pass of the reference", "pass of a shadow", "start of the reference"],
+)
+def test_multipliers_in_increments_that_need_a_line_search(options):
+    found = solve_with_shadows(pressed(**options), pressed(**options), {"more": pressed(300.03, **options)}, frames=0)
+    assert not found.missing and not found.kept["more"].lost
+    more, as_it_is = (solve(*pressed(one, **options), options=TIGHT, frames=0)["stroke_force"] for one in (300.03, 300))
+    own = found.shadows["more"]["stroke_force"] - found.reference["stroke_force"]
+    np.testing.assert_allclose(own, more - as_it_is, rtol=0, atol=1e-3 * np.abs(own).max())
+
+
+def test_multipliers_that_stay_in_the_run_stay_in_its_shadows(monkeypatch):
+    """A pass fails in the run: it goes on with the penalty."""
+
+    def failing(model, newton, converged):
+        if model.state.time > 0.4:
+            raise Failed("no convergence", [])
+        return augmented(model, newton, converged)
+
+    monkeypatch.setattr(increment, "augmented", failing)
+    found = solve_with_shadows(pressed(), pressed(), {"more": pressed(300.03)}, frames=0)
+    assert found.run["roll_multipliers_stay"].any()
+    for result in (found.reference, found.shadows["more"]):
+        np.testing.assert_allclose(result["roll_penetration"], found.run["roll_penetration"], rtol=0, atol=1e-5)
 
 
 # Lost shadows ---------------------------------------------------------------------------------------------------
