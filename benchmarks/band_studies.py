@@ -17,10 +17,12 @@ from umform.processes.extrapolation import Limit
 from umform.results.quantity import ALL_BUT_MESH
 from umform.results.studies import StudiedMesh, band_of, studied_name
 
-#: Numbers that are counts, thresholds of counts or given: they have no error.
+#: Numbers that are counts, thresholds of counts, places of a maximum or given: they have no error.
 WITHOUT = (
     "number of ears",
     "ears count from an amplitude of",
+    "at a stroke of",
+    "off the holder: at a stroke of",
     "stroke",
     "below_die",
     "length_balance",

@@ -46,7 +46,8 @@ of squares.
 
 No band contains the error of the law of the metal, of an unknown friction, or of tools that are not rigid. These
 numbers have no band, and are *of this mesh* in the tables: those of decks without `--budget`; the number of ears and
-the amplitude from which they count; the angle of the first bend of a hem whose stroke is given (in Python only).
+the amplitude from which they count; the stroke of a largest force, which a flat curve may have anywhere; the angle of
+the first bend of a hem whose stroke is given (in Python only).
 `--no-extrapolate` leaves out the coarser mesh of a U-bend, and estimates its bands from studies.
 
 ## Decks
