@@ -37,6 +37,8 @@ def test_bend_is_drawn_run_and_told(visit):
     page.click("#more-numbers summary")
     page.fill("#flat-a", "50")
     assert page.locator(".flat .value").inner_text().endswith("mm")
+    page.select_option("#language", "de")
+    page.locator("#measured summary", has_text="Ich habe einen anderen Winkel").wait_for()
 
 
 def test_angle_out_of_reach_is_refused_beside_its_field(visit):

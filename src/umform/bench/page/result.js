@@ -84,7 +84,10 @@ export class Result {
   async show(job) {
     const parts = [];
     const bar = JSON.stringify([job.id, job.state, language]);
-    if (bar !== this.barOf) this.bar.replaceChildren(this.head(job));
+    if (bar !== this.barOf) {
+      this.bar.replaceChildren(this.head(job));
+      this.measured = null; // its words are those of the language
+    }
     this.barOf = bar;
     if (!this.job) {
       this.looked = job.kind === "bend" ? await post("/api/look", known(job.parameters)) : {};
