@@ -8,12 +8,13 @@ import pytest
 from umform import _core
 from umform.history_variables import history_of
 from umform.mesh import strip
+from umform.model.contact.friction import Friction
 from umform.surfaces import Cylinder, Sphere, UserSurface
 
 
-def facets_on(tool, penalty=100.0, points=2, cells=(24, 24)):
+def facets_on(tool, penalty=100.0, points=2, cells=(24, 24), law=None):
     mesh = strip(24.0, 24.0, 1.0, cells)
-    law = _core.penalty_law(penalty)
+    law = law or _core.penalty_law(penalty)
     return _core.contact_block(mesh.facets("lower"), mesh.points, (points, points), False, tool.kernel(), law), mesh
 
 
@@ -104,6 +105,25 @@ def test_most_facets_of_a_large_sheet_are_far_and_their_gaps_are_measured_when_a
     forces(once, mesh, u)
     np.testing.assert_array_equal(block.gaps, once.gaps)
     assert block.far_facets == 0
+
+
+def test_friction_remembers_the_same_place_of_a_point_in_a_far_facet(rng):
+    """A resumed run locates all facets at first: its bits must not depend on which were far."""
+    law = _core.coulomb_law(100.0, 1.0, 0.01, Friction(0.1).kernel())
+    block, mesh = facets_on(BALL, law=law)
+    fresh, _ = facets_on(BALL, law=law)
+    for one in (block, fresh):
+        one.set_pose(np.eye(3), np.array([0.0, 0.0, 0.123]))
+    u = np.zeros(mesh.points.size)
+    for _ in range(3):
+        u += 0.02 * rng.normal(size=u.size)
+        forces(block, mesh, u)
+    assert block.far_facets > 0.9 * 24 * 24
+    forces(fresh, mesh, u)
+    assert fresh.far_facets == 0
+    for one in (block, fresh):
+        one.commit()
+    np.testing.assert_array_equal(history_of(block)["place"], history_of(fresh)["place"])
 
 
 @pytest.mark.parametrize("scale", [1.0, 4.0])

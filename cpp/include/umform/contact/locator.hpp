@@ -79,13 +79,9 @@ class Locator {
         locate_wanted(threads);
     }
 
-    /// Position of a point of a facet in the frame of the tool, of far facets too.
+    /// Position of a point of a facet in the frame of the tool, of far facets too: with the same bits as if it were located.
     Vec3 in_tool(int e, int q) const {
-        if (!culls_) return pose_.to_tool(x_[e * points() + q]);
-        Vec3 z{};
-        for (int a = 0; a < Nodes; ++a)
-            for (int k = 0; k < 3; ++k) z[k] += shapes(e)[q][a] * z_[local_[e][a]][k];
-        return z;
+        return pose_.to_tool(far(e) ? pose_.to_space(on_facet(e, q)) : x_[e * points() + q]);
     }
 
     /// Where a node of a facet is.
@@ -179,16 +175,19 @@ class Locator {
             if (wanted_[e] != 0) finish(e);
     }
 
-    /// Positions of the points of a facet, in the frame of the tool. eq. (4.18)
+    /// Positions of the points of a facet, in the frame of the tool.
     void place(int e) {
-        for (int q = 0; q < points(); ++q) {
-            Vec3 x{};
-            for (int a = 0; a < Nodes; ++a) {
-                const Vec3& y = y_[local_[e][a]];
-                for (int k = 0; k < 3; ++k) x[k] += shapes(e)[q][a] * y[k];
-            }
-            x_[e * points() + q] = pose_.to_tool(x);
+        for (int q = 0; q < points(); ++q) x_[e * points() + q] = on_facet(e, q);
+    }
+
+    /// That of one point. eq. (4.18) Not inlined: all that ask get the same bits.
+    [[gnu::noinline]] Vec3 on_facet(int e, int q) const {
+        Vec3 x{};
+        for (int a = 0; a < Nodes; ++a) {
+            const Vec3& y = y_[local_[e][a]];
+            for (int k = 0; k < 3; ++k) x[k] += shapes(e)[q][a] * y[k];
         }
+        return pose_.to_tool(x);
     }
 
     /// From the frame of the tool into space; what later bounds need.

@@ -44,7 +44,7 @@ function part(summary) {
 function hem(summary) {
   const { quantities = [], checks = [], length, first } = summary;
   const tiles = OF_HEM.flatMap((name) => quantities.filter((/** @type {Quantity} */ one) => one.name === name)).map((one) => tile(forShop(one, length), "hem"));
-  return [make("dl", { class: "heroes" }, ...pressTile(summary), ...tiles), all([...quantities, ...checks], "hem"), make("p", { class: "note" }, t("hem.first", { angle: first.angle.toFixed(1), stroke: first.stroke.toFixed(2) }))];
+  return [make("dl", { class: "heroes" }, ...pressTile(summary), ...tiles), all([...quantities, ...checks], "hem"), make("p", { class: "note" }, t("hem.first", { angle: number(first.angle, 1), stroke: number(first.stroke, 2) }))];
 }
 
 /** @param {Quantity[]} quantities @param {string} words */
