@@ -184,6 +184,14 @@ def test_the_strip_above_a_hem_has_the_force_of_the_hem(visit):
     assert force > 2.0 * bend  # over 1000 mm
 
 
+def test_the_first_bend_of_a_hem_has_decimal_commas_in_german(visit):
+    visit.page.select_option("#language", "de")
+    visit.page.wait_for_function("document.documentElement.lang === 'de'")
+    job = {"summary": {"hem": {}, "warnings": [], "first": {"angle": 40.12, "stroke": 12.25}}}
+    said = "(job) => import('/assets/strips.js').then(({ stripNumbers }) => stripNumbers(job).at(-1).textContent)"
+    assert "40,1° bei 12,25 mm" in visit.page.evaluate(said, job)
+
+
 @pytest.mark.parametrize("work", ["outside", "cup", "u", "sequence", "hem"])
 def test_forms_fit_their_screen_in_german(browser, link, work):
     visit = Visit(browser, link, locale="de-DE")
