@@ -13,6 +13,8 @@ from umform.surfaces import Drawing
 
 #: Names of units of length, and a millimetre in each of them.
 _MILLIMETRE = {"mm": 1.0, "cm": 0.1, "m": 1e-3, "um": 1e3, "in": 1.0 / 25.4, "ft": 1.0 / 304.8}
+#: Other names of the inch.
+_INCH = dict.fromkeys(("inch", "inches"), "in")
 #: Names of units of force, and a newton in each of them.
 _NEWTON = {"N": 1.0, "mN": 1e3, "kN": 1e-3, "MN": 1e-6, "kgf": 1.0 / 9.80665, "lbf": 1.0 / 4.4482216}
 #: Keys of profiles, and of a list of them.
@@ -21,12 +23,13 @@ _PROFILES, _LIST = ("profile", "outline", "line"), "holes"
 
 def named_units(deck: Problem) -> Iterator[Finding]:
     """Warn of drawings, and of a metal of the library, that are read in other units than those of `[units]`."""
-    length, force = deck.contents.units.length, deck.contents.units.force
+    named, force = deck.contents.units.length, deck.contents.units.force
+    length = _INCH.get(named or "", named)
     if isinstance(deck.contents.material, FromLibrary):
         newton, millimetre = _NEWTON.get(force or "N"), _MILLIMETRE.get(length or "mm")
         if newton and millimetre and abs(newton / millimetre**2 - 1.0) > 1e-3:
-            named = " and ".join(filter(None, [length, force]))
-            text = f"the library has MPa, which is N and mm, and [units] names {named}"
+            both = " and ".join(filter(None, [named, force]))
+            text = f"the library has MPa, which is N and mm, and [units] names {both}"
             yield warning("units", text, 'length = "mm" and force = "N", or the law with its numbers in other units')
     if length not in _MILLIMETRE:
         return
@@ -34,11 +37,11 @@ def named_units(deck: Problem) -> Iterator[Finding]:
         if isinstance(part.tool, Drawing) and not part.tool.file.lower().endswith(".stl"):
             scale = _MILLIMETRE[length]
             if abs(part.tool.scale / scale - 1.0) > 1e-3:
-                text = f"its drawing is read in mm times {part.tool.scale:g}, and [units] names {length}"
+                text = f"its drawing is read in mm times {part.tool.scale:g}, and [units] names {named}"
                 yield warning(f"tool {name}", text, f"scale = {scale:.6g}")
     for path, unit in _drawn(deck.source.data):
         if unit != length:
-            text = f"its drawing is converted to {unit}, and [units] names {length}"
+            text = f"its drawing is converted to {unit}, and [units] names {named}"
             yield warning(".".join(map(str, path)), text, f'unit = "{length}" beside file')
 
 

@@ -94,6 +94,7 @@ def test_the_modulus_of_a_bend_is_in_MPa():
         ('shape = "Extruded"\nprofile = { file = "die.dxf", unit = "m" }', "m", None, ""),
         ('shape = "Extruded"\nprofile = { file = "die.dxf", unit = "m" }', "mm", "tools.it.profile", 'unit = "mm"'),
         ('shape = "Extruded"\nprofile = "die.dxf"', "furlong", None, ""),
+        ('shape = "Extruded"\nprofile = "die.dxf"', "inch", "tools.it.profile", 'unit = "in"'),
         ('shape = "Drawing"\nfile = "die.step"', "m", "tool it", "scale = 0.001"),
         ('shape = "Drawing"\nfile = "die.step"\nscale = 0.001', "m", None, ""),
         ('shape = "Drawing"\nfile = "die.stl"', "m", None, ""),
@@ -113,6 +114,7 @@ def test_drawings_in_another_unit_than_that_of_the_deck(keys, unit, about, remed
     [
         ('length = "m"', True),
         ('length = "mm"', False),
+        ('length = "inches"', True),
         ('length = "mm"\nforce = "kN"', True),
         ('force = "lbf"', True),
         ('length = "m"\nforce = "MN"', False),  # MN over square metres is MPa
