@@ -82,9 +82,9 @@ ELSEWHERE = (
     "flat_pattern/net/",
     "flat_pattern/one_step/",
 )
-#: Beginnings of what only Python users can cause: friction, drawn tools, the interface of profiles.
+#: Beginnings of what is said of parameters, or only Python users can cause: drawn tools, the interface of profiles.
 PYTHON = (
-    *("0.05 to 0.2 for", "a sign, or a percentage", "a drawn tool is", "a path or a Profile"),
+    *("0.05 to 0.2 for", "a drawn tool is", "a path or a Profile"),
     *("a profile needs", "an empty list", "give lines and arcs", "an open profile", "it goes on", "close it:"),
     *("the solid of", "a closed section", "solid=", "another name of the unit", "the unit of the model"),
     *("bottoming=True;", "let each segment", "a J2 or a Metal", "AirBending(", "read_{}(", "umform "),
