@@ -7,11 +7,12 @@ import subprocess
 from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from umform.processes.air_bending import AirBending
-from umform.processes.air_bending.remarks import coarse_mesh
+from umform.processes.air_bending.remarks import coarse_mesh, remarks
 from umform.results.quantity import Band, Quantity
 
 PAGE = Path(str(files("umform.bench").joinpath("page")))
@@ -110,6 +111,14 @@ def test_a_message_with_a_list_is_german_as_a_whole():
     (said,) = coarse_mesh(AirBending(layers=1, elements_per_thickness=1.0))
     text = in_german("const { message } = await load('/messages.js'); return message(JSON.parse(given));", said)
     assert "Elemente je Dicke 1 (Vorgabe 3), Lagen 1 (Vorgabe 2); nur zum Ausprobieren" in text
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="no Node to run JavaScript")
+def test_remarks_on_a_bend_are_german():
+    measures = SimpleNamespace(outer_strain=0.5, largest_force=50.0, force=40.0)
+    body = "const { message } = await load('/messages.js'); return JSON.parse(given).map(message);"
+    force, strain = in_german(body, remarks(AirBending(), measures))
+    assert "% unter der Faustformel" in force and strain.startswith("die Randdehnung 0.50 übersteigt die 0.22")
 
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="no Node to run JavaScript")
