@@ -32,7 +32,7 @@ def test_a_bend_with_a_wanted_radius_gets_another_opening(tmp_path):
     ("words", "text"),
     [
         (["--want", "angle", "--by", "strength"], "this is no wanted result"),
-        (["--want", "stroke_force:peak=45+-0", "--by", "strength"], "a tolerance above zero"),
+        (["--want", "stroke_force:peak=45+-0", "--by", "strength"], "a tolerance of at least"),
         (["--want", "stroke_force:peak=45+-1", "--by", "strength=1"], "these are no bounds"),
         (["--want", "stroke_force:peak=45+-1", "--by", "nowhere"], "there is no number of this path"),
         (["--want", "nothing=45+-1", "--by", "strength"], "the run has no such quantity or column"),
