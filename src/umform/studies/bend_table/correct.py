@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
@@ -89,8 +90,8 @@ def correct(
     Raises
     ------
     InvalidValue
-        The case has no stroke, a measurement or deviation is not positive, the law has no flow curve with a scale, or
-        the measurements do not determine what is looked for.
+        The case has no stroke, a measurement or deviation is not positive, the law has no flow curve with a scale, the
+        measurements do not determine what is looked for, or no factor explains them.
     NoConvergence
         The first run does not converge.
     """
@@ -128,8 +129,22 @@ def correct(
         return made.model, made.steps
 
     found = identify(build, sought, data, options=options, progress=progress)
+    _refuse_far(found)
     corrected = law(**found.values)
     return Corrected(corrected, found, replace(case, material=corrected), tuple(_notes(case, found, data, name)))
+
+
+def _refuse_far(found: Identified) -> None:
+    """Refuse a card that stays far from the measured bend with a factor at its bound."""
+    ended = [path for path, deviation in found.deviations.items() if math.isinf(deviation)]
+    if ended and found.fit.misfit > _FAR:
+        raise InvalidValue(
+            "no flow curve of this shape gives the measured bend",
+            where=ended[0].replace("_", " "),
+            value=f"{found.values[ended[0]]:.3g} times the card, {found.fit.misfit:.0f} standard deviations off",
+            cause="another thickness, stroke or tool than the measured one, or an angle under load",
+            remedy="compare them with the bend; or begin with the card of a nearer metal",
+        )
 
 
 def _scaled(curve: Hardening | None, flow_stress: float, shapes: Mapping[str, float]) -> Hardening:

@@ -70,6 +70,12 @@ def test_the_angle_alone_gives_one_factor_and_says_so(coil, bend):
     assert "a friction of 0.1" in " ".join(_notes(replace(CARD, friction=0.1), found.found, [], "the card"))
 
 
+def test_a_bend_that_no_factor_explains_is_refused(bend):
+    with pytest.raises(InvalidValue, match="no flow curve") as caught:
+        correct(CARD, bend.angle - 15.0)
+    assert caught.value.where == "flow stress" and caught.value.value.startswith("0.5 times")
+
+
 def test_a_card_of_a_file_is_the_law_to_the_last_bit(tmp_path):
     law = replace(CARD.material, hardening=Swift(520.0 / 3.0, 0.004, 0.22))
     write_metal(tmp_path / "metal.toml", law, ["what was corrected"])
