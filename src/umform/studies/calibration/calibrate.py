@@ -109,9 +109,9 @@ def calibrate(
     if measurements == Measurements():
         raise InvalidValue(
             "there are no measurements to fit",
-            where="calibrate",
+            where="angles, tension, cycles",
             cause="no file of measurements",
-            remedy="values over the angle, a tension test, or cycles",
+            remedy="values over the angle, a tension test, or cycles of tension and compression",
         )
     for argument, constant, number in (("young", "E", young), ("poisson", "nu", poisson)):
         try:
