@@ -26,7 +26,7 @@ DRAWS: dict[str, type[Cup] | type[UBend]] = {"cup": Cup, "u": UBend}
 WORKS = (*_IN_TOOLS, *DRAWS, "flat", "table")
 #: Meshes by name: a quick look, the default of `umform bend`, and what docs/air-bending.md says is better.
 MESHES: dict[str, dict[str, Any]] = {
-    "quick": {"layers": 1, "elements_per_thickness": 1.0, "increment": 0.02},
+    "quick": {"layers": 1, "elements_per_thickness": 1.0},
     "usual": {},
     "fine": {"layers": 4, "thickness_points": 5},
 }

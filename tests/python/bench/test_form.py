@@ -62,7 +62,7 @@ def test_the_form_has_the_defaults_and_bounds_of_air_bending():
 def test_an_empty_field_of_the_mesh_is_that_of_the_mesh_and_a_given_one_is_not():
     assert Wanted.read({"mesh": "quick"}).case().layers == 1
     assert Wanted.read({"mesh": "quick", "layers": 3}).case().layers == 3
-    assert Wanted.read({"mesh": "quick", "layers": 3}).case().increment == 0.02
+    assert Wanted.read({"mesh": "quick", "layers": 3}).case().elements_per_thickness == 1.0
 
 
 def test_lengths_of_a_hem_follow_the_thickness_where_they_are_empty():

@@ -186,7 +186,7 @@ def test_the_strip_above_a_hem_has_the_force_of_the_hem(visit):
 
 def test_the_first_bend_of_a_hem_has_decimal_commas_in_german(visit):
     visit.page.select_option("#language", "de")
-    visit.page.wait_for_function("document.documentElement.lang === 'de'")
+    visit.page.wait_for_function("() => document.documentElement.lang === 'de'")
     job = {"summary": {"hem": {}, "warnings": [], "first": {"angle": 40.12, "stroke": 12.25}}}
     said = "(job) => import('/assets/strips.js').then(({ stripNumbers }) => stripNumbers(job).at(-1).textContent)"
     assert "40,1° bei 12,25 mm" in visit.page.evaluate(said, job)
