@@ -48,7 +48,7 @@ def air_bending(
     Examples
     --------
     >>> from umform.processes.air_bending import AirBending, air_bending
-    >>> bend = air_bending(AirBending(stroke=2.0, elements_per_thickness=1, layers=1, increment=0.05))  # a coarse mesh
+    >>> bend = air_bending(AirBending(stroke=2.0, elements_per_thickness=1, layers=1))  # a coarse mesh
     >>> bend.measures.springback > 0.5
     True
     >>> bend.write("bend")  # doctest: +SKIP

@@ -103,7 +103,7 @@ def find_stroke(
     Examples
     --------
     >>> from umform.processes.air_bending import AirBending, find_stroke
-    >>> found = find_stroke(AirBending(elements_per_thickness=1, layers=1, increment=0.05), angle=150.0)
+    >>> found = find_stroke(AirBending(elements_per_thickness=1, layers=1), angle=150.0)
     >>> abs(found.measures.angle - 150.0) < 0.1
     True
     """
@@ -186,7 +186,7 @@ def bending_table(
     Examples
     --------
     >>> from umform.processes.air_bending import AirBending, bending_table
-    >>> rows = bending_table(AirBending(elements_per_thickness=1, layers=1, increment=0.05), [1.0, 2.0])
+    >>> rows = bending_table(AirBending(elements_per_thickness=1, layers=1), [1.0, 2.0])
     >>> rows[0].angle > rows[1].angle
     True
     """
@@ -239,7 +239,7 @@ def angle_table(
     Examples
     --------
     >>> from umform.processes.air_bending import AirBending, angle_table
-    >>> rows = angle_table(AirBending(elements_per_thickness=1, layers=1, increment=0.05), [160.0, 150.0])
+    >>> rows = angle_table(AirBending(elements_per_thickness=1, layers=1), [160.0, 150.0])
     >>> rows[0].stroke < rows[1].stroke
     True
     """

@@ -52,7 +52,7 @@ class AngleAlong(Study):
     --------
     >>> from umform.processes.air_bending import AirBending
     >>> from umform.studies.deflection import PressBrake, angle_along
-    >>> case = AirBending(stroke=3.0, layers=1, elements_per_thickness=1, increment=0.05)
+    >>> case = AirBending(stroke=3.0, layers=1, elements_per_thickness=1)
     >>> brake = PressBrake(span=3100.0, ram_height=1400.0, ram_thickness=60.0)
     >>> found = angle_along(case, brake, 3000.0)
     >>> 0.7 < found.error < 0.9 and 0.05 < found.best_crowning < 0.07
