@@ -5,8 +5,10 @@ from __future__ import annotations
 import doctest
 import importlib
 import inspect
+import logging
 import pkgutil
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -94,6 +96,13 @@ def test_every_error_is_on_a_page() -> None:
 def test_every_public_name_has_an_example_that_runs(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     run_examples(getattr(uf, name), name)
+
+
+@pytest.fixture(autouse=True)
+def no_warnings(caplog: pytest.LogCaptureFixture) -> Iterator[None]:
+    """Examples print none."""
+    yield
+    assert [one.message for one in caplog.get_records("call") if one.levelno >= logging.WARNING] == []
 
 
 def run_examples(thing: object, name: str) -> None:

@@ -51,7 +51,7 @@ def volume_change(model: Model) -> VolumeChange:
     >>> model = uf.Model(uf.mesh.strip(4.0, 1.0, 1.0, (2, 1)), material=steel)
     >>> _ = model.symmetry("x0", "x"), model.symmetry("y0", "y"), model.symmetry("lower", "z")
     >>> pull = model.prescribe("x1", "x", "pull")
-    >>> result = uf.solve(model, uf.Move(pull, 0.4, steps=4), progress=False)
+    >>> result = uf.solve(model, uf.Move(pull, 0.4, steps=50), progress=False)
     >>> round(1e5 * result.volume_change().elastic, 1)  # 200 MPa / (3 * 175 GPa)
     38.1
     """

@@ -75,7 +75,7 @@ class Identified(Study):
     ...     metal = uf.J2(E=200e3, nu=0.3, hardening=uf.Linear(yield_stress, 1000.0))
     ...     model = uf.Model(uf.mesh.strip(1.0, 1.0, 1.0, (1, 1)), material=metal)
     ...     model.hinge("x0", "xyz")
-    ...     return model, uf.Move(model.prescribe("x1", "x", name="pull"), to=0.01, steps=2)
+    ...     return model, uf.Move(model.prescribe("x1", "x", name="pull"), to=0.01, steps=10)
     >>> found = uf.identify(build, {"yield_stress": (100.0, 400.0)}, [uf.MeasuredNumber("pull_force", 250.0, 2.0)])
     >>> 100.0 < found.values["yield_stress"] < 250.0 and not found.unfinished
     True

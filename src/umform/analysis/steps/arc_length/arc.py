@@ -59,7 +59,7 @@ class Arc:
     >>> _ = model.hinge("x1", "xz")
     >>> _ = model.fix(lambda x, y, z: y < y.min() + 1e-9, "y")
     >>> load = model.force("x0", (0.0, 0.0, -0.25), "load")
-    >>> result = solve(model, Arc(load, to=1.0, increment=0.05))
+    >>> result = solve(model, Arc(load, to=1.0, increment=0.002))
     >>> float(result["load"][-1])
     1.0
     """
