@@ -9,6 +9,8 @@ from __future__ import annotations
 import sys
 import sysconfig
 import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -115,6 +117,17 @@ class InvalidValue(UmformError, ValueError):
     """An invalid number or name (negative penalty, NaN, unknown option)."""
 
     id = "value.invalid"
+
+
+@contextmanager
+def placed(where: str, *arguments: str) -> Iterator[None]:
+    """Name the place of arguments in errors that refuse them: an option, or a part of the case."""
+    try:
+        yield
+    except InvalidValue as error:
+        if error.where in arguments:
+            error.where = where
+        raise
 
 
 class NotFinite(InvalidValue):

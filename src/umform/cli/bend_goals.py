@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from umform.cli.bend_table import values_of
-from umform.errors import InvalidValue
+from umform.errors import InvalidValue, placed
 from umform.processes.air_bending.goal import Goal, check_angle
 from umform.spec import check_value, parameters
 
@@ -107,13 +106,13 @@ class BendGoal:
             case = case if self.travel is None else with_travel(case, self.travel)
             check_value(Goal, "force_per_metre", self.force)
         if self.strokes:
-            with _typed("--table"):  # refuses a stroke beyond air bending before the first run
+            with placed("--table", "angle", "stroke"):  # refuses a stroke beyond air bending before the first run
                 longest = replace(case, stroke=self.strokes[-1])
             case = longest if case.stroke is None else case
         for option, angles in (("--angles", self.angles), (self._angle_of, [self.angle])):
             for one in angles:
                 if one is not None:
-                    with _typed(option):
+                    with placed(option, "angle", "stroke"):
                         check_angle(case, one)
         return case
 
@@ -129,7 +128,7 @@ class BendGoal:
         if self.strokes:
             yield bending_table(brake.case, self.strokes, brake=brake)
         if self.angles:
-            with _typed("--angles"):
+            with placed("--angles", "angle", "stroke"):
                 angles = angle_table(brake.case, self.angles, tolerance=self.tolerance, brake=brake)
             yield angles
 
@@ -142,7 +141,7 @@ class BendGoal:
         if self.force is not None:
             return press_to_force(brake.case, self.force, brake=brake).bend
         if self.angle is not None:
-            with _typed(self._angle_of):
+            with placed(self._angle_of, "angle", "stroke"):
                 return find_stroke(brake.case, self.angle, tolerance=self.tolerance, brake=brake).bend
         return air_bending(brake.case, brake=brake)
 
@@ -172,17 +171,6 @@ class BendGoal:
                 cause="--angle, --table, --angles or --budget beside it",
                 remedy="the angle is about that of the die; leave them out",
             )
-
-
-@contextmanager
-def _typed(option: str) -> Iterator[None]:
-    """Name the option in errors of a stroke or of an angle."""
-    try:
-        yield
-    except InvalidValue as error:
-        if error.where in ("angle", "stroke"):
-            error.where = option
-        raise
 
 
 def check_length(length: float | None) -> None:

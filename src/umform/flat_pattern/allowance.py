@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Protocol
@@ -227,16 +226,6 @@ def _of_bend_table(path: Path) -> DeductionTable:
             cause=f"the column {error} is missing" if isinstance(error, KeyError) else str(error),
             remedy="the file as the command has written it, with commas and decimal points",
         ) from error
-
-
-@contextmanager
-def angle_of(bend: str) -> Iterator[None]:
-    """Name the bend of a part whose angle is refused."""
-    try:
-        yield
-    except InvalidValue as error:
-        error.where = bend if error.where == "angle" else error.where
-        raise
 
 
 def outside(angle: float, radius: float, thickness: float) -> float:

@@ -6,14 +6,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from umform.errors import InvalidValue
+from umform.errors import InvalidValue, placed
 from umform.flat_pattern.allowance import (
     Allowance,
     AllowanceProvider,
     AllowanceTable,
     DeductionTable,
     KFactor,
-    angle_of,
     outside,
 )
 from umform.io.store import Store
@@ -116,7 +115,7 @@ def developed(
         if allowance is not None:
             found.append(_of(allowance, case, bend, part.acute))
         else:
-            with angle_of(f"bend {number}, angle"):
+            with placed(f"bend {number}, angle", "angle"):
                 found.append(_computed(stored_bend(case, bend.angle, store=store), part.acute))
     return Developed(part, tuple(found))
 

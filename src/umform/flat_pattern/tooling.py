@@ -6,7 +6,8 @@ from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any
 
-from umform.flat_pattern.allowance import Allowance, angle_of, outside
+from umform.errors import placed
+from umform.flat_pattern.allowance import Allowance, outside
 from umform.io.store import Store
 from umform.problem.metal_file import metal_of
 from umform.processes.air_bending.formulas import INNER_RADIUS
@@ -104,7 +105,7 @@ class ComputedBends:
         """
         case = self.tooling.case(angle, radius, thickness)
         warnings = accepted(case)
-        with angle_of(f"the bend by {angle:.4g} degrees"):
+        with placed(f"the bend by {angle:.4g} degrees", "angle"):
             found = stored_bend(case, 180.0 - angle, store=self.store)
         drawn = 2.0 * outside(angle, radius, thickness)
         words = [

@@ -76,6 +76,11 @@ def test_a_bend_that_no_factor_explains_is_refused(bend):
     assert caught.value.where == "flow stress" and caught.value.value.startswith("0.5 times")
 
 
+def test_measurements_that_contradict_each_other_give_a_card_and_a_note(bend):
+    found = correct(CARD, bend.angle, radius=1.5 * bend.radius)
+    assert "standard deviations from the measurement" in found.notes[-1]
+
+
 def test_a_card_of_a_file_is_the_law_to_the_last_bit(tmp_path):
     law = replace(CARD.material, hardening=Swift(520.0 / 3.0, 0.004, 0.22))
     write_metal(tmp_path / "metal.toml", law, ["what was corrected"])
