@@ -27,7 +27,6 @@ STRICT := $(if $(CI),--config-settings=cmake.define.UMFORM_STRICT=ON)
 
 export CMAKE_BUILD_PARALLEL_LEVEL := $(JOBS)
 unexport PYTHONPATH PYTHONHOME PYTHONDONTWRITEBYTECODE
-export OMP_WAIT_POLICY ?= passive
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
@@ -325,8 +324,7 @@ lint-format: $(VENV)/.dev
 	$(SAY) 'clang-format'
 	@$(BIN)/clang-format --dry-run --Werror $(CPP) $(CPP_TESTS)
 
-# Each header is parsed on its own, so it must include what it uses. Without -fopenmp: clang cannot read every
-# gcc's omp.h; guard it by `#ifdef _OPENMP`.
+# Each header is parsed on its own, so it must include what it uses.
 lint-cpp: $(VENV)/.dev
 	$(SAY) 'clang-tidy'
 	@includes="$$($(BIN)/python tools/includes.py)" && printf '%s\n' $(CPP) | xargs -P $(JOBS) -I {} \

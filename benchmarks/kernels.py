@@ -148,8 +148,7 @@ def scaling(count: int, repeat: int) -> list[dict[str, object]]:
     """Print and return how much faster 2 threads are than 1, taken in turn so that both see the same machine.
 
     The ratio of wall times needs two free cores. On a shared machine the ratio of CPU times tells what two free cores
-    would do: that of one thread over that of the busier of two. Threads must sleep while they wait, that is,
-    OMP_WAIT_POLICY=passive.
+    would do: that of one thread over that of the busier of two.
     """
     side = round(count**0.5)
     rows: list[dict[str, object]] = []

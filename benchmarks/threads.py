@@ -7,8 +7,8 @@
 
 It needs as many free processors as threads; the load of the machine is printed. Numbers of threads take turns, and the
 shortest time of each counts. On a loaded machine only CPU times mean something: those of the busier thread, and an
-estimate for free processors from what runs outside of the team and from the groups of four elements in the line. It
-leaves out how long a team takes to wake up, some 20 us.
+estimate for free processors from what runs outside of the loop and from the groups of four elements in the line. It
+leaves out how long a thread takes to wake up, some 15 us.
 """
 
 from __future__ import annotations
@@ -94,7 +94,7 @@ def sheets(threads: list[int], repeat: int, only: int | None) -> None:
     heads = [f"{count} threads" for count in threads[1:]]
     columns = " | ".join(f"{head} | by CPU time" for head in heads)
     expected = " | ".join(f"{count} threads, estimate" for count in ESTIMATED)
-    print(f"| elements | points | ms, 1 thread | {columns} | CPU ms | outside of the team | {expected} |")
+    print(f"| elements | points | ms, 1 thread | {columns} | CPU ms | outside of the loop | {expected} |")
     print("|---:|---:|---:|" + "---:|---:|" * len(heads) + "---:|---:|" + "---:|" * len(ESTIMATED))
     for side in SHEETS if only is None else [round(only**0.5)]:
         row = evaluations(side, threads, repeat)

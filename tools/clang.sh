@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # Build the kernels with clang, warnings as errors, and test them:
 #   tools/clang.sh PYTHON release|address|thread
-# release: as users build it. address: AddressSanitizer and UndefinedBehaviorSanitizer. thread: ThreadSanitizer, where
-# LLVM's OpenMP tells it of its barriers by libarcher.
+# release: as users build it. address: AddressSanitizer and UndefinedBehaviorSanitizer. thread: ThreadSanitizer.
 set -euo pipefail
 python=$(realpath -s "$1") kind=$2
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -16,7 +15,7 @@ newest_clang() {
 clang=$(newest_clang)
 if [ -z "$clang" ] && command -v apt-get > /dev/null && [ "$(id -u)" = 0 ]; then
     echo 'Installing clang 19 from Debian'
-    { apt-get update -qq && apt-get install -y -qq clang-19 libomp-19-dev; } > build/clang-install.log 2>&1 || cat build/clang-install.log
+    { apt-get update -qq && apt-get install -y -qq clang-19; } > build/clang-install.log 2>&1 || cat build/clang-install.log
     clang=$(newest_clang)
 fi
 [ -n "$clang" ] || { echo 'No clang++ here: the build with clang is skipped'; exit 0; }
@@ -52,9 +51,8 @@ cp "$build"/_core*.so "$build/package/umform"
 export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 # Python and its libraries leak on purpose; a test asks for more memory than there is.
 export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1
-export TSAN_OPTIONS=ignore_noninstrumented_modules=1:halt_on_error=1
-archer=$(ls "$(dirname "$(realpath "$clang")")"/../lib/libarcher.so 2> /dev/null || true)
-[ "$kind" != thread ] || export OMP_NUM_THREADS=4 OMP_TOOL_LIBRARIES=$archer
+export TSAN_OPTIONS=ignore_noninstrumented_modules=1:halt_on_error=1:die_after_fork=0
+[ "$kind" != thread ] || export OMP_NUM_THREADS=4
 LD_LIBRARY_PATH=$libraries ctest --test-dir "$build" --output-on-failure --no-tests=error > "$log" 2>&1 || { cat "$log"; exit 1; }
 grep 'tests passed' "$log"
 # shellcheck disable=SC2086

@@ -24,7 +24,7 @@ wine > /dev/null || { echo 'No wine here: what was built for Windows does not ru
 
 # A prefix of its own, outside the tree: it has a link to the root, which the makers of source packages would follow. Wine makes it before the tests, which would all wait for it. The libraries are those of the compiler.
 libraries=
-for name in libgomp-1.dll libstdc++-6.dll libwinpthread-1.dll; do
+for name in libstdc++-6.dll libwinpthread-1.dll; do
     libraries+="Z:$(dirname "$(realpath "$($compiler -print-file-name=$name)")");"
 done
 prefix=$(mktemp -d)

@@ -1,7 +1,4 @@
 // The extension module umform._core.
-#include <algorithm>
-#include <cstdlib>
-
 #include "arrays.hpp"
 #include "umform/assembly/threads.hpp"
 
@@ -37,8 +34,7 @@ void require_instructions() {
 #endif
 }
 
-/// Threads of a process that says nothing else: a team waits for a thread that gets no processor.
-int free_processors() { return nb::cast<int>(nb::module_::import_("umform.processors").attr("free")()); }
+int default_threads() { return nb::cast<int>(nb::module_::import_("umform.processors").attr("threads")()); }
 
 }  // namespace
 
@@ -58,8 +54,7 @@ NB_MODULE(_core, m) {
     bind_loads(m);
     bind_sheets(m);
     m.def("build", [] { return UMFORM_BUILD; }, "Compiler, kind of build and instruction set of the kernels.");
-    if (std::getenv("OMP_NUM_THREADS") == nullptr)
-        umform::thread_count() = std::min(umform::thread_count().load(), free_processors());
+    umform::thread_count() = default_threads();
     m.def(
         "threads", [] { return umform::thread_count().load(); },
         "Number of threads that the kernels use; by default one for each free processor, or OMP_NUM_THREADS.");

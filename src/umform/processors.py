@@ -11,6 +11,12 @@ import os
 from pathlib import Path
 
 
+def threads() -> int:
+    """Default number of threads: ``OMP_NUM_THREADS``, that of libraries too, or one for each free processor."""
+    given = os.environ.get("OMP_NUM_THREADS", "").split(",")[0].strip()  # those of inner levels follow
+    return int(given) if given.isdecimal() and int(given) > 0 else free()
+
+
 def available() -> int:
     """Number of processors available to this process: its affinity, or the quota of its container if that is less."""
     count = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

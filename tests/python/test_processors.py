@@ -66,7 +66,7 @@ def test_a_system_without_these_files(monkeypatch):
     assert processors.free() == processors.available() >= 1
 
 
-@pytest.mark.parametrize(("given", "expected"), [(None, 1), ("3", 3)])
+@pytest.mark.parametrize(("given", "expected"), [(None, 1), ("3", 3), ("4,2", 4), ("many", 1), ("0", 1)])
 def test_threads_are_the_free_processors_unless_the_user_says_how_many(given, expected):
     environment = {name: value for name, value in os.environ.items() if name != "OMP_NUM_THREADS"}
     environment |= {} if given is None else {"OMP_NUM_THREADS": given}

@@ -31,7 +31,7 @@ def main() -> None:
     try:
         gc.set_threshold(_COLLECT_AFTER)
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # more threads would only wait, actively
-        os.environ.setdefault("OMP_WAIT_POLICY", "passive")  # read when the kernels are loaded
+        os.environ.setdefault("OMP_WAIT_POLICY", "passive")  # of MKL, the same
         _prepare_streams()
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # the signal of batch systems: handled as Ctrl-C
         importlib.import_module("umform.cli.drawing").without_help_texts()

@@ -1,13 +1,8 @@
-"""MKL from the PyPI package `mkl`: where it is, and how it is loaded.
-
-MKL is set to the GNU OpenMP runtime, that of umform's kernels, so that there is one thread pool; the environment
-variable ``MKL_THREADING_LAYER`` overrules this.
-"""
+"""MKL from the PyPI package `mkl`: where it is, and how it is loaded."""
 
 from __future__ import annotations
 
 import ctypes
-import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -16,7 +11,7 @@ from pathlib import Path
 
 from ..errors import InvalidValue, SolveError
 
-_LP64, _GNU_THREADS = 0, 3
+_LP64 = 0
 
 
 @cache
@@ -27,7 +22,7 @@ def find() -> Path | None:
 
 @cache
 def library() -> ctypes.CDLL:
-    """Load MKL, once, with 32-bit integers and on the OpenMP runtime of the kernels."""
+    """Load MKL, once, with 32-bit integers."""
     path = find()
     if path is None:
         raise InvalidValue(
@@ -46,8 +41,6 @@ def library() -> ctypes.CDLL:
             remedy="reinstall the package mkl, or remove it: umform then uses its own solver",
         ) from error
     loaded.MKL_Set_Interface_Layer(_LP64)
-    if sys.platform == "linux" and "MKL_THREADING_LAYER" not in os.environ:
-        loaded.MKL_Set_Threading_Layer(_GNU_THREADS)
     return loaded
 
 

@@ -1,4 +1,7 @@
 // Loops over a team: every range once, and the first exception.
+#include <stdexcept>
+#include <vector>
+
 #include "check.hpp"
 #include "umform/assembly/threads.hpp"
 

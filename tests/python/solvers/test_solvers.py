@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import os
 import sys
 import tracemalloc
 from importlib import metadata
@@ -316,14 +315,6 @@ def test_pardiso_returns_to_cholesky_with_the_analysis_it_had():
         assert solver._handle is handle
         if handle is first or again is indefinite:
             np.testing.assert_array_equal(solver.solve(np.ones(pattern.n)), x if handle is first else y)
-
-
-@needs_mkl
-@pytest.mark.skipif(not MAPS.exists(), reason="loaded libraries are listed on Linux only")
-@pytest.mark.skipif("MKL_THREADING_LAYER" in os.environ, reason="the user has chosen another OpenMP runtime")
-def test_pardiso_runs_on_gnu_openmp():
-    factored("pardiso", sheet(4))
-    assert "libmkl_gnu_thread" in MAPS.read_text()
 
 
 def test_refinement_restores_the_accuracy_that_small_pivots_cost(monkeypatch):

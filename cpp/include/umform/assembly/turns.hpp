@@ -39,16 +39,14 @@ class Turns {
     template <class Work>
     void run(int threads, const Work& work) {
         ++round_;
-        std::atomic<int> next{0};
         const int count = size(), chunk = std::max(1, count / (shares * threads));
         FirstException exception;
-        [[maybe_unused]] const int team = threads;  // not fewer where there are fewer groups: others would be ended
-#pragma omp parallel num_threads(team) if (team > 1)
-        for (int first = next.fetch_add(chunk); first < count; first = next.fetch_add(chunk))
+        for_each(count, threads, chunk, [&](int first, int thread) {
             for (int group = first; group < std::min(first + chunk, count); ++group) {
-                exception.guard([&] { work(group, thread_index(), [&] { wait(group); }); });
+                exception.guard([&] { work(group, thread, [&] { wait(group); }); });
                 added_[group].store(round_, std::memory_order_release);  // after an exception too: others wait for it
             }
+        });
         exception.rethrow();
     }
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <barrier>
 #include <cstddef>
 #include <mutex>
+#include <system_error>
+#include <thread>
 #include <vector>
 
-#include "umform/assembly/threads.hpp"
 #include "umform/multifrontal/storage.hpp"
 
 namespace umform::multifrontal {
@@ -144,12 +146,20 @@ class Buffers {
         constexpr std::size_t entries = std::size_t{n} * n;
         const std::vector<double> a(entries, 1.0);
         std::vector<double> c(entries * threads);
-#pragma omp parallel num_threads(threads) if (threads > 1)
-        {
-            double* own = c.data() + entries * thread_index();
-#pragma omp barrier
-            blas().gemm('N', 'T', n, n, n, 1.0, a.data(), n, a.data(), n, 0.0, own, n);
-        }
+        std::barrier together(threads);
+        const auto multiply = [&](int thread) {
+            together.arrive_and_wait();
+            blas().gemm('N', 'T', n, n, n, 1.0, a.data(), n, a.data(), n, 0.0, c.data() + entries * thread, n);
+        };
+        std::vector<std::thread> others;
+        others.reserve(threads);
+        for (int thread = 1; thread < threads; ++thread) try {
+                others.emplace_back(multiply, thread);
+            } catch (const std::system_error&) {  // nor is there one for a product
+                together.arrive_and_drop();
+            }
+        multiply(0);
+        for (std::thread& other : others) other.join();
     }
 };
 

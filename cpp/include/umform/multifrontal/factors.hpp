@@ -54,7 +54,7 @@ class Factors {
         const OneBlasThread alone;
         const std::optional<Buffers> buffers = reserve(threads);
         schedule_.run(
-            plan_, schedule_.factoring(threads),
+            plan_, team_,
             [&](const Schedule::Unit& unit, int thread) {
                 Worker& worker = workers_[thread];
                 Room room = Room::of(arena_, pool_, schedule_.stacks, !schedule_.side(unit.root), 0);
@@ -115,18 +115,19 @@ class Factors {
     Scaling scaling_;
     std::atomic<Outcome::State> state_{Outcome::Done};
     int equation_ = -1;
+    int team_ = 1;  // threads of the present factorisation
 
     static constexpr int kLarge = 256;  // rows of an update that is shared among threads
 
     /// Takes all memory that is planned, or throws: before any product is made, since BLAS may not come back where none is left.
     std::optional<Buffers> reserve(int threads) {
-        const int team = schedule_.factoring(threads);
+        team_ = schedule_.factoring(threads);
         storage_.grow(schedule_.end);
         arena_.reset(storage_.data() + schedule_.begin, schedule_.end - schedule_.begin);
         if (static_cast<int>(workers_.size()) < threads) workers_ = std::vector<Worker>(threads);
-        if (team == 1 && !schedule_.is_large()) return {};
-        const std::size_t more = team == 1 ? 0 : schedule_.peak, above = more > pool_.held() ? more - pool_.held() : 0;
-        return std::optional<Buffers>(std::in_place, team, above);
+        if (team_ == 1 && !schedule_.is_large()) return {};
+        const std::size_t more = team_ == 1 ? 0 : schedule_.peak, above = more > pool_.held() ? more - pool_.held() : 0;
+        return std::optional<Buffers>(std::in_place, team_, above);
     }
 
     void process(int f, Worker& worker, bool stack) {
@@ -142,11 +143,8 @@ class Factors {
     }
 
     void stop(Outcome::State state, int place) {
-#pragma omp critical(umform_outcome)
-        if (state_ == Outcome::Done) {
-            equation_ = place < 0 ? -1 : plan_.equation[place];
-            state_ = state;
-        }
+        Outcome::State done = Outcome::Done;
+        if (state_.compare_exchange_strong(done, state)) equation_ = place < 0 ? -1 : plan_.equation[place];
     }
 
     /// Memory of a front, and the seats of its children in it.
@@ -344,7 +342,7 @@ class Factors {
         if (left > 0) copy_left(front);
         const int beyond = front.size - front.pivots, width = block_of(front), blocks = (beyond + width - 1) / width;
         const std::span<const Child> children = worker.children;
-        share(blocks, beyond >= kLarge, [&](int k) {
+        for_each(blocks, beyond >= kLarge ? team_ : 1, 1, [&](int k, int) {
             const int first = k * width, last = std::min(beyond, first + width);
             multiply(front, first, last);
             for (const Child& child : children)

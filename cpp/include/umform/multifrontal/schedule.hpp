@@ -66,30 +66,21 @@ class Schedule {
 
     /// Calls alone(unit, thread) for each unit and together(front, thread) for each front above, children first.
     template <class Alone, class Together>
-    void run(const Plan& plan, [[maybe_unused]] int team, const Alone& alone, const Together& together) const {
+    void run(const Plan& plan, int team, const Alone& alone, const Together& together) const {
         std::vector<std::atomic<std::int32_t>> missing(plan.fronts.size());
         for (std::size_t f = 0; f < plan.fronts.size(); ++f)
             missing[f] = plan.children_start[f + 1] - plan.children_start[f];
-        const int count = static_cast<int>(units.size());
-        FirstException exception;
-#pragma omp parallel for num_threads(team) if (team > 1) schedule(dynamic, 1)
-        for (int k = 0; k < count; ++k)
-            exception.guard([&] {
-                alone(units[k], thread_index());
-                for (int f = plan.fronts[units[k].root].parent; f >= 0 && --missing[f] == 0; f = plan.fronts[f].parent)
-                    together(f, thread_index());
-            });
-        exception.rethrow();
+        for_each(static_cast<int>(units.size()), team, 1, [&](int k, int thread) {
+            alone(units[k], thread);
+            for (int f = plan.fronts[units[k].root].parent; f >= 0 && --missing[f] == 0; f = plan.fronts[f].parent)
+                together(f, thread);
+        });
     }
 
     /// Calls alone(unit, thread) for each unit.
     template <class Alone>
-    void run_units([[maybe_unused]] int team, const Alone& alone) const {
-        const int count = static_cast<int>(units.size());
-        FirstException exception;
-#pragma omp parallel for num_threads(team) if (team > 1) schedule(dynamic, 1)
-        for (int k = 0; k < count; ++k) exception.guard([&] { alone(units[k], thread_index()); });
-        exception.rethrow();
+    void run_units(int team, const Alone& alone) const {
+        for_each(static_cast<int>(units.size()), team, 1, [&](int k, int thread) { alone(units[k], thread); });
     }
 
   private:
@@ -145,23 +136,5 @@ class Schedule {
         }
     }
 };
-
-/// Calls work(k) for k = 0 ... count - 1, shared with the threads of the team that have nothing to do if it is `large`.
-template <class Work>
-void share(int count, [[maybe_unused]] bool large, const Work& work) {
-#ifdef _OPENMP
-    if (large && count > 1 && omp_get_num_threads() > 1) {
-        FirstException exception;
-    #pragma omp taskgroup
-        for (int k = 0; k < count; ++k) {
-    #pragma omp task firstprivate(k) shared(exception, work)
-            exception.guard([&] { work(k); });
-        }
-        exception.rethrow();
-        return;
-    }
-#endif
-    for (int k = 0; k < count; ++k) work(k);
-}
 
 }  // namespace umform::multifrontal
