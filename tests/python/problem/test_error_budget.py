@@ -55,7 +55,10 @@ def test_meshes_are_halved(name, more, expected):
 
 
 def test_a_penalty_is_halved_and_two_contact_points_become_three():
-    found = changes("square-cup", **{"mesh.x": [0.0, 35.0, 75.0], "mesh.y": [0.0, 75.0], "contacts.die.points": 2})
+    found = changes(
+        "square-cup",
+        **{"mesh.x": [0.0, 35.0, 75.0], "mesh.y": [0.0, 75.0], "contacts.die.points": 2, "contacts.die.penalty": 1e3},
+    )
     assert found["depth*2"]["contacts.die.penalty"] == 500.0
     assert (found["c-pts-1"]["contacts.die.points"], found["c-pts-1"]["contacts.punch.points"]) == (3, 2)
 
