@@ -30,11 +30,12 @@ def size_near(contact: Contact, model: Model, axis: Sequence[float] | None) -> f
         other sheets bend in the direction in which the tool is curved next to them, or over the shorter sides of the
         facets where it has no such direction.
     """
-    corners = model.mesh.points[contact.facets[:, :4]]
+    places = model.positions
+    corners = places[contact.facets[:, :4]]
     sides = np.roll(corners, -1, axis=1) - corners
     lengths = np.linalg.norm(sides, axis=-1)
     gaps = contact.gap(corners.mean(axis=1))
-    size = float(np.ptp(model.mesh.points, axis=0).max())
+    size = float(np.ptp(places, axis=0).max())
     if axis is not None:
         along = np.array(axis)
         lateral = np.linalg.norm(sides - (sides @ along)[..., None] * along, axis=-1)

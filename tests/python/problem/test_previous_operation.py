@@ -18,6 +18,7 @@ from umform.problem.check import before_run
 from umform.problem.findings import Level
 from umform.problem.measured import Taken
 from umform.problem.measures.base import FORMED, Formed
+from umform.problem.resolution import bends
 
 FIXED = """
 [[supports]]
@@ -192,6 +193,39 @@ def test_draw_in_is_measured_from_the_blank_wherever_the_part_is_placed(drawn):
     np.testing.assert_allclose(found[1:], [found[0]] * 2, atol=1e-12)
     assert values[0] < -0.03
     assert values[1] == pytest.approx(values[0], rel=1e-9)
+
+
+ROLL = """
+[tools.roll]
+shape = "Cylinder"
+centre = [0.0, 0.0, 7.0]
+axis = "y"
+radius = 6.0
+
+[contacts.roll]
+tool = "roll"
+faces = "upper"
+points = "auto"
+"""
+
+
+def test_a_contact_is_estimated_where_the_part_lies(drawn):
+    text = (drawn / "draw.toml").read_text()
+    (drawn / "draw.toml").write_text(text.replace("[5, 1]", "[20, 1]"))  # short elements along x
+    assert umform("run", drawn / "draw.toml", "--out", drawn / "draw", "--overwrite").exit_code == 0
+    placed = PLACED.replace("[7.0, -2.0, 0.5]", "[0.0, 0.0, 0.0]") + FIXED + ROLL
+    there = placed[: placed.index("[placement]")] + placed[placed.index("[controls") :]
+    turned = placed.replace("[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]", "[[0.0, -1.0, 0.0], [1.0, 0.0, 0.0]")
+    found = []
+    for text in (there, turned.replace('axis = "y"', 'axis = "x"')):
+        deck = Problem.read(text, folder=drawn)
+        problem = deck.build()
+        pair = problem.contacts["roll"]
+        size = [one.text for one in bends(deck, problem) if "an element is" in one.text]
+        found.append((pair.points, pair.penalty, size))
+    assert found[1][0] == found[0][0] > 2
+    assert found[1][1] == pytest.approx(found[0][1], rel=1e-9)
+    assert found[1][2] == found[0][2] != []
 
 
 @pytest.mark.parametrize("row", ["[0.0, 0.0, -1.0]", "[0.0, 0.0, 0.999]"])
