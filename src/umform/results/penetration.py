@@ -19,6 +19,8 @@ from umform.results.quantity import Quantity
 
 #: Penetration relative to the thickness that is reported, and that of a sufficient penalty.
 _DEEP, _SHALLOW = 0.1, 0.02
+#: Columns of a contact that the error of the forces follows from.
+_OF_ERROR = ("penetration_energy", "penalty", "active")
 #: Tolerance of the check, relative to the allowed penetration.
 _ROUND_OFF = 1e-3
 
@@ -151,12 +153,12 @@ def _force_error(result: History, name: str) -> float:
     """Change of the energy of penetration at a fixed penalty over the work in the same increment. eq. (4.202)"""
     if len(result) < 2:
         return 0.0
-    energy, penalty, work = (
-        result[column] for column in (f"{name}_penetration_energy", f"{name}_penalty", "external_work")
+    energy, penalty, active, work = (
+        result[column] for column in (*(f"{name}_{part}" for part in _OF_ERROR), "external_work")
     )
     way = np.abs(np.diff(work)).sum()
     changes: NDArray[np.float64] = energy[1:] - energy[:-1] * penalty[:-1] / penalty[1:]
-    return float(np.abs(changes).sum() / way) if way > 0.0 else 0.0
+    return float(np.abs(changes[active[1:] > 0]).sum() / way) if way > 0.0 else 0.0
 
 
 def warn_of_contact(model: Model, result: History) -> None:

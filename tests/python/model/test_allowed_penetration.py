@@ -91,6 +91,17 @@ def test_the_force_is_that_of_multipliers():
     assert force_error(kept) < 0.3 * force_error(soft)
 
 
+@pytest.mark.parametrize("steps", [1, 4])
+@pytest.mark.parametrize("rule", [{"fixed": True}, {"augmented": True}])
+def test_opened_tools_change_no_forces(rule, steps):
+    fixed = rule.get("fixed", False)
+    model, move, pair = stretched(-1.0, augmented=not fixed, fixed=fixed)
+    drawn = uf.solve(model, move, frames=0, progress=False)
+    opened = uf.solve(model, uf.Free(pair, steps=steps), frames=0, progress=False)
+    assert opened["ball_active"][0] > 0 and opened["ball_active"][-1] == 0
+    assert force_error(opened) == 0.0 < force_error(drawn)
+
+
 @pytest.mark.parametrize("rule", [{}, {"cells": 3}])
 def test_a_penalty_that_grows_has_its_work_in_the_balance(rule):
     """Elastic, so that nothing else drifts: the error falls with the square of the increments."""
