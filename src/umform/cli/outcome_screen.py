@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from umform.cli.root import console
 from umform.cli.run_checks import show_checks
+from umform.cli.step_table import blocks
 from umform.cli.warnings import echo_warnings
 
 if TYPE_CHECKING:
@@ -59,18 +60,26 @@ def show_annex(annex: Annex) -> None:
 
 
 def print_table(rows: Sequence[Sequence[str]], title: str | None = None) -> None:
-    """Print a header and rows of cells; cells beyond a limit are red."""
+    """Print a header and rows of cells; cells beyond a limit are red.
+
+    Cells wrap between words. A table whose words are too wide for the screen is printed in parts of whole columns: rich
+    would shorten the numbers.
+    """
     from rich import box
     from rich.table import Table
     from rich.text import Text
 
     from umform.results.quantity import Bad
 
-    header, *cells = rows
-    table = Table(title=title, box=box.SIMPLE_HEAD, min_width=len(title or ""))
-    for number, name in enumerate(header):
-        text = number == 0 or name in _TEXT
-        table.add_column(name, justify="left" if text else "right", no_wrap=number == 0)
-    for row in cells:
-        table.add_row(*(Text(cell, style="bold red" if isinstance(cell, Bad) else "") for cell in row))
-    console().print(table)
+    screen, (header, *cells) = console(), rows
+    words = [max(len(word) for row in rows for word in row[number].split() or [""]) for number in range(len(header))]
+    for columns in blocks([max(len(row[0]) for row in rows), *words[1:]], screen.width):
+        table = Table(title=title, box=box.SIMPLE_HEAD, min_width=len(title or ""))
+        for number in (0, *columns):
+            text = number == 0 or header[number] in _TEXT
+            table.add_column(header[number], justify="left" if text else "right", no_wrap=number == 0)
+        for row in cells:
+            shown = [row[number] for number in (0, *columns)]
+            table.add_row(*(Text(cell, style="bold red" if isinstance(cell, Bad) else "") for cell in shown))
+        screen.print(table)
+        title = None

@@ -1,10 +1,12 @@
-"""The table of steps that `umform run` prints: whole numbers at any width, no row that never changes."""
+"""Tables on the screen: whole numbers at any width; of steps no row that never changes."""
 
 from io import StringIO
 from types import SimpleNamespace
 
+import pytest
 from rich.console import Console
 
+from umform.cli import outcome_screen
 from umform.cli.step_table import step_rows, step_tables
 
 
@@ -40,3 +42,15 @@ def test_no_number_is_cut_at_any_width():
         assert all(str(12034 * step) in text.split() for step in range(1, 10))
         if width > 20:
             assert max(map(len, text.splitlines())) <= width
+
+
+@pytest.mark.parametrize("width", [40, 79, 200])
+def test_no_number_of_a_wide_table_is_cut(width, monkeypatch):
+    screen = Console(width=width, record=True, file=StringIO())
+    monkeypatch.setattr(outcome_screen, "console", lambda: screen)
+    values = [f"{number + 0.25:+.6g}" for number in range(12)]
+    names = [f"parameter {number}" for number in range(12)]
+    outcome_screen.print_table([["quantity", *names, "unit"], ["largest force", *values, "N mm"]], "Changes")
+    text = screen.export_text()
+    assert "…" not in text and set(values) <= set(text.split()) and text.count("Changes") == 1
+    assert max(map(len, text.splitlines())) <= width
