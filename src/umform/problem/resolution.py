@@ -21,7 +21,7 @@ from umform.model import Model
 from umform.model.bodies.body import Body
 from umform.model.contact import Contact
 from umform.model.contact.encounter import sheet_thickness
-from umform.problem.controls import Displacement, Drive, MidLine
+from umform.problem.controls import Displacement, Drive, MidLine, Turn
 from umform.problem.findings import Finding, ok, warning
 from umform.problem.prepared import Prepared
 from umform.problem.problem import Problem
@@ -174,8 +174,16 @@ def contact_points(problem: Prepared) -> Iterator[Finding]:
             yield warning(f"contact {name}", text, f"points = {least} or more, or auto")
 
 
+def _turn(about: str, name: str, way: float) -> Finding:
+    """Rotation of a tool in a step."""
+    text = f"{name} turns by {way:.4g} radians, {math.degrees(way):.4g} degrees"
+    if way <= 2.0 * math.pi:
+        return ok(about, text)
+    return warning(about, f"{text}: more than a full turn", f"{math.radians(way):.4g} turns by {way:.4g} degrees")
+
+
 def ways(deck: Problem, problem: Prepared) -> Iterator[Finding]:
-    """Travel of the controls that are lengths, in total and per increment."""
+    """Travel of the controls that are lengths, in total and per increment, and rotations of tools."""
     thickness, span = sheet_thickness(problem.model.mesh), sheet_length(problem.model)
     controls = deck.contents.controls
     stands = dict.fromkeys(controls, 0.0)
@@ -187,10 +195,13 @@ def ways(deck: Problem, problem: Prepared) -> Iterator[Finding]:
                 stands[name] = np.nan
             continue
         for name, to in step.to.items():
-            if not isinstance(controls.get(name), Displacement | MidLine | Drive):
+            if not isinstance(controls.get(name), Displacement | MidLine | Drive | Turn):
                 continue
             way, stands[name] = abs(to - stands[name]), to
             if not np.isfinite(way):
+                continue
+            if isinstance(controls[name], Turn):
+                yield _turn(about, name, way)
                 continue
             part = way / step.increments if step.increments is not None else 0.0
             each = "increments chosen during the run" if step.increments is None else f"{part:.3g} in an increment"

@@ -135,6 +135,16 @@ def test_ways_of_steps(strip, texts, found):
     assert levels(found(strip, "step 1", steps__0__increments=1)) == OK  # nothing is touched
 
 
+def test_rotations_of_tools_are_radians(texts, found):
+    turn = '[controls.fold]\nkind = "turn"\ncontact = "cylinder"\naxis = "y"\n'
+    step = '[[steps]]\nkind = "move"\nto = { fold = 0.5 }\nincrements = 9\n'
+    text = f"{texts('free-bending')}\n{turn}\n{step}"
+    (half,) = found(text, "step 3")
+    assert (half.level, half.text) == (Level.OK, "fold turns by 0.5 radians, 28.65 degrees")
+    (far,) = found(text, "step 3", steps__2__to__fold=-45.0)
+    assert far.level is Level.WARNING and far.remedy == "0.7854 turns by 45 degrees"
+
+
 def test_locking_moment_is_that_of_the_theory():
     """The false moment (2.28), differentiated from its energy, over the plastic moment of plane strain."""
     kappa_over_y, h = 600.0, 2.0
