@@ -195,6 +195,38 @@ def test_draw_in_is_measured_from_the_blank_wherever_the_part_is_placed(drawn):
     assert values[1] == pytest.approx(values[0], rel=1e-9)
 
 
+def test_sections_are_measured_from_the_blank_wherever_the_part_is_placed(drawn):
+    cut = '[measures.{0}]\nkind = "{0}"\n'
+    placed = PLACED + cut.format("angle") + cut.format("section") + FIXED + OUTPUT
+    there = placed[: placed.index("[placement]")] + placed[placed.index("[controls") :]
+    found = []
+    for rows in (None, "[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]", "[0, 0, 1.0], [0, 1.0, 0], [-1.0, 0, 0]"):
+        old = "[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]"
+        text = there if rows is None else placed.replace(f"[{old}]", f"[{rows}]")
+        text = text.replace("{ pull = 1.0 }", "{ pull = 1e-9 }")  # along x of the new place
+        (drawn / "cut.toml").write_text(text)
+        deck = load(drawn / "cut.toml")
+        problem = deck.build()
+        taken = Taken.of(deck, problem, problem.solve(progress=False), complete=True)
+        numbers = {one.name: one.value for one in taken.quantities if "bow" not in one.name}
+        found.append([*numbers.values(), *np.column_stack(list(taken.measures["section"].columns.values())).ravel()])
+    assert numbers["angle.angle.formed"] == pytest.approx(180.0, abs=1e-3)
+    np.testing.assert_allclose(found[1:], [found[0]] * 2, atol=1e-9)
+
+
+def test_a_rigid_support_holds_a_part_where_it_lies(drawn):
+    rigid = '[[supports]]\nkind = "rigid"\nname = "gauge"\nnodes = "x0"\n'
+    straight = "[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]"
+    shapes = []
+    for rows in (straight, "[0, 0, 1.0], [0, 1.0, 0], [-1.0, 0, 0]", "[0, -1.0, 0], [1.0, 0, 0], [0, 0, 1.0]"):
+        text = PLACED.replace(straight, rows).replace("pull = 1.0", "pull = 0.0") + rigid
+        problem = Problem.read(text, folder=drawn).build()
+        problem.solve(progress=False)
+        x = problem.model.positions
+        shapes.append(np.linalg.norm(x[:, None] - x, axis=-1))  # all distances
+    np.testing.assert_allclose(shapes[1:], [shapes[0]] * 2, atol=1e-9)
+
+
 ROLL = """
 [tools.roll]
 shape = "Cylinder"

@@ -51,7 +51,7 @@ class Cut(MeasurePart):
         return section(mesh, u, through, self.normal)
 
     def _cuts(self, part: Formed) -> dict[str, Section]:
-        return {name: self._cut(part.model, u) for name, u in part.states.items()}
+        return {state: self._cut(part.model, part.from_blank(state)) for state in part.states}
 
 
 class SectionCurve(Cut):

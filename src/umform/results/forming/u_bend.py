@@ -72,7 +72,7 @@ def u_bend_angles(
         )
     low, middle, high = (crossing(line, height) for height in heights)
     reach = min(heights[0], _FLAT * (low[0] - line[0, 0]) if flat is None else flat)
-    bottom = line[max(int(np.searchsorted(line[:, 0] - line[0, 0], reach)), 1)] - line[0]
+    bottom = line[max(int(np.argmax(line[:, 0] - line[0, 0] >= reach)), 1)] - line[0]
     end = line[-1] - line[-1 - flange]
     theta1, theta2 = angle_between(-bottom, middle - low), angle_between(end, low - middle)
     return UBendAngles(theta1, theta2, circle(low, middle, high))

@@ -240,6 +240,8 @@ def test_u_bend_without_springback_and_with_a_round_wall():
     narrow = np.concatenate([[[0.0, 0.0]], bottom * [0.4, 1.0], wall - [15.0, 0.0], flange - [15.0, 0.0]])
     assert u_bend_angles(narrow).theta1 == pytest.approx(90)  # its wall stands at 10 mm, the lowest height is 15
     assert u_bend_angles(narrow, flat=5.0).theta1 == pytest.approx(90)
+    inward = [[[0.0, 0.0]], bottom[::20], wall[::20], flange * [-1.0, 1.0] + [50.0, 0.0]]
+    assert u_bend_angles(np.concatenate(inward)).theta1 == pytest.approx(90)  # ends beyond the middle of the bottom
     R = 200.0
     wall = np.column_stack([25 + R - R * np.cos(70 * s / R), R * np.sin(70 * s / R)])
     assert u_bend_angles(np.concatenate([[[0.0, 0.0]], bottom, wall])).radius == pytest.approx(R, rel=1e-3)
