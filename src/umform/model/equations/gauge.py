@@ -65,7 +65,8 @@ def _without(model: Evaluated, gone: Sequence[Support]) -> Iterator[None]:
 def _dofs(model: Evaluated, nodes: Ids) -> Ids:
     from scipy.linalg import qr  # slow to import
 
-    modes = rigid_body_modes(model.mesh.points, *middle(model))
+    points = model.mesh.displaced(model.u)
+    modes = rigid_body_modes(points, *middle(model, points))
     free = left_free(model, modes)
     if len(free) == 0:
         raise InvalidValue(
