@@ -47,15 +47,15 @@ def mirrors(model: Model) -> list[Mirror]:
     """Planes of symmetry according to the supports of a model, at most one across each axis.
 
     A plane counts if the sheet ends there through its whole thickness, supports hold all nodes in it across it, and not
-    all of them are held in every direction, which is a clamp; an edge that a control moves does not count. Nodes that
-    are all held along an axis, as in plane strain, do not count.
+    all of them are held in every direction, which is a clamp; an edge that a control moves does not count, nor one that
+    lies elsewhere in a later operation. Nodes that are all held along an axis, as in plane strain, do not count.
 
     Parameters
     ----------
     model : Model
         The model.
     """
-    points, held = model.mesh.points, model.supports.constrained().reshape(-1, 3)
+    points, now, held = model.mesh.points, model.positions, model.supports.constrained().reshape(-1, 3)
     fixed = model.supports.fixed.reshape(-1, 3)
     hair = _HAIR * float(np.ptp(points, axis=0).max())
     found: list[Mirror] = []
@@ -65,7 +65,8 @@ def mirrors(model: Model) -> list[Mirror]:
             continue
         for at in (float(x.min()), float(x.max())):
             inside = np.abs(x - at) <= hair
-            if fixed[inside, axis].all() and not held[inside].all() and _through_the_thickness(model, inside):
+            across = fixed[inside, axis].all() and (np.abs(now[inside, axis] - at) <= hair).all()
+            if across and not held[inside].all() and _through_the_thickness(model, inside):
                 found.append(Mirror(axis, at + 0.0))
                 break
     return found

@@ -55,6 +55,16 @@ def test_an_edge_that_is_moved_sideways_is_no_symmetry_of_the_start():
     assert mirrors(clamped) == []
 
 
+def test_an_edge_that_a_later_operation_holds_elsewhere_is_no_symmetry():
+    model = strip()
+    x, y, z = model.mesh.points.T
+    model.u = (np.column_stack([z, y, -x]) - model.mesh.points).ravel()  # the strip stands on its edge x1
+    model.supports.fix("x1", "x", here=True)
+    assert mirrors(model) == []
+    model.u = np.zeros_like(model.u)
+    assert mirrors(model) == [Mirror(0, 8.0)]
+
+
 def test_the_whole_shape_has_both_halves():
     model = strip(("symmetry", "x0", "x"), origin=(3.0, 0.0, 0.0))
     shape = Shape.displaced(model.mesh, np.zeros_like(model.mesh.points))
