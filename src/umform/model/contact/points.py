@@ -197,7 +197,8 @@ class PairPoints(Penalised[ContactFound]):
         """Copy of the kernel's results at held points; the rest is computed on demand."""
         block = self.block
         held = block.found()
-        multiplier = block.multipliers if self.augmented else self._no_multipliers
+        acts = self.augmented and not self.tool.open  # an open tool has no energy
+        multiplier = block.multipliers if acts else self._no_multipliers
         measure = partial(self._measured, u, pose)
         return ContactFound(
             scale,
