@@ -57,7 +57,7 @@ class SheetContacts:
                 cause="the same set, or sets that overlap",
                 remedy="self_contact(faces) for a sheet that touches itself",
             )
-        check_facing(mesh, (one, other), f"contact {name}")
+        check_facing(mesh, mesh.displaced(self.system.u), (one, other), f"contact {name}")
         return self._made([one, other], name, options)
 
     @takes(SheetContactOptions)

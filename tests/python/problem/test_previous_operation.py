@@ -227,6 +227,17 @@ def test_a_rigid_support_holds_a_part_where_it_lies(drawn):
     np.testing.assert_allclose(shapes[1:], [shapes[0]] * 2, atol=1e-9)
 
 
+def test_faces_of_sheets_look_at_each_other_where_the_part_lies(drawn):
+    below = '[added.base]\ngenerator = "strip"\nlength = 10.0\nwidth = 2.0\nthickness = 1.0\ncells = [4, 1]\n'
+    touch = '[sheet_contacts.stack]\nfaces = "{} of part"\nothers = "upper of base"\n'
+    text = PLACED.replace("[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]", "[0.0, -1.0, 0.0], [0.0, 0.0, -1.0]]")  # upside down
+    text = text.replace("[7.0, -2.0, 0.5]", "[0.0, 2.0, 0.0]").replace('"x1"', '"x1 of part"')
+    text += f"{below}shift = [0.0, 0.0, -1.2]\n"
+    Problem.read(text + touch.format("upper"), folder=drawn).build()
+    with pytest.raises(UmformError, match="look the same way"):
+        Problem.read(text + touch.format("lower"), folder=drawn).build()
+
+
 ROLL = """
 [tools.roll]
 shape = "Cylinder"

@@ -90,8 +90,10 @@ def _way_out(contact: SheetContact, u: Floats) -> str:
     return apart
 
 
-def check_facing(mesh: Mesh, sides: tuple[Ids, Ids], where: str) -> None:
+def check_facing(mesh: Mesh, at: Floats, sides: tuple[Ids, Ids], where: str) -> None:
     """Reject faces of two sheets that lie close to each other and look the same way, or away from each other.
+
+    The nodes are at positions (n, 3).
 
     Raises
     ------
@@ -100,7 +102,7 @@ def check_facing(mesh: Mesh, sides: tuple[Ids, Ids], where: str) -> None:
     """
     from scipy.spatial import cKDTree  # slow to import
 
-    centres, normals, sizes = zip(*(_middles(mesh, mesh.facets_of(side)) for side in sides), strict=True)
+    centres, normals, sizes = zip(*(_middles(at[mesh.facets_of(side)[:, :4]]) for side in sides), strict=True)
     sheet = sheets_of(mesh)
     if np.intersect1d(sheet[sides[0][:, 0]], sheet[sides[1][:, 0]]).size:  # a fold, or a coil: its shape says nothing
         return
@@ -129,9 +131,8 @@ def check_facing(mesh: Mesh, sides: tuple[Ids, Ids], where: str) -> None:
         )
 
 
-def _middles(mesh: Mesh, facets: Ids) -> tuple[Floats, Floats, Floats]:
-    """Centres, unit normals and longest diagonals of facets."""
-    corners = mesh.points[facets[:, :4]]
+def _middles(corners: Floats) -> tuple[Floats, Floats, Floats]:
+    """Centres, unit normals and longest diagonals of facets (k, 4, 3)."""
     one, other = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
     normal = np.cross(one, other)
     size = np.maximum(np.linalg.norm(one, axis=1), np.linalg.norm(other, axis=1))
