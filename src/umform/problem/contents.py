@@ -43,7 +43,7 @@ class Contents(Part):
     trim: list[Cut] = field(default_factory=list)
     """Cuts of the part of the previous operation, in order."""
     placement: Placement | None = None
-    """Rigid motion of the part before the first step."""
+    """Rigid motion of the part after the cuts, before the first step."""
     added: dict[Name, OneMesh] = field(default_factory=dict)
     """Flat sheets that are laid beside the placed part, by name, with its element and metal: the sets are then lower of
     part, upper of NAME, and so on."""

@@ -187,7 +187,7 @@ class Cut(Part):
     view: Literal["x", "y", "z"] = "z"
     """Direction of the view: the coordinates of the line are y, z; x, z; or x, y."""
     formed: bool = True
-    """Whether the line lies on the formed part, or on the flat blank."""
+    """Whether the line lies on the formed part, where the deck before has left it, or on the flat blank."""
     edge: Literal["line", "elements"] = "line"
     """Whether the new edge lies on the line, by new elements that take their state from the sheet, or follows edges of
     elements."""
