@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from umform.model import Model
 from umform.model.contact import Contact
-from umform.report.symmetry import mirrors
+from umform.report.symmetry import mirrors_of_blank
 
 Floats = NDArray[np.float64]
 #: Ratio of the principal curvatures above which a tool is round in all directions.
@@ -59,7 +59,7 @@ def size_near(contact: Contact, model: Model, axis: Sequence[float] | None) -> f
 def sheet_length(model: Model) -> float:
     """Largest extent of the whole sheet: of a half or a quarter, with its images."""
     spans = np.ptp(model.mesh.points, axis=0)
-    for mirror in mirrors(model):
+    for mirror in mirrors_of_blank(model):
         spans[mirror.axis] *= 2.0
     return float(spans.max())
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -44,32 +44,41 @@ class Mirror:
 
 
 def mirrors(model: Model) -> list[Mirror]:
-    """Planes of symmetry according to the supports of a model, at most one across each axis.
+    """Planes of symmetry according to the supports of a model, where they are now, at most one for each axis.
 
     A plane counts if the sheet ends there through its whole thickness, supports hold all nodes in it across it, and not
-    all of them are held in every direction, which is a clamp; an edge that a control moves does not count, nor one that
-    lies elsewhere in a later operation. Nodes that are all held along an axis, as in plane strain, do not count.
+    all of them are held in every direction, which is a clamp; an edge that a control moves does not count. Nodes that
+    are all held along an axis, as in plane strain, do not count.
 
     Parameters
     ----------
     model : Model
         The model.
     """
+    return [now for _, now in _planes(model)]
+
+
+def mirrors_of_blank(model: Model) -> list[Mirror]:
+    """The same planes where they are in the undeformed mesh: elsewhere in a part that was moved into other tools."""
+    return [before for before, _ in _planes(model)]
+
+
+def _planes(model: Model) -> Iterator[tuple[Mirror, Mirror]]:
+    """The planes of symmetry in the undeformed mesh, and now."""
     points, now, held = model.mesh.points, model.positions, model.supports.constrained().reshape(-1, 3)
-    fixed = model.supports.fixed.reshape(-1, 3)
+    fixed = model.supports.fixed.reshape(-1, 3) & ~held.all(axis=0)
     hair = _HAIR * float(np.ptp(points, axis=0).max())
-    found: list[Mirror] = []
     for axis in range(3):
         x = points[:, axis]
-        if held[:, axis].all():
-            continue
         for at in (float(x.min()), float(x.max())):
             inside = np.abs(x - at) <= hair
-            across = fixed[inside, axis].all() and (np.abs(now[inside, axis] - at) <= hair).all()
-            if across and not held[inside].all() and _through_the_thickness(model, inside):
-                found.append(Mirror(axis, at + 0.0))
+            if held[inside].all() or not _through_the_thickness(model, inside):
+                continue
+            flat = fixed[inside].all(axis=0) & (np.ptp(now[inside], axis=0) <= hair)
+            if flat.any():
+                across = axis if flat[axis] else int(np.argmax(flat))
+                yield Mirror(axis, at + 0.0), Mirror(across, float(now[inside, across].min()) + 0.0)
                 break
-    return found
 
 
 def modelled_part(model: Model) -> str:

@@ -19,7 +19,7 @@ from umform.flat_pattern.one_step import corrected_blank, mid_surface
 from umform.mesh import Mesh
 from umform.problem.problem import Problem
 from umform.progress import Show
-from umform.report.symmetry import mirrors
+from umform.report.symmetry import mirrors_of_blank
 
 log = logging.getLogger("umform")
 
@@ -141,7 +141,7 @@ def net_blank(
     file = Path(mesh)
     trial = file.with_name(f"{file.stem}-trial{file.suffix}")
     model = deck.build().model
-    edge = Edge.of(model.mesh, mirrors(model))
+    edge = Edge.of(model.mesh, mirrors_of_blank(model))
     own, centre = edge.star, edge.star.centre
     goal: Wanted = (
         height(float(wanted)) if isinstance(wanted, int | float) else OnOutline(Star.of(wanted, centre, "wanted"))

@@ -14,7 +14,7 @@ from umform.model import Model, Tool
 from umform.model.transfer.beside import PART
 from umform.model.transfer.rigid_motion import RigidMotion
 from umform.problem.parts import Part
-from umform.report.symmetry import Mirror, mirrors, whole
+from umform.report.symmetry import Mirror, mirrors, mirrors_of_blank, whole
 from umform.results.forming import Laid
 from umform.results.quantity import Quantity
 from umform.results.shape import Shape, outer_quads
@@ -127,8 +127,13 @@ class Formed:
 
     @property
     def planes(self) -> list[Mirror]:
-        """Planes of symmetry."""
+        """Planes of symmetry, where they are in its states."""
         return mirrors(self.model)
+
+    @property
+    def planes_of_blank(self) -> list[Mirror]:
+        """The same planes in the blank."""
+        return mirrors_of_blank(self.model)
 
     @property
     def last(self) -> str:

@@ -16,7 +16,7 @@ from umform.problem.measures.hat import halves
 from umform.problem.notes import Discriminator, Field, Tag
 from umform.problem.parts import Positive, Vector
 from umform.problem.selection import Selection, nodes_of
-from umform.report.symmetry import mirrors
+from umform.report.symmetry import mirrors_of_blank
 from umform.results.forming import NUMBER_OF_EARS, Section, UBendAngles, draw_in, ear_profile, section
 from umform.results.forming.sections import columns, horizontal
 from umform.results.forming.u_bend import HEIGHTS, crossing
@@ -45,7 +45,7 @@ class Cut(MeasurePart):
         mesh, through = model.mesh, self.point
         if through is None:
             middle = 0.5 * (mesh.points.min(axis=0) + mesh.points.max(axis=0))
-            at = {plane.axis: plane.at for plane in mirrors(model)}
+            at = {plane.axis: plane.at for plane in mirrors_of_blank(model)}
             through = (at.get(0, middle[0]), at.get(1, middle[1]), at.get(2, middle[2]))
         horizontal(self.normal)  # refuses a plane along the sheet
         return section(mesh, u, through, self.normal)
@@ -101,7 +101,7 @@ class Springback(Cut):
         found: dict[str, dict[str, UBendAngles]] = {}
         wall: list[Floats] = []
         for state, cut in cuts.items():
-            for half in halves(cut, along, part.planes):
+            for half in halves(cut, along, part.planes_of_blank):
                 found.setdefault(half.side, {})[state] = half.angles(self.heights, state)
                 if state == part.last:
                     wall += [half.place(crossing(half.line, height)) for height in self.heights]

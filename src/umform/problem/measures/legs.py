@@ -15,7 +15,7 @@ from umform.model.contact.encounter import sheet_thickness
 from umform.problem.measures.base import FORMED, RELEASED, Formed, Measured, in_states
 from umform.problem.measures.curves import Cut, section_drawn
 from umform.problem.parts import Positive
-from umform.report.symmetry import Mirror, mirrors
+from umform.report.symmetry import Mirror, mirrors_of_blank
 from umform.results.forming import Leg, Section, angle_between
 from umform.results.forming.sections import columns, horizontal
 
@@ -37,7 +37,7 @@ class Angle(Cut):
     def check(self, model: Model, *, released: bool) -> None:
         """Refuse a plane that does not cut the sheet, and legs that are longer than half of it."""
         cut = self._cut(model, np.zeros_like(model.mesh.points))
-        legs = self._legs(model, cut, mirrors(model))
+        legs = self._legs(model, cut, mirrors_of_blank(model))
         whole = cut.s[-1] - cut.s[0]
         if len(legs) == 2 and self.leg is not None and self.leg > 0.5 * whole:
             raise InvalidValue(
@@ -64,7 +64,7 @@ class Angle(Cut):
     def take(self, name: str, part: Formed) -> Measured:
         """Angle in each state, springback, and how straight the legs are."""
         cuts = self._cuts(part)
-        legs = {state: self._legs(part.model, cut, part.planes) for state, cut in cuts.items()}
+        legs = {state: self._legs(part.model, cut, part.planes_of_blank) for state, cut in cuts.items()}
         angles = {state: _angle(found) for state, found in legs.items()}
         unit = part.units.length
         rows = [in_states("angle", "degrees", **angles)]

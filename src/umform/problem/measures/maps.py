@@ -117,7 +117,7 @@ class Gauge(MeasurePart):
                 remedy="see the warning of the run",
             )
         mesh, unit, planes = part.model.mesh, part.units.length, part.planes
-        blank, gauge = with_images(mesh.points, planes), with_images(part.places(FORMED), planes)
+        blank, gauge = with_images(mesh.points, part.planes_of_blank), with_images(part.places(FORMED), planes)
         count = len(mesh.points)
         for frame in part.result.frames:
             distance = np.zeros(count)
