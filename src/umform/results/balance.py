@@ -309,7 +309,8 @@ class ExternalWork:
             own = term.external_forces(at)
             if own is not None:
                 forces += own
-        held = [own for term in model.system.others if (own := term.support_forces(at)) is not None]
+        others = [(term, evaluation.found[term]) for term in model.system.others]
+        held = [own for term, found in others if (own := term.support_forces(found, at)) is not None]
         return forces, sum(held, start=forces)
 
     def _works(self, before: _State, state: _State) -> list[float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -12,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
-from umform.model import Evaluation, Model
+from umform.model import Evaluation, Model, Term
 from umform.model.equations.frame import Frame
 from umform.notebook import Display, InNotebook
 from umform.results import fields
@@ -136,7 +137,10 @@ class History(InNotebook):
                 row |= pair.columns(evaluation.found[pair], model.system.ranks)
         for term in model.system.terms:
             if term not in pairs:
-                row |= term.columns(evaluation.found[term], model.system.ranks)
+                own = term.columns(evaluation.found[term], model.system.ranks)
+                if term in model.system.others:  # tools write theirs above
+                    _check_names(term, own)
+                row |= own
         return row
 
     def _energy_columns(self, evaluation: Evaluation) -> dict[str, float]:
@@ -312,3 +316,16 @@ class History(InNotebook):
             "events": list(self.events),
             "warnings": list(self.warnings),
         }
+
+
+def _check_names(term: Term, columns: Mapping[str, float]) -> None:
+    """Refuse columns that a term has not named: one of another thing of the model would be lost."""
+    names = list(term.column_names())
+    if set(columns) != set(names):
+        raise InvalidValue(
+            "a term must write the columns that it names",
+            where=repr(term),
+            value=f"columns {', '.join(columns) or 'none'}; names {', '.join(names) or 'none'}",
+            cause="columns() and column_names() of its class differ",
+            remedy="the same names in both, in every increment",
+        )

@@ -8,7 +8,7 @@ import pytest
 from umform import materials as mt
 from umform.analysis.run import resume, solve
 from umform.analysis.steps import Move
-from umform.errors import FileProblem, InvalidValue, RigidBodyMotion
+from umform.errors import FileProblem, InvalidValue, NotFinite, RigidBodyMotion
 from umform.history_variables import named
 from umform.mesh import strip
 from umform.model import Connectivity, Model, NodalTerm, Term
@@ -198,3 +198,118 @@ def test_what_makes_no_sense_is_refused():
     with pytest.raises(InvalidValue, match="a row of numbers"):
         Foam(np.ones((2, 2)), 1.0)
     assert model.system.others == [foam]
+
+
+class Damper(NodalTerm):
+    """Forces by the velocity: the history has the displacement of the step before."""
+
+    def __init__(self, nodes, viscosity):
+        super().__init__("damper", nodes, history={"before": 3, "work": 1})
+        self.viscosity = viscosity
+
+    def respond(self, u, history, at):
+        before, work = named(history, self.history_variables).values()
+        rate = self.viscosity / at.step if at.step else 0.0
+        forces = rate * (u - before)
+        work = work + np.sum(forces * (u - before), axis=1, keepdims=True)
+        return forces, np.tile(rate * np.eye(3), (len(u), 1, 1)), np.hstack([u, work])
+
+    def energy(self, u, history):
+        return 0.0, named(history, self.history_variables)["work"][:, 0]
+
+
+def test_forces_that_vanish_with_the_commit_are_in_balance():
+    mesh = strip(20.0, 4.0, 0.5, (8, 2))
+    model = Model(mesh, material=STEEL)
+    model.fix("x0")
+    damper = model.add(Damper(mesh.nodes("x1"), 5.0))
+    pull = model.line_load("x1", "upper", (0.0, 0.0, -1.0), "pull")
+    result = solve(model, Move(pull, 1.0, steps=10))
+    assert damper.history[:, 3].min() > 0.0
+    assert result.balance().force_imbalance.max() < 1e-9
+
+
+def alike(u):
+    return 5.0 * u, np.tile(5.0 * np.eye(3), (len(u), 1, 1))
+
+
+def turning(u):
+    """Forces without a potential."""
+    K = np.array([[5.0, 1.0, 0.0], [-1.0, 5.0, 0.0], [0.0, 0.0, 5.0]])
+    return u @ K.T, np.tile(K, (len(u), 1, 1))
+
+
+class Loop(NodalTerm):
+    """A term whose answer is that of a function of displacements and history."""
+
+    def __init__(self, nodes, answer, symmetric=True):
+        super().__init__("own", nodes, history={"loops": 2})
+        self.answer, self.symmetric = answer, symmetric
+
+    def respond(self, u, history, at):
+        return self.answer(u, history)
+
+
+def added(answer, **options):
+    mesh = strip(20.0, 4.0, 0.5, (8, 2))
+    model = Model(mesh, material=STEEL)
+    model.fix("x0")
+    return model, model.add(Loop(mesh.nodes("x1"), answer, **options))
+
+
+@pytest.mark.parametrize(
+    ("answer", "kind", "said"),
+    [
+        (lambda u, h: alike(u), InvalidValue, "respond of a term must return 3 arrays"),
+        (lambda u, h: [*alike(u), h], InvalidValue, "respond of a term must return 3 arrays"),
+        (lambda u, h: (u[:, 0], alike(u)[1], h), InvalidValue, r"forces of a term must have shape \(6, 3\)"),
+        (lambda u, h: (u, np.eye(3), h), InvalidValue, r"tangents of a term must have shape \(6, 3, 3\)"),
+        (lambda u, h: (*alike(u), h[:, :1]), InvalidValue, r"history of a term must have shape \(6, 2\)"),
+        (lambda u, h: (np.nan * u, alike(u)[1], h), NotFinite, "forces of a term must be finite"),
+        (lambda u, h: (*turning(u), h), InvalidValue, "the tangent of a term is not symmetric"),
+    ],
+)
+def test_a_wrong_answer_names_the_term(answer, kind, said):
+    model, _ = added(answer)
+    with pytest.raises(kind, match=said) as caught:
+        model.evaluate(model.u)
+    assert "Loop('own')" in caught.value.where
+
+
+def test_an_unsymmetric_tangent_that_is_meant_is_taken(rng):
+    model, _ = added(lambda u, h: (*turning(u), h), symmetric=False)
+    model.evaluate(1e-3 * rng.normal(size=model.u.size))
+    assert not model.system.pattern.symmetric
+
+
+def test_an_error_of_a_term_names_it_and_the_call():
+    def crush(u, history):
+        history += 1.0
+        return (*alike(u), history)
+
+    for answer, kind in ((lambda u, h: 1 / 0, ZeroDivisionError), (crush, ValueError)):
+        model, own = added(answer)
+        with pytest.raises(kind) as caught:
+            model.evaluate(model.u)
+        assert "in the term Loop('own'), called as respond(u, history, at)" in caught.value.__notes__[0]
+        assert not own.history.any()
+
+
+@pytest.mark.parametrize("energy", [3.0, (np.zeros(2), 0.0)])
+def test_energies_of_another_shape_are_refused(energy, monkeypatch):
+    monkeypatch.setattr(Loop, "energy", lambda self, u, history: energy)
+    model, _ = added(lambda u, h: (*alike(u), h))
+    tip = model.prescribe("x1", "z", "tip")
+    with pytest.raises(InvalidValue, match="energy of a term must"):
+        solve(model, Move(tip, 0.1, steps=1))
+
+
+@pytest.mark.parametrize(("named", "written"), [([], {"tip": 7.0}), (["own_force"], {})])
+def test_columns_that_a_term_has_not_named_are_refused(named, written, monkeypatch):
+    """Without this, the column of the control would have the number of the term."""
+    monkeypatch.setattr(Loop, "column_names", lambda self: named)
+    monkeypatch.setattr(Loop, "columns", lambda self, found, ranks: written)
+    model, _ = added(lambda u, h: (*alike(u), h))
+    tip = model.prescribe("x1", "z", "tip")
+    with pytest.raises(InvalidValue, match="must write the columns that it names"):
+        solve(model, Move(tip, 0.1, steps=1))

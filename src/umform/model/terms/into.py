@@ -7,9 +7,11 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from umform import _core
+from umform.errors import InvalidValue, NotFinite
+from umform.materials.user_law import SYMMETRY
 from umform.model.terms.control import Control, Twins
 from umform.ranks import Ranks
 
@@ -184,14 +186,67 @@ class Into:
             State of the evaluation; with ``at.du`` the predictor gets its contribution.
         kind : int
             Index of the connectivity of these parts in :meth:`Term.couples`.
+
+        Raises
+        ------
+        InvalidValue
+            If the arrays have other shapes, or tangents of a symmetric term are not symmetric.
+        NotFinite
+            If one of them holds NaN or infinity, which cuts the increment of a run.
         """
+        parts, nodes = connectivity.shape
+        forces = checked_answer(term, "forces", forces, (parts, nodes, 3))
         np.add.at(self.residual.reshape(-1, 3), connectivity, forces)
         if tangents is None:
             return
+        tangents = checked_answer(term, "tangents", tangents, (parts, nodes, 3, nodes, 3))
         if at.du is not None:
             change = np.einsum("eakbl,ebl->eak", tangents, at.du.reshape(-1, 3)[connectivity])
             np.add.at(self.predictor.reshape(-1, 3), connectivity, change)
         if self.values is not None:
-            parts, nodes = connectivity.shape
-            matrices = np.ascontiguousarray(tangents.reshape(parts, 3 * nodes, 3 * nodes), dtype=float)
+            matrices = np.ascontiguousarray(tangents.reshape(parts, 3 * nodes, 3 * nodes))
+            if term.symmetric:
+                _refuse_unsymmetric(term, matrices)
             self.scatters[term][kind].add(matrices, self.values)
+
+
+def shaped_answer(term: Any, name: str, values: ArrayLike, shape: tuple[int, ...]) -> Floats:
+    """An array that a term written in Python gave, if it has its shape."""
+    array = np.asarray(values, dtype=float)
+    if array.shape != shape:
+        raise InvalidValue(
+            f"{name} of a term must have shape {shape}",
+            where=repr(term),
+            value=array.shape,
+            cause="an answer for one part, or with its axes in another order",
+            remedy="parts come first: one row for each",
+        )
+    return array
+
+
+def checked_answer(term: Any, name: str, values: ArrayLike, shape: tuple[int, ...]) -> Floats:
+    """An array that a term written in Python gave, if it has its shape and is finite."""
+    array = shaped_answer(term, name, values, shape)
+    if not np.isfinite(array).all():
+        raise NotFinite(
+            f"{name} of a term must be finite",
+            where=f"{term!r}, part {np.argwhere(~np.isfinite(array))[0][0]}",
+            cause="a root, logarithm or division outside of its domain",
+            remedy="smaller steps, or a function of all displacements; at.step is zero before the first increment",
+        )
+    return array
+
+
+def _refuse_unsymmetric(term: Any, matrices: Floats) -> None:
+    """Refuse matrices of which only the upper triangle would count."""
+    deviation = np.abs(matrices - matrices.transpose(0, 2, 1)).max(axis=(1, 2), initial=0.0)
+    largest = np.abs(matrices).max(axis=(1, 2), initial=0.0)
+    wrong = np.flatnonzero(deviation > SYMMETRY * largest)
+    if wrong.size:
+        raise InvalidValue(
+            "the tangent of a term is not symmetric",
+            where=f"{term!r}, part {wrong[0]}",
+            value=f"it less its transpose is {deviation[wrong[0]] / largest[wrong[0]]:.2g} of its largest entry",
+            cause="forces without a potential, or a mistake in their derivatives",
+            remedy="symmetric = False in the class of the term where it is meant",
+        )

@@ -6,7 +6,7 @@ checkpoints and ranks are implemented here. docs/extending.md
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Self
 
@@ -18,6 +18,7 @@ from umform.errors import InvalidValue
 from umform.model.terms.control import Twins
 from umform.model.terms.cut import Cut
 from umform.model.terms.elsewhere import not_here
+from umform.model.terms.into import checked_answer, shaped_answer
 from umform.model.terms.term import At, Energies, Found, Into, Term, Tree
 
 Floats = NDArray[np.float64]
@@ -127,9 +128,36 @@ class NodalTerm(Term):
     def _at_nodes(self, u: Floats) -> Floats:
         return u.reshape(-1, 3)[self.nodes]
 
+    def _asked(self, function: Callable[..., Any], names: Sequence[str], called: str, *arguments: Any) -> Sequence[Any]:
+        """What a function of the derived class returns, one array for each name; errors name the term and the call."""
+        history = self.history.view()
+        history.flags.writeable = False  # it is that of the converged state
+        try:
+            answer = function(arguments[0], history, *arguments[1:])
+        except Exception as error:
+            error.add_note(f"in the term {self!r}, called as {called}")
+            raise
+        if not isinstance(answer, tuple) or len(answer) != len(names):
+            raise InvalidValue(
+                f"{called.split('(')[0]} of a term must return {len(names)} arrays: {', '.join(names)}",
+                where=repr(self),
+                value=type(answer).__name__,
+                cause="a return that is missing, or a list in place of a tuple",
+                remedy=called,
+            )
+        return answer
+
+    def _responds(self, at: At) -> tuple[Floats, Floats, Floats]:
+        n, k = self.history.shape
+        names, called = ("forces", "tangents", "history"), "respond(u, history, at) -> forces, tangents, history"
+        answer = self._asked(self.respond, names, called, self._at_nodes(at.u), at)
+        shapes = ((n, 3), (n, 3, 3), (n, k))
+        forces, tangents, history = (checked_answer(self, *one) for one in zip(names, answer, shapes, strict=True))
+        return forces, tangents, history
+
     def evaluate(self, at: At, into: Into) -> NodalFound:
         """Add forces and tangents of all nodes."""
-        forces, tangents, history = self.respond(self._at_nodes(at.u), self.history, at)
+        forces, tangents, history = self._responds(at)
         into.add(self, self.nodes[:, None], forces[:, None], tangents[:, None, :, None, :], at)
         changed = (history != self.history).any(axis=1)
         return NodalFound(float((forces**2).sum()), forces=forces, history=history, changed=changed)
@@ -155,20 +183,25 @@ class NodalTerm(Term):
 
     def energies(self, found: Found, u: Floats) -> Energies:
         """Stored energy and spent work of the nodes."""
+        names, called = ("stored", "dissipated"), "energy(u, history) -> stored, dissipated"
+        answer = self._asked(self.energy, names, called, self._at_nodes(u))
+        n = len(self.nodes)
         elastic, plastic = (
-            np.broadcast_to(part, len(self.nodes)) for part in self.energy(self._at_nodes(u), self.history)
+            shaped_answer(self, f"{name} energy", part if np.ndim(part) else np.full(n, part), (n,))
+            for name, part in zip(names, answer, strict=True)
         )
         return Energies(float(elastic.sum()), float(plastic.sum()), 0.0)
 
-    def support_forces(self, at: At) -> Floats:
-        """Forces of the ground on the nodes."""
+    def support_forces(self, found: Found, at: At) -> Floats:
+        """Forces of the ground on the nodes, as the evaluation found them: a committed history may give others."""
+        assert isinstance(found, NodalFound)
         forces = np.zeros((at.u.size // 3, 3))
-        np.subtract.at(forces, self.nodes, self.respond(self._at_nodes(at.u), self.history, at)[0])
+        np.subtract.at(forces, self.nodes, found.forces)
         return forces.ravel()
 
     def holds(self, at: At) -> tuple[Ids, Floats]:
         """Rows of the tangents: directions in which the nodes are constrained."""
-        tangents = self.respond(self._at_nodes(at.u), self.history, at)[1].reshape(-1, 3)
+        tangents = self._responds(at)[1].reshape(-1, 3)
         length = np.linalg.norm(tangents, axis=1)
         stiff = length > 0.0
         return np.repeat(self.nodes, 3)[stiff], tangents[stiff] / length[stiff, None]

@@ -211,7 +211,7 @@ class Term(Frozen):
         """
         return None
 
-    def support_forces(self, at: At) -> Floats | None:
+    def support_forces(self, found: Found, at: At) -> Floats | None:
         """Forces of foundations on the nodes, an elastic foundation for instance; shape (3 n,).
 
         They count in the resultants; their work is part of :meth:`energies`.
