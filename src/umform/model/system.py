@@ -71,7 +71,7 @@ class System(Evaluated):
         Raises
         ------
         NoConvergence
-            If they do not come to rest at the displacement, or a cell fails.
+            If they do not come to rest at the displacement, or a cell fails; what was evaluated is discarded.
         """
         return settled(self, state if isinstance(state, State) else self.state_at(state))
 

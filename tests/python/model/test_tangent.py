@@ -146,3 +146,16 @@ def test_what_has_no_tangent_is_refused():
     with pytest.raises(NoConvergence, match="no equilibrium") as refused:
         model.system.settle(inside_out.ravel())
     assert "cell" in str(refused.value)
+
+
+def test_a_displacement_without_equilibrium_leaves_nothing_behind():
+    """Its remedy is to settle at displacements in between: they begin with converged parameters."""
+    model, tip = bent()
+    uf.solve(model, uf.Move(tip, -1.0, steps=4), progress=False)
+    way = model.system.extend(np.random.default_rng(0).normal(size=model.system.pattern.n))
+    near = model.u + 1e-4 * way
+    expected = model.system.settle(near).residual
+    model.system.revert()
+    with pytest.raises(NoConvergence, match="no equilibrium"):
+        model.system.settle(model.u + 0.2 * way)
+    np.testing.assert_array_equal(model.system.settle(near).residual, expected)

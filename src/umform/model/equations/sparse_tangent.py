@@ -97,6 +97,8 @@ def settled(system: Evaluated, state: State) -> Evaluation:
         system.recover(rest)
         evaluation = system.evaluate(state)
     failure = f"cell {evaluation.failed} {evaluation.failure}" if evaluation.failed >= 0 else f"{_MOST} recoveries"
+    for term in system.terms:
+        term.revert()  # the next displacement begins with converged parameters, not with these
     raise NoConvergence(
         "the enhanced parameters have no equilibrium at this displacement",
         where="settle",
