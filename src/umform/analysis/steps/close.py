@@ -203,7 +203,8 @@ class Closing:
         else:
             target = start + sense * _as_way(run, press, 1.0) * (_gap(run, press) - _gap(lead, led))
             slope = abs(wanted) / lead.loop.hair if touching else slope
-        if led.room(sense) <= _AT_STOP * max(self.limit, self.size):
+        stands = led.room(sense) <= _AT_STOP * max(self.limit, self.size)
+        if stands:  # each on its own stops, whatever the sheet answers there
             target = start + sense * press.room(sense)
         before: tuple[float, float] | None = None
         for left in reversed(range(_CLOSER)):
@@ -212,9 +213,11 @@ class Closing:
             found = _level(run, press, sense, touching=touching)
             if before is not None and before[0] != target and before[1] != found:
                 slope = (found - before[1]) / (target - before[0])
-            closer = target + (wanted - found) / slope
             near = abs(found - wanted) <= _SAME * (scale if touching else self.limit)
-            if left == 0 or near or closer == target or press.room(sense) <= 0.0:
+            if left == 0 or near or stands or slope == 0.0 or press.room(sense) <= 0.0:
+                break
+            closer = target + (wanted - found) / slope
+            if closer == target:
                 break
             before, target = (target, found), closer
             saved.restore(run)

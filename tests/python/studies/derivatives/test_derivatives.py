@@ -389,3 +389,22 @@ def test_a_flange_that_lies_flat_between_planes():
     assert one.why == ""
     assert one.residual < 1e-9
     assert found.stages["run"].missing == ""
+
+
+def test_a_tool_that_closes_on_blocks_as_high_as_the_sheet():
+    """It touches without a force there, which has no slope; it stands where the blocks are."""
+
+    def closed(gap):
+        model = uf.Model(uf.mesh.strip(20.0, 1.0, 1.0, (8, 1)).moved((0.0, 0.0, 0.5)), material=uf.SVK(210e3, 0.3))
+        model.fix("x0")
+        die = model.tool("die", uf.Plane((0.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
+        holder = model.tool("holder", uf.Plane((0.0, 0.0, 1.5), (0.0, 0.0, -1.0)))
+        model.contact("lower", die, penalty=2e3)
+        model.contact("upper", holder, penalty=2e3)
+        hold = model.press(holder, "z", name="hold")
+        model.keep_gap(hold, to=die, gap=gap)
+        return model, uf.Close(hold, force=-40.0)
+
+    found = uf.derivatives(closed, by={"gap": 1.0}, of=["hold_way", "hold_stop"], progress=False)
+    assert found["hold_way", "gap"].value == pytest.approx(1.0, rel=1e-9)
+    assert found["hold_stop", "gap"].switched  # a lower block would leave force to the sheet
