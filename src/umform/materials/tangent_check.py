@@ -79,12 +79,12 @@ def check_law(
         material = replace(material, symmetric=False)  # allow an asymmetric tangent, to measure its asymmetry
     law = material.law()
     E = np.ascontiguousarray(E, dtype=float)
-    if E.ndim != 2 or E.shape[1] != 6:
+    if E.ndim != 2 or E.shape[1] != 6 or not E.size:
         raise InvalidValue(
             "strains at points must have shape (n, 6)",
             where="check_law",
             value=E.shape,
-            cause="one strain in place of rows, or tensors of 3 x 3",
+            cause="one strain in place of rows, tensors of 3 x 3, or none",
             remedy="rows of 11 22 33 12 23 13: [[1e-3, 0.0, 0.0, 2e-3, 0.0, 0.0]]",
         )
     frame = None if axes is None else np.ascontiguousarray(axes, dtype=float)

@@ -129,15 +129,17 @@ class UserLaw:
                 remedy="a number such as 5, or leave it out",
             )
         initial = tuple(float(value) for value in self.initial)
-        state = dict(self.state) or ({"history": len(initial)} if initial else {})
-        if any(isinstance(size, bool) or not isinstance(size, int) or size < 1 for size in state.values()):
+        named = isinstance(self.state, Mapping)
+        sizes = list(self.state.values()) if named else []
+        if not named or any(isinstance(size, bool) or not isinstance(size, int) or size < 1 for size in sizes):
             raise InvalidValue(
                 "parts of a history have one number or more",
                 where=self.name,
-                value=state,
-                cause="a size that is no whole number",
+                value=self.state,
+                cause="names without sizes, or a size that is no whole number",
                 remedy='state={"alpha": 6, "eqps": 1}',
             )
+        state = dict(self.state) or ({"history": len(initial)} if initial else {})
         size = sum(state.values())
         if initial and len(initial) != size:
             raise InvalidValue(

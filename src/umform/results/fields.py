@@ -118,9 +118,15 @@ class PointFields:
             At all points.
         height : float, "bottom" or "top"
             t from -1 to 1; linear between the points of a column, and beyond the last.
+
+        Raises
+        ------
+        InvalidValue
+            If the values are not those of all points, or the height is none.
         """
+        values = self._at_points(values)
         t = {"bottom": -1.0, "top": 1.0}.get(height, height) if isinstance(height, str) else height
-        if isinstance(t, str) or not -1.0 <= t <= 1.0:
+        if not isinstance(t, int | float | np.number) or not -1.0 <= t <= 1.0:
             raise InvalidValue(
                 "a height is bottom, top or a number from -1 to 1",
                 where="height",
@@ -138,11 +144,30 @@ class PointFields:
         return found
 
     def cell_average(self, values: Floats) -> Floats:
-        """Average over the volume of each cell of values (cells, points, ...)."""
+        """Average over the volume of each cell of values (cells, points, ...).
+
+        Raises
+        ------
+        InvalidValue
+            If the values are not those of all points.
+        """
+        values = self._at_points(values)
         weight = self.volume / self.volume.sum(axis=1, keepdims=True)
         each = math.prod(values.shape[2:])  # A rank may have no cells of a body.
         average: Floats = (weight[:, None] @ values.reshape(*weight.shape, each))[:, 0]
         return average.reshape(len(weight), *values.shape[2:])
+
+    def _at_points(self, values: Floats | None) -> Floats:
+        array = np.asarray(values)
+        if array.shape[:2] != self.volume.shape:
+            raise InvalidValue(
+                "values at points must have shape (cells, points, ...)",
+                where="PointFields",
+                value="None" if values is None else array.shape,
+                cause="a part of the points, values of cells, or a law without this quantity",
+                remedy=f"({self.volume.shape[0]}, {self.volume.shape[1]}, ...), such as stress() or history[name]",
+            )
+        return array
 
 
 def point_fields(model: Model) -> PointFields:

@@ -76,12 +76,12 @@ def check_surface(surface: Surface, x: ArrayLike, step: Positive) -> SurfaceChec
     check_arguments(check_surface, step=step)
     kernel = surface.kernel()
     x = np.ascontiguousarray(x, dtype=float)
-    if x.ndim != 2 or x.shape[1] != 3:
+    if x.ndim != 2 or x.shape[1] != 3 or not x.size:
         raise InvalidValue(
             "points in space must have shape (n, 3)",
             where="check_surface",
             value=x.shape,
-            cause="one point in place of rows",
+            cause="one point in place of rows, or none",
             remedy="rows of x, y, z: [(0.0, 3.0, 4.5)]",
         )
     _, n, H = kernel.gap(x)

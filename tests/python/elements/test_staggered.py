@@ -145,6 +145,12 @@ def test_fields_are_read_by_height():
         np.testing.assert_allclose(at.at_height(square, height)[1], [np.interp(height, t, t**2) for t in at.heights])
     with pytest.raises(uf.errors.InvalidValue, match="bottom, top or a number"):
         at.at_height(at.E, "middle")
+    with pytest.raises(uf.errors.InvalidValue, match="bottom, top or a number"):
+        at.at_height(at.E, None)
+    for wrong in (at.E[:, :4], at.E[:1], uf.fields.cell_fields(model)["stress_cauchy"], None):
+        for ask in (at.cell_average, lambda values: at.at_height(values, 0.0)):
+            with pytest.raises(uf.errors.InvalidValue, match=r"shape \(cells, points, ...\)"):
+                ask(wrong)
 
 
 def test_a_state_moves_to_other_columns_by_height():

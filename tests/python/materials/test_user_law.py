@@ -363,6 +363,9 @@ def test_check_law_finds_a_wrong_tangent_wrong(rng):
         (lambda: check_law(hooke, np.zeros((2, 6))), r"material law[\s\S]*UserLaw\(function\)"),
         (lambda: check_law(UserLaw(hooke), np.zeros(6)), r"shape \(n, 6\)"),
         (lambda: check_law(UserLaw(hooke), np.zeros((2, 3, 3))), r"shape \(n, 6\)"),
+        (lambda: check_law(UserLaw(hooke), np.zeros((0, 6))), r"shape \(n, 6\)"),
+        (lambda: UserLaw(hooke, state=["back_stress", "eqps"]), "names without sizes"),
+        (lambda: UserLaw(hooke, state={"eqps": 1.0}), "parts of a history have one number or more"),
         (lambda: mt.LogarithmicSpace(hooke), r"material law[\s\S]*LogarithmicSpace"),
     ],
 )

@@ -136,6 +136,7 @@ def test_surfaces_that_are_none_are_refused(make, error):
         (lambda x: x, [(0, 0, 1)], 1e-4, r"must be a surface[\s\S]*UserSurface\(function\)"),
         (Sphere, [(0, 0, 1)], 1e-4, "must be a surface"),
         (SURFACES["plane"], (0, 0, 1), 1e-4, r"shape \(n, 3\)"),
+        (SURFACES["plane"], np.zeros((0, 3)), 1e-4, r"shape \(n, 3\)"),
         (SURFACES["plane"], [(0, 0, 1)], 0.0, "positive"),
     ],
 )
