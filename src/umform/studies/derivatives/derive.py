@@ -9,6 +9,8 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from umform.analysis.newton.options import NewtonOptions
 from umform.analysis.run import Result
 from umform.analysis.shadows import Shadowed, resume_with_shadows, solve_stages_with_shadows, solve_with_shadows
@@ -263,7 +265,9 @@ def known_parameter(path: str, known: Mapping[str, Scalar], where: str = "by") -
     why, remedy = "", "umform sweep varies it"
     if found[0].startswith(_OF_THE_SOLUTION):
         why = "its effect is an error of the solution, not a change of the part"
-    elif isinstance(one.value, int):
+    elif isinstance(one.value, bool) or not isinstance(one.value, int | float | np.number):
+        why, remedy = "it is no number", "leave it to the function, or to the deck"
+    elif isinstance(one.value, int | np.integer):
         why, remedy = "it is a whole number", f"{one.value}.0 in a deck, if it is no count; else {remedy}"
     if why:
         raise InvalidPath("this number has no derivative", where=found[0], value=one.value, cause=why, remedy=remedy)

@@ -9,7 +9,7 @@ from umform.analysis.run import Result
 from umform.errors import InvalidValue
 from umform.results.quantity import Quantity
 from umform.studies.sweep.foreseen import no_such, refused_at
-from umform.studies.sweep.measures import Function, column_number
+from umform.studies.sweep.measures import Function, answer_of, column_number
 
 
 @dataclass(frozen=True)
@@ -82,6 +82,6 @@ def _response(wanted: str | Function, known: Mapping[str, Quantity], result: Res
 
 
 def _number(function: Function, result: Result) -> Quantity:
-    found = function(result)
+    found = answer_of(function, result)
     name = getattr(function, "__name__", "number")
-    return replace(found, name=name) if isinstance(found, Quantity) else Quantity(name, value=float(found), digits=6)
+    return replace(found, name=name) if isinstance(found, Quantity) else Quantity(name, value=found, digits=6)

@@ -241,11 +241,17 @@ class OfFunction:
 
     def build(self) -> Built:
         """The model and the steps that the function returns."""
-        made = self.function(**self.values)
+        name = getattr(self.function, "__name__", "the function")
+        try:
+            made = self.function(**self.values)
+        except Exception as error:
+            values = ", ".join(f"{one}={value!r}" for one, value in self.values.items())
+            error.add_note(f"in the function of the parameters, called as {name}({values})")
+            raise
         if not isinstance(made, tuple) or len(made) != 2 or not isinstance(made[0], Model):
             raise InvalidValue(
                 "a function of parameters returns a model and its steps",
-                where=getattr(self.function, "__name__", "the function"),
+                where=name,
                 value=type(made).__name__,
                 remedy="return model, [Move(...), Release(...)]",
             )

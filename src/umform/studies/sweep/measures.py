@@ -232,7 +232,35 @@ def _finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
+def answer_of(function: Function, result: Result) -> float | Quantity:
+    """What a user-defined function makes of a result.
+
+    Raises
+    ------
+    InvalidValue
+        Neither a number nor a quantity. An error of the function has its name in its notes.
+    """
+    name = getattr(function, "__name__", "number")
+    try:
+        found = function(result)
+    except Exception as error:
+        error.add_note(f"in the function {name}, called with the result of a run")
+        raise
+    if isinstance(found, Quantity):
+        return found
+    try:
+        return float(found)
+    except (TypeError, ValueError):
+        raise InvalidValue(
+            "a function of a result returns a number or a Quantity",
+            where=name,
+            value=type(found).__name__,
+            cause="a return that is missing, or a column in place of one of its numbers",
+            remedy='return result["punch_force"].max(), for instance',
+        ) from None
+
+
 def number_of(function: Function, result: Result) -> float | dict[str, Any] | None:
     """Value of a user-defined function for a result: a number, or a quantity as JSON data."""
-    found = function(result)
-    return found.record() if isinstance(found, Quantity) else _finite(float(found))
+    found = answer_of(function, result)
+    return found.record() if isinstance(found, Quantity) else _finite(found)

@@ -391,6 +391,27 @@ def test_a_flange_that_lies_flat_between_planes():
     assert found.stages["run"].missing == ""
 
 
+@pytest.mark.parametrize("value", ["steel", True, None, [1.0]])
+def test_values_that_are_no_numbers_have_no_derivative(value):
+    with pytest.raises(InvalidValue, match="it is no number"):
+        uf.derivatives(lambda E: cantilever(E, 0.2), {"E": value}, ["tip_force"], progress=False)
+
+
+def test_functions_of_the_user_are_named_where_they_fail():
+    def work(result):
+        return {}["lost"]
+
+    with pytest.raises(TypeError) as caught:
+        uf.derivatives(cantilever, {**BEAM, "width": 1.0}, ["tip_force"], progress=False)
+    assert caught.value.__notes__[0].endswith("called as cantilever(E=210000.0, thickness=0.2, width=1.0)")
+    with pytest.raises(KeyError) as lost:
+        uf.derivatives(cantilever, BEAM, [work], progress=False)
+    assert lost.value.__notes__[0] == "in the function work, called with the result of a run"
+    for wrong in (lambda result: None, lambda result: result["tip_force"]):
+        with pytest.raises(InvalidValue, match="returns a number or a Quantity"):
+            uf.derivatives(cantilever, BEAM, [wrong], progress=False)
+
+
 def test_a_tool_that_closes_on_blocks_as_high_as_the_sheet():
     """It touches without a force there, which has no slope; it stands where the blocks are."""
 
