@@ -183,6 +183,24 @@ class Element:
                 cause="a cell of another program",
                 remedy="hex8, or hex18 with 9 nodes on a face",
             )
+        rows: object = self.tying
+        if not isinstance(rows, tuple) or not all(isinstance(row, Tying) for row in rows):
+            raise InvalidValue(
+                "tying rows are a tuple of Tying",
+                where=self.name,
+                value=rows,
+                cause="a row in place of a tuple, or the component alone",
+                remedy='with the comma: tying=(Tying("13", r=(0.0,), s=(-1.0, 1.0)), ...)',
+            )
+        rule: object = self.plastic_points
+        if rule is not None and not (isinstance(rule, tuple) and [type(one) for one in rule] == [int, str]):
+            raise InvalidValue(
+                "the points of a plastic law are their number and their rule",
+                where=self.name,
+                value=rule,
+                cause="the number alone",
+                remedy='plastic_points=(5, "gauss")',
+            )
         tied = [row.component for row in self.tying]
         for row in self.tying:
             if row.component not in COMPONENTS or tied.count(row.component) > 1:

@@ -89,5 +89,14 @@ def make_solver(pattern: Pattern, name: str = "auto") -> SparseSolver:
             remedy=f"choose one of {', '.join(['auto', *_factories])}",
         )
     solver = _factories[name]()
+    missing = [method for method in ("analyse", "factor", "solve") if not callable(getattr(solver, method, None))]
+    if missing:
+        raise InvalidValue(
+            "A sparse solver has the methods analyse, factor and solve",
+            where=f"solver {name}",
+            value=f"{type(solver).__name__} without {', '.join(missing)}",
+            cause="another interface, such as factors that solve",
+            remedy="the methods of umform.solvers.SparseSolver; register takes the class or a function that makes one",
+        )
     solver.analyse(pattern)
     return solver

@@ -116,12 +116,20 @@ def test_a_mode_without_mean_at_the_points_is_taken():
         ({"modes": Mode("11", 1)}, "with the comma"),
         ({"modes": ((Mode("11", 1),),)}, "tuple of Mode"),
         ({"tying": (Tying("13", r=0.0, s=(-1.0, 1.0)),)}, "abscissae of a tying row are tuples"),
+        ({"tying": ("13",)}, "tuple of Tying"),
+        ({"tying": Tying("13", r=(0.0,), s=(-1.0, 1.0))}, "tuple of Tying"),
     ],
 )
 def test_a_forgotten_comma(parts, words):
     with pytest.raises(InvalidValue, match=words) as caught:
         Element("own", "hex8", **parts)
     assert "with the comma" in str(caught.value)
+
+
+@pytest.mark.parametrize("points", [5, (5,), ("gauss", 5)])
+def test_points_of_a_plastic_law_have_a_rule(points):
+    with pytest.raises(InvalidValue, match="their number and their rule"):
+        Element("own", "hex8", plastic_points=points)
 
 
 def linear(strain, history):

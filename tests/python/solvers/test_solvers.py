@@ -412,6 +412,9 @@ def test_register(monkeypatch):
     np.testing.assert_allclose(sheet(3) @ solver.solve(np.ones(27)), 1.0)
     with pytest.raises(InvalidValue):
         solvers.register("auto", Dense)
+    solvers.register("none", dict)
+    with pytest.raises(InvalidValue, match="dict without analyse, factor, solve"):
+        make_solver(stored(np.eye(2))[0], "none")
 
 
 def test_unknown_name():
