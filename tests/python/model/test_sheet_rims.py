@@ -85,6 +85,28 @@ def test_a_point_leaves_over_an_edge_without_a_step_of_its_force(way):
     assert np.linalg.norm(np.diff(tractions, axis=0), axis=1).max() < 0.01 * size[0]
 
 
+def test_a_curved_edge_has_its_rim_beyond_its_nodes():
+    """A parabola whose outermost point lies between its nodes, by more than the radius of the rim."""
+
+    def bulged(X):
+        return X + np.column_stack([0.2 * X[:, 0] * (1.0 - (X[:, 1] / 2.2 - 1.0) ** 2), np.zeros((len(X), 2))])
+
+    plate = uf.mesh.strip(4.0, 3.0, 0.05, (1, 1), cell="hex18").transformed(bulged)
+    block = uf.mesh.strip(0.02, 0.02, 0.05, (1, 1), cell="hex18").moved((-0.01, 2.19, 0.05))
+    mesh = uf.mesh.together(a=plate, b=block)
+    model = uf.Model(mesh, "MI9K3DEAS", material=uf.SVK(E=210e3, nu=0.3))
+    contact = model.sheet_contact("upper of a", "lower of b", name="edge", penalty=1e3, points=1)
+    above = np.unique(mesh.connectivity[mesh.faces["lower of b"][:, 0]])
+    _ = model.system.pattern
+    size = []
+    for beyond in np.linspace(-0.002, 0.028, 601):
+        u = np.zeros((len(mesh.points), 3))
+        u[above] += [4.8 + beyond, 0.0, -0.005]
+        size.append(np.linalg.norm(model.evaluate(u.ravel()).found[contact].sides[1].traction[0]))
+    assert size[0] == pytest.approx(5.0) and size[-1] == 0.0
+    assert np.abs(np.diff(size)).max() < 0.02 * size[0]
+
+
 def test_a_plate_that_slides_off_another_loses_its_force_with_its_cells():
     """Plates with the same edges, one moved sideways: the force of the cells falls without steps."""
     lower = uf.mesh.strip(4.0, 2.0, 1.0, (4, 2))
