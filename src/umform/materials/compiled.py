@@ -36,7 +36,8 @@ class CompiledLaw(ParametersInNotebook):
 
     The values of a point are contiguous: strain (6), state (size), axes (3, 3), stress (6), tangent (6, 6) by rows, new
     state (size); Voigt order 11 22 33 12 23 13, engineering shears, in the axes of the sheet. The function must not
-    change the old state. It returns 0; any other value reports failure and cuts the increment.
+    change the old state. It returns 0; any other value reports failure and cuts the increment. The step of time is 0
+    where that of :class:`Points` is.
 
     Examples
     --------

@@ -38,7 +38,8 @@ class Points:
     size : float
         Length of the cell: root of the area of its undeformed mid-surface.
     step : float
-        Increment of time.
+        Increment of time; 0 at the start of a run, and where fields are read at the converged strain and history, which
+        must give the converged stress.
     """
 
     axes: Floats

@@ -9,9 +9,11 @@ from umform import materials as mt
 from umform.analysis.run import solve
 from umform.analysis.steps import Move
 from umform.errors import InvalidValue
+from umform.history_variables import named
 from umform.materials import Points, UserLaw, check_law
 from umform.mesh import Mesh, strip
 from umform.model import Model
+from umform.results.fields import point_fields
 
 #: Five times as stiff along e_1 as across, and a shear modulus of its own.
 ORTHOTROPIC = np.diag([500.0, 100.0, 150.0, 60.0, 40.0, 50.0])
@@ -150,6 +152,30 @@ def test_a_law_sees_axes_size_and_step(build):
         np.testing.assert_allclose(points.axes, frame[cell], atol=1e-15)
         np.testing.assert_allclose(points.axes[:, 0], np.tile((0.0, 1.0, 0.0), (len(frame[cell]), 1)), atol=1e-15)
         assert points.size == pytest.approx(2.0)
+
+
+def test_fields_have_the_part_of_a_stress_that_the_history_keeps():
+    """Kelvin and Voigt: at a step of zero, the stress by the rate is that of the last increment."""
+    state = {"before": 6, "viscous": 6}
+
+    def kelvin(strain, history, points):
+        before, viscous = named(history, state).values()
+        rate = 5.0 / points.step if points.step else 0.0
+        viscous = rate * (strain - before) if points.step else viscous
+        tangent = np.diag([100.0, 100.0, 100.0, 50.0, 50.0, 50.0]) + rate * np.eye(6)
+        elastic = strain * (100.0, 100.0, 100.0, 50.0, 50.0, 50.0)
+        return elastic + viscous, np.broadcast_to(tangent, (len(strain), 6, 6)), np.hstack([strain, viscous])
+
+    model = Model(strip(4.0, 2.0, 0.1, (2, 1)), "DISP3D", material=UserLaw(kelvin, state=state))
+    model.symmetry("x0", "x")
+    model.symmetry("y0", "y")
+    model.fix("lower", "z")
+    pull = model.prescribe("x1", "x", "pull")
+    result = solve(model, Move(pull, 0.04, steps=4))
+    stretch, strain = 1.01, 0.01 + 0.5 * 0.01**2
+    stress = point_fields(model).stress("pk2", "local")[..., 0]
+    assert result["pull_force"][-1] == pytest.approx(0.2 * stretch * stress.mean(), rel=1e-9)
+    assert stress.min() > 100.0 * strain + 5.0 * 0.99 * 0.01
 
 
 def test_check_law_gives_a_law_the_global_axes(rng):
