@@ -139,13 +139,41 @@ def test_a_sticking_block_keeps_its_traction():
     assert np.diff(force) == pytest.approx(np.full(4, (force[-1] - force[0]) / 4.0), rel=0.01)
 
 
-def test_the_tangent_of_friction_has_its_history():
-    model, contact, down, along = rubbed()
+@pytest.mark.parametrize("law", [0.2, uf.Friction(0.2, kinetic=0.1, decay=1e-3)], ids=["constant", "falling"])
+def test_the_tangent_of_friction_has_its_history(law):
+    model, contact, down, along = rubbed(law)
     uf.solve(model, [uf.Move(down, -0.022, steps=2), uf.Move(along, 0.0015, steps=2)], progress=False)
     u = model.u + 5e-4 * np.random.default_rng(3).standard_normal(model.u.size)
     status = model.evaluate(u).found[contact].status
     assert (status == 1).any() and (status == 2).any()
     check_tangent(model, contact, u, seed=3, h=1e-7)
+
+
+def test_the_tangent_of_points_that_touch_on_their_way():
+    """Their friction is that of the way since they touched, which depends on the gap."""
+    model, contact, down, _ = rubbed()
+    uf.solve(model, [uf.Move(down, -0.018, steps=1)], progress=False)  # 0.002 above the plate
+    above = np.unique(model.mesh.connectivity[model.mesh.faces["lower of b"][:, 0]])
+    u = model.u.reshape(-1, 3) + 1e-4 * np.random.default_rng(3).standard_normal(model.mesh.points.shape)
+    u[above] += [0.003, 0.001, -0.003]
+    status = model.system.evaluate(u.ravel()).found[contact].status
+    assert (status == 1).any() and (status == 2).any()
+    check_tangent(model, contact, u.ravel(), seed=3, h=1e-7)
+
+
+@pytest.mark.parametrize("options", [{"points": 2}, {"cells": 3}], ids=str)
+def test_a_plate_that_is_lifted_off_leaves_its_elastic_slip_to_friction(options):
+    """The energy of the penalty is gone with the contact, also where it is the work of the pressure of cells."""
+    model, contact = model_of(stack((2, 2), (2, 2)), penalty=1e3, friction=0.2, **options)
+    model.fix("lower of a")
+    model.fix("upper of b", "y")
+    down, along = model.prescribe("upper of b", "z", "down"), model.prescribe("upper of b", "x", "along")
+    uf.solve(model, [uf.Move(down, -0.004, steps=4), uf.Move(along, 3e-4, steps=4)], progress=False)
+    stored = contact.found.sum("stored")
+    assert (contact.found.status == 1).all() and stored > 1e-4
+    balance = uf.solve(model, uf.Move(down, 0.002, steps=1), progress=False).balance()
+    assert balance.contact[0] > 0.1 and balance.contact[1] == pytest.approx(0.0, abs=1e-9)
+    assert balance.friction[1] - balance.friction[0] == pytest.approx(stored, rel=1e-9)
 
 
 def test_a_sliding_point_meets_no_step_of_its_force():
