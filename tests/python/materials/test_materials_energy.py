@@ -100,9 +100,23 @@ def balance_error(law, steps):
     return (work + start) / sum(energy(law, E, state)) - 1.0
 
 
-@pytest.mark.parametrize("name", ["perfect", "linear", "voce", "swift"])
+METALS = {
+    "back stresses": {"hardening": HARDENING["voce"], "back_stress": mt.Chaboche([(4000.0, 80.0), (600.0, 6.0)])},
+    "two surfaces": {
+        "hardening": mt.Perfect(124.0),
+        "back_stress": mt.YoshidaUemori(C=500.0, B=168.0, growth=190.0, b=9.0, m=12.0, h=0.5),
+    },
+    "falling modulus": {"hardening": HARDENING["voce"], "modulus": mt.FallingModulus(saturated=160e3, rate=30.0)},
+}
+PLASTIC = {
+    name: mt.J2(kappa=KAPPA, mu=MU, hardening=HARDENING[name]) for name in ("perfect", "linear", "voce", "swift")
+}
+PLASTIC |= {name: mt.Metal(E=206e3, nu=0.3, **parts) for name, parts in METALS.items()}
+
+
+@pytest.mark.parametrize("name", PLASTIC)
 def test_energies_take_up_the_work_with_an_error_of_second_order(name):
-    law = mt.J2(kappa=KAPPA, mu=MU, hardening=HARDENING[name]).law()
+    law = PLASTIC[name].law()
     coarse, middle, fine = (balance_error(law, steps) for steps in (50, 100, 200))
     assert abs(fine) < 2e-4
     assert coarse / middle == pytest.approx(4.0, rel=0.1)
