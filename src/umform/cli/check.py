@@ -139,7 +139,7 @@ def _write_tools(problem: Prepared, folder: Path) -> None:
 
     from umform.surfaces import write_tool
 
-    points = problem.model.mesh.points
+    points = problem.model.positions
     span = float(np.ptp(points, axis=0).max())
     box = points.min(axis=0) - 0.25 * span, points.max(axis=0) + 0.25 * span
     folder.mkdir(parents=True, exist_ok=True)

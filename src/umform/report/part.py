@@ -59,17 +59,25 @@ class Part:
         left_out = tuple(name for name in (*nodal, *cellwise) if name not in scalars and name not in kept)
         return cls(X, np.asarray(x, dtype=float), np.asarray(cells, dtype=np.int64), scalars, kept, left_out)
 
-    def whole(self, planes: Sequence[Mirror]) -> Part:
-        """The part together with its mirror images: nodes in a plane are shared, and no face is left there."""
+    def whole(self, planes: Sequence[Mirror], of_blank: Sequence[Mirror] | None = None) -> Part:
+        """The part together with its mirror images: nodes in a plane are shared, and no face is left there.
+
+        Parameters
+        ----------
+        planes : sequence of Mirror
+            Planes of symmetry.
+        of_blank : sequence of Mirror, optional
+            The same planes in the blank, if they were elsewhere.
+        """
         part = self
-        for plane in planes:
-            part = part._with_image(plane)
+        for plane, before in zip(planes, planes if of_blank is None else of_blank, strict=True):
+            part = part._with_image(plane, before)
         return part
 
-    def _with_image(self, plane: Mirror) -> Part:
+    def _with_image(self, plane: Mirror, before: Mirror) -> Part:
         """The part and its image at a plane."""
         n, k = len(self.reference), plane.axis
-        off = np.abs(self.reference[:, k] - plane.at) > HAIR * np.ptp(self.reference, axis=0).max()
+        off = np.abs(self.reference[:, before.axis] - before.at) > HAIR * np.ptp(self.reference, axis=0).max()
         image = np.where(off, n + np.cumsum(off) - 1, np.arange(n))
         lower = _REFLECTED[self.cells.shape[1]]
         order = np.concatenate([lower, lower + len(lower)])
@@ -77,7 +85,7 @@ class Part:
         x[~off, k] = plane.at
         sign = np.where(np.arange(3) == k, -1.0, 1.0)
         return Part(
-            np.concatenate([self.reference, plane.image(self.reference)[off]]),
+            np.concatenate([self.reference, before.image(self.reference)[off]]),
             np.concatenate([x, plane.image(x)[off]]),
             np.concatenate([self.cells, image[self.cells[:, order]]]),
             {name: np.concatenate([values, values[off]]) for name, values in self.nodal.items()},
@@ -87,7 +95,7 @@ class Part:
 
     def widened(self, axis: int, width: float) -> Part:
         """The part with another width along an axis, about the same middle: sheet in plane strain."""
-        return replace(self, reference=widened(self.reference, axis, width), points=widened(self.points, axis, width))
+        return replace(self, points=widened(self.points, axis, width))
 
     def stretched(self, axis: int, width: float) -> Part:
         """The part with another width along an axis: sheet in plane strain, which is the same in each section."""
@@ -109,9 +117,9 @@ def plane_strain(model: Model) -> tuple[int, float] | None:
 
     All nodes are held along the axis, and the modelled strip is narrow.
     """
-    size = np.ptp(model.mesh.points, axis=0)
+    size = np.ptp(model.positions, axis=0)
     held = model.supports.constrained().reshape(-1, 3).all(axis=0)
-    width = _WIDE * float(size.max())
+    width = _WIDE * float(np.ptp(model.mesh.points, axis=0).max())
     for axis in np.flatnonzero(held):
         if 0.0 < size[axis] < 0.5 * width:
             return int(axis), width

@@ -17,7 +17,7 @@ from umform.report.packing import Quantised, pack
 from umform.report.part import means_at_corners, plane_strain, widened
 from umform.report.patches import Surface
 from umform.report.skin import parts_of
-from umform.report.symmetry import Mirror, mirrors
+from umform.report.symmetry import Mirror, mirrors, mirrors_of_blank
 from umform.surfaces.triangles import Triangles
 
 if TYPE_CHECKING:
@@ -74,12 +74,13 @@ def scene_of(result: History, units: Units = UNKNOWN) -> Scene:
     """
     mesh, planes, wide = result.model.mesh, mirrors(result.model), plane_strain(result.model)
     cells = mesh.connectivity.astype(np.int64)
-    X = mesh.points if wide is None else widened(mesh.points, *wide)
-    surface = Surface.of(X, cells, parts_of(cells, _FINE, _PARTS), planes)
+    surface = Surface.of(mesh.points, cells, parts_of(cells, _FINE, _PARTS), mirrors_of_blank(result.model))
     nodes = np.unique(np.concatenate([kind.nodes.ravel() for kind in surface.patches]))
     arrays = _surface_arrays(surface, nodes)
     shifts = displacements(result)
-    arrays["points"], arrays["displacements"] = X[nodes], Quantised.of(shifts[:, nodes])
+    places = mesh.points + shifts if wide is None else widened(mesh.points + shifts, *wide)
+    first = places[0]  # from the blank on, the way into other tools would take the digits
+    arrays["points"], arrays["displacements"] = first[nodes], Quantised.of((places - first)[:, nodes])
     fields: list[dict[str, Any]] = []
     for name, kind, values in _fields(result.frames, shifts, nodes, cells):
         look = looks.look_of(name)
@@ -88,7 +89,7 @@ def scene_of(result: History, units: Units = UNKNOWN) -> Scene:
     axes = _rolling(result.frames)
     if axes is not None:
         arrays["rolling"] = Quantised.of(axes)
-    bodies, notes = tool_bodies(result, X + shifts, planes)
+    bodies, notes = tool_bodies(result, places, planes)
     if wide is not None:
         notes.append(
             f"Plane strain: the same in each section, drawn {wide[1]:.3g}{units.length and f' {units.length}'} wide."

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from umform.io.vtkhdf_reader import read_fields, read_vtkhdf
 from umform.report.bodies import displacements, tool_bodies
 from umform.report.part import Part, plane_strain, widened
-from umform.report.symmetry import Mirror, mirrors
+from umform.report.symmetry import Mirror, mirrors, mirrors_of_blank
 from umform.surfaces.triangles import Triangles
 
 if TYPE_CHECKING:
@@ -21,17 +21,18 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-#: Group of the file. Its data set ``mirrors`` has a row for each plane, axis and coordinate; ``wide`` has axis and
-#: width of the picture of sheet in plane strain.
+#: Group of the file. Its data set ``mirrors`` has a row for each plane: axis and coordinate now and in the blank, in
+#: older files now only. ``wide`` has axis and width of the picture of sheet in plane strain.
 _GROUP = "umform"
 
 
 def attach_scene(series: VtkHdfSeries, result: History) -> None:
     """Add the tools and the planes of symmetry of a result to the file of its frames."""
     planes, wide = mirrors(result.model), plane_strain(result.model)
-    X = result.model.mesh.points if wide is None else widened(result.model.mesh.points, *wide)
-    bodies, _ = tool_bodies(result, X + displacements(result), planes)
-    table = {"mirrors": np.array([[plane.axis, plane.at] for plane in planes]).reshape(-1, 2)}
+    places = result.model.mesh.points + displacements(result)
+    bodies, _ = tool_bodies(result, places if wide is None else widened(places, *wide), planes)
+    pairs = zip(planes, mirrors_of_blank(result.model), strict=True)
+    table = {"mirrors": np.array([[now.axis, now.at, old.axis, old.at] for now, old in pairs]).reshape(-1, 4)}
     series.attach(_GROUP, table if wide is None else {**table, "wide": np.array(wide)})
     for number, body in enumerate(bodies):
         rotations, shifts = body.poses
@@ -63,13 +64,14 @@ def read_frame(path: Path, frame: int, *, whole: bool = True) -> tuple[Part, dic
         frame = range(root["Steps"].attrs["NSteps"])[frame]
         at_points, in_cells = read_fields(root, frame)
         group = file.get(_GROUP, {})
-        planes = [Mirror(int(axis), float(at)) for axis, at in group["mirrors"]] if "mirrors" in group else []
+        rows = group["mirrors"][()] if "mirrors" in group else np.empty((0, 4))
+        planes, of_blank = ([Mirror(int(axis), float(at)) for axis, at in part] for part in (rows[:, :2], rows[:, -2:]))
         wide = group["wide"][()] if "wide" in group else None
         tools = group.get("tools", {})
         stored = [{name: tool[name][()] for name in tool} for _, tool in sorted(tools.items(), key=_number)]
     part = Part.deformed(X, next(iter(cells.values())), at_points, in_cells)
     surfaces = {tool["name"].decode(): _at(tool, frame, planes if whole else []) for tool in stored}
-    part = part.whole(planes) if whole else part
+    part = part.whole(planes, of_blank) if whole else part
     return part if wide is None else part.widened(int(wide[0]), float(wide[1])), surfaces
 
 

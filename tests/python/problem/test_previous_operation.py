@@ -7,6 +7,7 @@ import shutil
 from pathlib import Path
 from types import SimpleNamespace
 
+import meshio
 import numpy as np
 import pytest
 from command_line import umform
@@ -269,6 +270,17 @@ def test_a_contact_is_estimated_where_the_part_lies(drawn):
     assert found[1][0] == found[0][0] > 2
     assert found[1][1] == pytest.approx(found[0][1], rel=1e-9)
     assert found[1][2] == found[0][2] != []
+
+
+def test_tools_are_written_near_the_place_of_the_part(drawn):
+    floor = '[tools.floor]\nshape = "Plane"\npoint = [0.0, 0.0, -0.5]\nnormal = "z"\n'
+    floor += '[contacts.floor]\ntool = "floor"\nfaces = "lower"\n'
+    (drawn / "far.toml").write_text(PLACED.replace("[7.0, -2.0, 0.5]", "[70.0, -2.0, 0.5]") + floor + FIXED + OUTPUT)
+    umform("check", drawn / "far.toml", "--tools", drawn / "tools")
+    points = meshio.read(drawn / "tools" / "floor.stl").points
+    low, high = (getattr(load(drawn / "far.toml").sheet().positions, end)(axis=0)[:2] for end in ("min", "max"))
+    assert (points[:, :2].min(axis=0) < low).all()
+    assert (points[:, :2].max(axis=0) > high).all()
 
 
 @pytest.mark.parametrize("row", ["[0.0, 0.0, -1.0]", "[0.0, 0.0, 0.999]"])

@@ -180,10 +180,9 @@ def test_without_frames_the_last_state_is_drawn(result):
     head, arrays = unpacked(scene_of(bare).data)
     assert len(head["frames"]) == 1
     assert [field["name"] for field in head["fields"]] == ["displacement"]
-    moved = arrays["displacements"].reshape(-1, 3)
-    assert np.linalg.norm(moved, axis=1).max() == pytest.approx(
-        np.linalg.norm(model.u.reshape(-1, 3), axis=1).max(), rel=1e-4
-    )
+    places = arrays["points"].reshape(-1, 3) + arrays["displacements"].reshape(-1, 3)
+    assert places.max(axis=0) == pytest.approx(model.positions.max(axis=0), abs=1e-5)
+    assert places.min(axis=0) == pytest.approx(model.positions.min(axis=0), abs=1e-5)
 
 
 def test_quantised_numbers_are_off_by_half_a_step_at_most():
@@ -257,3 +256,39 @@ def test_plane_strain_is_drawn_wide_with_its_tools_in_pages_and_files(tmp_path):
     assert np.ptp(part.points[:, 1]) == pytest.approx(width)
     assert np.ptp(tools["tool"].points[:, 1]) > width
     assert plane_strain(bent().model) is None
+
+
+def turned(Q, c, *, narrow=False):
+    """A quarter, or a strip in plane strain, that was turned and moved into other tools and is bent there."""
+    mesh = uf.mesh.strip(8, 0.5 if narrow else 4, 0.5, (4, 2))
+    model = uf.Model(mesh, "ANS3DEAS", material=uf.SVK(E=1000.0, nu=0.3))
+    along = lambda k: "xyz"[int(np.argmax(np.abs(Q[:, k])))]  # noqa: E731
+    model.u = (mesh.points @ Q.T + c - mesh.points).ravel()
+    model.fix("x0", along(0), here=True)
+    model.fix(range(len(mesh.points)) if narrow else "y0", along(1), here=True)
+    model.fix([0], along(2), here=True)
+    load = model.force("x1", -0.005 * Q[:, 2], name="load")
+    return uf.solve(model, uf.Move(load, 1.0, steps=2), progress=False, frames=2)
+
+
+@pytest.mark.parametrize("narrow", [False, True])
+def test_a_part_in_other_tools_has_the_pictures_of_one_that_stayed(narrow, tmp_path):
+    """Planes of symmetry and the width of plane strain are those of the place where it lies."""
+    turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    found = []
+    for name, Q, c in (
+        ("stays", np.eye(3), 0.0),
+        ("turned", turn, np.array([10.0, 20.0, 5.0])),
+        ("over", np.diag([1.0, -1.0, -1.0]), np.array([0.0, 0.0, 3.0])),
+    ):
+        result = turned(Q, c, narrow=narrow)
+        head, arrays = unpacked(scene_of(result).data)
+        part, _ = read_frame(result.write(tmp_path / f"{name}.vtkhdf"), -1)
+        places = arrays["points"].reshape(-1, 3) + arrays["displacements"][-1].reshape(-1, 3)
+        extents = [np.ptp((x - c) @ Q, axis=0) for x in (places, part.points)]
+        inner = [patch["inner"] for patch in head["patches"]]
+        seams = [len(arrays[f"seam {k}"]) for k in range(len(head["mirrors"]))]
+        found.append((len(part.points), inner, sorted(seams), np.concatenate(extents)))
+    for other in found[1:]:
+        assert other[:3] == found[0][:3]
+        assert other[3] == pytest.approx(found[0][3], abs=1e-5)
