@@ -75,7 +75,7 @@ def units(model: Model, *, millimetres: bool = False) -> Iterator[Finding]:
 
 def extent(model: Model) -> Finding:
     """Length and width of the sheet against its thickness; in plane strain any width will do."""
-    spans, thickness = np.ptp(model.mesh.points, axis=0), sheet_thickness(model.mesh)
+    spans, thickness = np.ptp(model.positions, axis=0), sheet_thickness(model.mesh)
     sizes = " x ".join(f"{span:.4g}" for span in spans)
     held = model.supports.fixed.reshape(-1, 3).all(axis=0)
     ratio = float(spans[~held].min(initial=math.inf)) / thickness

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 import umform as uf
+from umform.analysis.run.stages import continued
 from umform.elements import element
 from umform.errors import InvalidValue, ModelError
+from umform.model.transfer.rigid_motion import RigidMotion
 
 NAMES = ["DISP3D", "ANS3DEAS", "EAS3DEAS", "BEND8", "MI9K3DEAS", "BEND18"]
 STEEL = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(200.0, 1000.0))
@@ -65,6 +67,33 @@ def test_free_nodes_are_refused():
     model.fix("x0")
     with pytest.raises(ModelError, match="may move along y"):
         model.system.check()
+
+
+def continued_in(Q, result):
+    """A strip that goes on in the place to which Q has turned it, held there."""
+    model = strip("BEND8", True)
+    model.remove(model.supports.all[0])
+    continued(model, result, RigidMotion(Q, np.array([5.0, 0.0, 0.0])))
+    (across, along, up) = ("xyz"[int(np.abs(Q[:, k]).argmax())] for k in (1, 0, 2))
+    model.fix(np.arange(len(model.mesh.points)), across, here=True)
+    model.fix("x0", along + up, here=True)
+    return model
+
+
+def test_a_strip_that_was_turned_is_held_across_where_it_lies():
+    first = strip("BEND8", True)
+    first.fix("x0", "xz")
+    result = uf.solve(first, uf.Move(first.prescribe("x1", "z", name="end"), to=0.2, steps=2), frames=0)
+    shapes = []
+    turns = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]], [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]
+    for Q in (np.eye(3), *map(np.array, turns)):
+        model = continued_in(Q, result)
+        uf.solve(model, uf.Move(model.force("x1", -0.1 * Q[:, 2], name="load"), 1.0, steps=2), frames=0)
+        shapes.append((model.positions - [5.0, 0.0, 0.0]) @ Q)
+    np.testing.assert_allclose(shapes[1:], [shapes[0]] * 2, atol=1e-9)
+    slanted = np.array([[0.8, -0.6, 0.0], [0.6, 0.8, 0.0], [0.0, 0.0, 1.0]])
+    with pytest.raises(ModelError, match="does not lie along an axis"):
+        continued_in(slanted, result).system.check()
 
 
 def test_cells_must_lie_across_an_axis():

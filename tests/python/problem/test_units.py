@@ -2,13 +2,16 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
+import umform as uf
 from umform.materials import J2, Perfect, Voce
 from umform.problem import DeckError, Problem
 from umform.problem.findings import Level, accept, error, ok, warning
 from umform.problem.named_units import named_units
 from umform.problem.plausible import of_model
+from umform.problem.units import extent
 from umform.processes.air_bending import AirBending, StackedSheet
 from umform.processes.air_bending.problem import build
 from umform.surfaces import UDie, write_tool
@@ -157,3 +160,12 @@ def test_only_a_foil_that_is_far_softer_than_the_sheet_yields_late(E, strain, le
     case = AirBending(thickness=1.0, opening=12.0, stroke=1.0, friction=0.3, elements_per_thickness=1, layers=1)
     model, _ = build(replace(case, on_top=[StackedSheet(0.1, law, 0.3)]))
     assert levels(finding for finding in of_model(model) if "first yield" in finding.text) == level
+
+
+def test_the_width_of_plane_strain_is_free_wherever_the_strip_lies():
+    turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    for Q, across in ((np.eye(3), "y"), (turn, "x")):
+        model = uf.Model(uf.mesh.strip(20.0, 0.005, 1.0, (10, 1)), material=uf.SVK(E=210e3, nu=0.3))
+        model.u = (model.mesh.points @ (Q.T - np.eye(3))).ravel()
+        model.fix(range(len(model.mesh.points)), across, here=True)
+        assert levels([extent(model)]) == OK
