@@ -172,7 +172,7 @@ class Problem:
         Those of the sheet of an operation before cannot.
         """
         material = self.source.data["material"]
-        law = written_out(material)
+        law = material if self.before is not None else written_out(material)
         named = self if law is material else self.with_({"material": law})
         found = as_written(scalars(named.contents), named.source.data)
         fixed = ("output", *(TAKEN if self.before is not None else ()))

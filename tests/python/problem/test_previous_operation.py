@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 import shutil
 from pathlib import Path
 from types import SimpleNamespace
@@ -409,3 +410,13 @@ def test_the_remedy_for_a_missing_state_names_its_folder(drawn):
     path.write_text(path.read_text().replace("draw/state.h5", "results/other/state.h5"))
     with pytest.raises(UmformError, match=r"--out .*results/other"):
         load(path).build()
+
+
+def test_numbers_of_a_part_whose_metal_is_of_the_library_can_be_changed(drawn):
+    text = (drawn / "draw.toml").read_text()
+    metal = re.search(r'law = "J2"(\n.*){3}\n', text).group()
+    (drawn / "draw.toml").write_text(text.replace(metal, 'library = "DC04"\n'))
+    (drawn / "pull.toml").write_text(PLACED + FIXED + OUTPUT)
+    deck = load(drawn / "pull.toml")
+    assert "controls.pull.traction.0" in {one.path for one in deck.paths()}
+    assert deck.with_({"controls.pull.traction.0": 2.0}).contents.controls["pull"].traction[0] == 2.0
