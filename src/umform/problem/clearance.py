@@ -26,8 +26,9 @@ from umform.problem.steps import Move
 Floats = NDArray[np.float64]
 #: Clearance relative to the thickness below which a sheet is ironed or squeezed; a little less may be meant.
 _TIGHT = 0.98
-#: Points per direction of the grid from which the surface of a tool is sampled, and alternating projections.
-_GRID, _PROJECTIONS = (41, 3, 41), 12
+#: Points along the longer sides of the grid from which the surface of a tool is sampled; the least along the shortest
+#: side, which has the spacing of the second one; and alternating projections.
+_GRID, _FEW, _PROJECTIONS = 41, 3, 12
 #: Growth of the gap over the travel of a tool that moves away from the sheet.
 _AWAY = 0.5
 
@@ -154,7 +155,9 @@ def smallest_distance(
     Feet of a grid of points on the first tool are measured in the second one; alternating projections of the nearest
     of them lead to the nearest points of both.
     """
-    axes = [np.linspace(low, high, n) for low, high, n in zip(*box, _GRID, strict=True)]
+    sides = box[1] - box[0]
+    counts = np.clip(np.ceil((_GRID - 1) * sides / np.sort(sides)[1]) + 1, _FEW, _GRID).astype(int)
+    axes = [np.linspace(low, high, n) for low, high, n in zip(*box, counts, strict=True)]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
     best, place = np.inf, np.zeros(3)
     for first, second in ((one, other), (other, one)):

@@ -1,7 +1,10 @@
 """Tools against each other and against the sheet: clearance, strokes away from it, places after a new thickness."""
 
+import numpy as np
 import pytest
 
+import umform as uf
+from umform.problem.clearance import smallest_distance
 from umform.problem.findings import Level
 
 
@@ -54,7 +57,7 @@ def test_a_tool_of_stretch_bending_may_move_away(texts, found):
 def test_a_quarter_of_a_disc_is_as_long_as_the_disc(texts, found):
     """Its radius is 53.75: a stroke of 60 mm is not longer than the sheet, one of 120 is."""
     said = [
-        [row.level.value for row in found(texts("cup"), "step 1", steps__0__to__stroke=way)] for way in (60.0, 120.0)
+        [row.level.value for row in found(texts("cup"), "step 2", steps__1__to__stroke=way)] for way in (60.0, 120.0)
     ]
     assert said == [["ok"], ["warning"]]
     text = texts("cup")
@@ -95,3 +98,17 @@ def test_an_overlap_after_a_new_thickness_names_the_key(texts, found):
 def test_the_effort_of_adaptive_steps_is_a_lower_bound(texts, found):
     (row,) = found(texts("hat-rail"), "effort")
     assert row.text.startswith("at least")
+
+
+@pytest.mark.parametrize("along", ["x", "y"])
+def test_the_nearest_places_of_tools_are_found_wherever_the_sheet_bends(along):
+    """A roll above a table: the way that brings a place nearer is short, so that it needs a near one to begin with."""
+    model = uf.Model(uf.mesh.strip(20.0, 6.0, 1.0, (10, 3)), material=uf.SVK(E=210e3, nu=0.3))
+    k = "xy".index(along)
+    centre, low, high = np.array([3.0, 3.0, 3.25]), np.array([0.0, 0.0, -3.0]), np.array([6.0, 6.0, 2.0])
+    centre[k], high[k] = 17.0, 20.0
+    table = model.contact("lower", uf.Plane((0, 0, -2.0), "z"), penalty=1.0).tool
+    roll = model.contact("upper", uf.Cylinder(centre, "yx"[k], 5.0), penalty=1.0).tool
+    distance, place = smallest_distance((table, table.pose_now), (roll, roll.pose_now), (low, high))
+    assert distance == pytest.approx(0.25, abs=1e-3)
+    assert place[k] == pytest.approx(17.0, abs=0.3)
