@@ -12,6 +12,7 @@ from umform.analysis.steps import Step
 from umform.errors import ModelError
 from umform.mesh.quality import jacobians
 from umform.model import Model
+from umform.model.contact import Contact, ContactFound
 from umform.model.contact.encounter import sheet_thickness
 from umform.problem.findings import Finding, Level, error, ok, warning
 from umform.problem.r_values import r_values
@@ -27,6 +28,8 @@ Placing = Callable[[str, NDArray[np.float64]], str]
 _OVERLAP, _DEEP = 0.02, 0.2
 #: Smallest ratio of the Jacobians of a cell.
 _DISTORTED = 0.2
+#: Cosine between the normals of a tool and of a face from which the face looks away.
+_AWAY = 0.5
 
 
 def of_model(
@@ -77,6 +80,9 @@ def gaps(model: Model, place: Placing | None = None) -> Iterator[Finding]:
             yield error(about, "a contact point lies on the axis or the centre of the tool", remedy)
             continue
         deepest, inside = float(gap.min()), int((gap <= 0.0).sum())
+        if _looks_away(contact, model.positions, at):
+            remedy = "the faces of the other side; in a mesh of your own the order of the nodes says which is upper"
+            yield warning(about, "its nearest face looks away from the tool, which comes through the sheet", remedy)
         text = (
             f"gap {deepest:.4g}" if deepest > 0 else f"{inside} of {gap.size} points touch, overlap {abs(deepest):.4g}"
         )
@@ -92,6 +98,14 @@ def gaps(model: Model, place: Placing | None = None) -> Iterator[Finding]:
             yield warning(about, f"{text}: farther away than the sheet is long", remedy)
         else:
             yield ok(about, text)
+
+
+def _looks_away(contact: Contact, places: NDArray[np.float64], at: ContactFound) -> bool:
+    """Whether the outward normal of the face nearest to a tool points away from it."""
+    nearest = int(np.argmin(at.gap))
+    corners = places[contact.facets[nearest * len(contact.facets) // at.gap.size, :4]]
+    normal = np.cross(corners[2] - corners[0], corners[3] - corners[1])
+    return bool(normal @ at.normal[nearest] > _AWAY * np.linalg.norm(normal))
 
 
 def tips(model: Model, steps: Sequence[Step]) -> Iterator[Finding]:

@@ -32,6 +32,14 @@ def test_a_flange_that_is_wiped_without_a_clamp_tips(texts, found):
     assert tips.level is Level.ERROR and "only block at (" in tips.text and "tips over" in tips.text and tips.remedy
 
 
+def test_a_face_on_the_other_side_of_the_sheet_looks_away_from_its_tool(texts, found):
+    """So are the upper faces of a mesh of one's own whose nodes are numbered clockwise."""
+    text = texts("free-bending")
+    sides = text, text.replace('faces = "lower"', 'faces = "upper"')
+    said = [[row.text for row in found(side, "contact cylinder")] for side in sides]
+    assert [any("looks away" in row for row in rows) for rows in said] == [False, True]
+
+
 def test_gaps(texts, found):
     text = texts("free-bending")
     first = found(text, "contact cylinder")[0]

@@ -226,7 +226,7 @@ def test_a_tool_without_contact_is_used_by_a_measure(found):
     assert not found(text + '[measures.ideal]\nkind = "distance"\ntool = "ideal"\n', "tool ideal")
 
 
-@pytest.mark.parametrize(("name", "loading"), [("hat-rail", 2), ("air-bending", 1), ("cup", 1), ("dome", 1)])
+@pytest.mark.parametrize(("name", "loading"), [("hat-rail", 2), ("air-bending", 1), ("cup", 2), ("dome", 1)])
 def test_steps_at_the_end_release_the_part(name, loading):
     assert loading_steps(load(template_file(name)).contents) == loading
 
