@@ -18,8 +18,9 @@ from umform.results.records import Cause, Failed, Iteration
 #: A residual that is far from equilibrium, relative to the force scale.
 _FAR = 0.1
 #: A jump to the next stable state, or contact that sorts itself out in an undeformed sheet, may take so many times the
-#: iterations of an increment.
-_LONG = 4
+#: iterations of an increment; where the residual is so many times its tolerance, a few points of contact may still come
+#: and go, and it may take twice as many.
+_LONG, _NEAR, _LONGER = 4, 3.0, 2
 
 
 class DivergenceGuard:
@@ -53,9 +54,22 @@ class DivergenceGuard:
         self._pivots = 0
         self._downhill = self.jumps = False
 
-    def iteration_limit(self, iterations: int) -> int:
-        """Largest number of iterations; parameter: that of a usual increment."""
-        return _LONG * iterations if self.jumps or self._extended else iterations
+    def iteration_limit(self, usual: int, iterations: list[Iteration], tolerance: float) -> int:
+        """Largest number of iterations.
+
+        Parameters
+        ----------
+        usual : int
+            That of a usual increment.
+        iterations : list of Iteration
+            Those so far.
+        tolerance : float
+            Of the residual, relative to the force scale.
+        """
+        if self.jumps or self._extended:
+            return _LONG * usual
+        near = bool(iterations) and iterations[-1].residual <= _NEAR * tolerance
+        return _LONGER * usual if near else usual
 
     def needs_symmetric_part(self, residual: float) -> bool:
         """Whether the stability of an unsymmetric tangent is worth the factors of its symmetric part. eq. (5.101)

@@ -282,7 +282,7 @@ class Newton:
 
         du, evaluation = self._predicted(goal, u, du, mode, beyond, keep=keep, forces=tangent.forces_first)
         increment, length = self._relative(du, evaluation), 1.0
-        while len(iterations) < guard.iteration_limit(options.max_iterations):
+        while len(iterations) < guard.iteration_limit(options.max_iterations, iterations, options.residual):
             self.check_domain(evaluation, iterations)
             r = system.restrict(evaluation.residual)
             norm = self._finite(math.sqrt(system.ranks.dot(r, r)), iterations)

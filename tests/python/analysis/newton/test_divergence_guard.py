@@ -48,12 +48,12 @@ def guard_of(indefinite=IndefiniteTangent.IGNORED, smooth=False):
 def test_iterations_on_the_way_down_from_the_end_of_a_stable_path_go_on_far_from_equilibrium():
     for indefinite in (IndefiniteTangent.STOPS, IndefiniteTangent.STOPS_BEFORE_JUMP):
         guard = guard_of(indefinite)
-        assert (guard.jumps, guard.iteration_limit(25)) == (False, 25)
+        assert (guard.jumps, guard.iteration_limit(25, [], 1e-3)) == (False, 25)
         guard.check_pivots(1, 0.05, [])
         assert guard.shifts(1)
         if indefinite is IndefiniteTangent.STOPS_BEFORE_JUMP:
             guard.check_pivots(1, 0.8, [])
-            assert (guard.jumps, guard.iteration_limit(25)) == (True, 100)
+            assert (guard.jumps, guard.iteration_limit(25, [], 1e-3)) == (True, 100)
         else:
             with pytest.raises(Failed, match="far from equilibrium"):
                 guard.check_pivots(1, 0.8, [])
@@ -93,5 +93,12 @@ def test_the_symmetric_part_is_factorised_after_a_cycle_of_contact():
 
 def test_contact_of_an_undeformed_sheet_gets_more_iterations():
     system = SimpleNamespace(smooth=True)
-    assert DivergenceGuard(system).iteration_limit(25) == 25
-    assert DivergenceGuard(system, extended=True).iteration_limit(25) == 100
+    assert DivergenceGuard(system).iteration_limit(25, [], 1e-3) == 25
+    assert DivergenceGuard(system, extended=True).iteration_limit(25, [], 1e-3) == 100
+
+
+def test_iterations_near_their_tolerance_go_on():
+    guard = guard_of()
+    for residual, limit in ((1e-1, 25), (3.1e-3, 25), (2.9e-3, 50), (1e-4, 50)):
+        iterations = [SimpleNamespace(residual=1.0), SimpleNamespace(residual=residual)]
+        assert guard.iteration_limit(25, iterations, 1e-3) == limit
