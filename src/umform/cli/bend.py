@@ -178,6 +178,7 @@ def bend(
                 rows += some
             done = goal.bent(brake)
             done = replace(done, table=(*rows, *[done.measures] * goal.last_row), bend_length=length)
+            done = replace(done, searched=done.searched or studies.wanted_by("stroke"))
         more: list[Path] = []
         try:
             if budget:

@@ -119,6 +119,12 @@ class Studies:
         self.found = compensate(case, wanted(self.want), paths, bounds=bounds)
         return self.found.subject
 
+    def wanted_by(self, path: str) -> str:
+        """The wanted result that a parameter was found for, the angle if it is one of them; empty if it was given."""
+        if self.found is None or path not in self.found.parameters:
+            return ""
+        return "angle" if "angle" in self.found.wanted else next(iter(self.found.wanted))
+
     def in_deck(self, case: Any) -> Any:
         """The case with parameters for the wanted results, for its deck; studies of its run are refused."""
         if self.derive or self.scatter:

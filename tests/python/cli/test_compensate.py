@@ -1,5 +1,7 @@
 """`umform compensate`, and `--want` of a bend."""
 
+import csv
+
 import pytest
 from command_line import umform as run
 
@@ -26,6 +28,15 @@ def test_a_bend_with_a_wanted_radius_gets_another_opening(tmp_path):
     files = {file.name for file in tmp_path.iterdir()}
     assert files >= {"bend.json", "compensation.html", "compensation.png", "compensated.dxf"}
     assert "Compensation" in (tmp_path / "report.html").read_text()
+
+
+def test_a_stroke_that_follows_a_wanted_result_is_not_a_given_one(tmp_path):
+    coarse = ["--layers", 1, "--elements-per-thickness", 1, "--out", tmp_path, "--overwrite"]
+    for wanted, source in ([], "given"), (["--want", "angle=134+-1", "--by", "stroke"], ""):
+        done = run("bend", "--stroke", 3, *coarse, *wanted)
+        assert done.exit_code == 0, done.output
+        strokes = list(csv.DictReader((tmp_path / "quantities.csv").read_text().splitlines()))[:2]
+        assert [(one["name"], one["source"]) for one in strokes] == [("stroke", source), ("below_die", source)]
 
 
 @pytest.mark.parametrize(

@@ -358,7 +358,7 @@ def test_the_numbers_of_a_bend_have_bands(bend):
     assert [one.name for one in bend.quantities if one.band is None] == ["length_balance"]
     assert {one.name for one in bend.quantities if one.band == GIVEN} == {"stroke", "below_die"}
     assert "error: given" not in bend.all_notes
-    bend = replace(bend, searched=True)
+    bend = replace(bend, searched="angle")
     found = {one.name: one for one in bend.quantities}
     assert [name for name, one in found.items() if one.band is None] == ["length_balance"]
     (way, turned), angle = np.diff(bend.path[-2:], axis=0)[0], found["angle"].band

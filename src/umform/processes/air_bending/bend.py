@@ -91,8 +91,8 @@ class AirBend(Outcome):
         Error budget, if it was asked for.
     bend_length : float, optional
         Length of the bend in mm for the total force; the model does not know it.
-    searched : bool
-        Whether the stroke was found for an angle or a force, not given.
+    searched : str
+        Result for which the stroke was found, such as "angle"; empty if it was given.
     stack : tuple of SheetOfStack
         Each of several sheets, from the die upwards; measures and sections are those of the first.
     """
@@ -110,7 +110,7 @@ class AirBend(Outcome):
     table: tuple[Measures, ...] = ()
     budget: Budget | None = None
     bend_length: float | None = None
-    searched: bool = False
+    searched: str = ""
     stack: tuple[SheetOfStack, ...] = ()
 
     @classmethod
@@ -170,7 +170,7 @@ class AirBend(Outcome):
             return [replace(one, band=GIVEN) if given and one.name in STROKES else one for one in found]
         angle = next(one for one in found if one.name == "angle").band
         way, turned = np.diff(self.path[-2:], axis=0)[0] if len(self.path) > 1 else (0.0, 0.0)
-        if angle is None or self.case.bottoming or not way > 0.0 or not turned < 0.0:
+        if angle is None or self.searched != "angle" or self.case.bottoming or not way > 0.0 or not turned < 0.0:
             return found
         band = Band(-angle.error * way / turned, _STROKE)
         return [replace(one, band=band) if one.name in STROKES and not one.band else one for one in found]

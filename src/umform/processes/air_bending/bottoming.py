@@ -76,7 +76,7 @@ def press_to_force(
         brake = brake or Brake(case, solver, max(1, frames))
         state = _closed_in(brake, force, tolerance, *_bracket(brake, force, tick))
         measures = brake.unload()
-        bend = replace(brake.end(state, measures), searched=True)
+        bend = replace(brake.end(state, measures), searched="force")
     return Found(bend, ((measures.stroke, measures.angle),), brake.run.iterations)
 
 

@@ -113,7 +113,7 @@ def find_stroke(
     with progress_bar(progress) as tick:
         brake = brake or Brake(case, solver, max(1, frames))
         state, measures, trials = bent_to_angle(brake, angle, tolerance, tick)
-        bend = replace(brake.end(state, measures), searched=True)
+        bend = replace(brake.end(state, measures), searched="angle")
         return Found(bend, trials, brake.run.iterations)
 
 
