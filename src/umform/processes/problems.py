@@ -91,10 +91,22 @@ def outcome_of(case: Any, *results: Result) -> Outcome:
     case : Spec
         The parameters.
     *results : Result
-        The run of each, with a frame at the end of each step.
+        The run of each, with as many frames of each step as `frames_of` says.
     """
     found: Outcome = _function(case, "outcome")(case, *results)
     return found
+
+
+def frames_of(case: Any) -> int:
+    """States of each step that the numbers of a process follow from, ``FRAMES`` beside ``outcome_of``; else its end.
+
+    Parameters
+    ----------
+    case : Spec
+        The parameters.
+    """
+    frames: int = getattr(import_module(_module(case, "outcome")), "FRAMES", 1)
+    return frames
 
 
 def quantities_named(case: Any) -> Collection[str] | None:

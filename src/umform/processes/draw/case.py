@@ -9,15 +9,13 @@ from umform.errors import ModelError, NoConvergence, SolveError
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.endings import Ending, ending_of
+from umform.processes.draw.outcome import FRAMES
 from umform.processes.draw.u_bend import UBend
 from umform.progress import Show
 from umform.results.forming import FormingLimit, KeelerBrazier, add_forming_fields
 from umform.spec import check_arguments
 
 log = logging.getLogger("umform")
-
-#: States that each step keeps for pictures.
-FRAMES = 20
 
 
 def draw(

@@ -16,6 +16,8 @@ from umform.results.forming import (
     add_forming_fields,
 )
 
+#: States that each step keeps, for pictures and paths of strain.
+FRAMES = 20
 #: Names of all measures that a part may have, then those of a cup and of a U-bend.
 _PART = (
     *(FORCE, "at a stroke of", HOLDER, DRAW_IN, THINNING, "largest thickening", "largest major strain", MARGIN),
@@ -29,9 +31,9 @@ _U_BEND = ("theta1", "theta2", "radius of the wall")
 
 
 def outcome_of(case: Cup | UBend, result: Result) -> Drawn:
-    """The part of a case from a run of its problem, which has a frame at the end of each step.
+    """The part of a case from a run of its problem, which has `FRAMES` frames in each step.
 
-    The stroke at the forming limit is rough: it is interpolated between these frames.
+    The path-dependent limit and the stroke at the forming limit follow from these frames.
     """
     kinds = [step.kind for step in case.problem().contents.steps]
     opens = kinds.index("free") + 1

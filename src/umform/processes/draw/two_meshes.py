@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from umform.errors import InvalidValue
-from umform.processes.draw.case import FRAMES, draw
+from umform.processes.draw.case import draw
 from umform.processes.draw.drawn import Drawn
+from umform.processes.draw.outcome import FRAMES
 from umform.processes.draw.u_bend import UBend
 from umform.processes.extrapolation import Limit
 from umform.progress import Show, parts, progress_bar

@@ -79,7 +79,7 @@ def derivatives(
     options, solver
         Those of the run, for a function.
     frames : int
-        Approximate number of states kept in each step.
+        Approximate number of states kept in each step; at least as many as the quantities follow from.
     progress : bool or callable, optional
         Show a progress bar.
     checkpoint : str or PathLike, optional
@@ -137,14 +137,13 @@ def derivatives(
     thing.refuse_unknown(lead, of or ())
     functions = {getattr(one, "__name__", "number") for one in of or () if not isinstance(one, str)}
     thing.refuse_unknown(lead, [name for name in held if name not in functions], "hold")
-    found = _run(
-        lead, again, {path: built for path, (_, built) in shadows.items()}, checkpoint, frames=frames, progress=progress
-    )
+    others = {path: built for path, (_, built) in shadows.items()}
+    found = _run(lead, again, others, checkpoint, frames=max(frames, lead.frames), progress=progress)
     runs = [one.run for one in found.values()]
     quantities = thing.quantities(lead, *runs)
     wanted = responses(of, quantities, runs[-1])
-    others = [name for name in held if name not in {one.name for one in wanted}]
-    wanted += responses(others, quantities, runs[-1], "hold")
+    more = [name for name in held if name not in {one.name for one in wanted}]
+    wanted += responses(more, quantities, runs[-1], "hold")
 
     def measured(other: Subject, built: Built, results: Sequence[Result]) -> list[float | None]:
         numbers = {one.name: one.value for one in other.quantities(built, *results)}

@@ -17,7 +17,7 @@ from umform.model import Model
 from umform.problem.measured import Taken, may_report, names_begin
 from umform.problem.prepared import Prepared
 from umform.problem.problem import Problem
-from umform.processes.problems import Operation, operations_of, outcome_of, problem_of, quantities_named
+from umform.processes.problems import Operation, frames_of, operations_of, outcome_of, problem_of, quantities_named
 from umform.progress import Show
 from umform.results.quantity import Quantity
 from umform.spec import Scalar, changed, scalars
@@ -47,6 +47,8 @@ class Built:
         Those of them that are known without a run, in another state.
     name : str
         Name of the first operation.
+    frames : int
+        States of each step that its numbers follow from.
     """
 
     model: Model
@@ -57,11 +59,12 @@ class Built:
     after: Sequence[Stage] = ()
     alike: Sequence[tuple[Model, Sequence[Step]]] = ()
     name: str = "run"
+    frames: int = 1
 
     @classmethod
-    def of(cls, prepared: Prepared) -> Self:
+    def of(cls, prepared: Prepared, frames: int = 1) -> Self:
         """That of a problem."""
-        return cls(prepared.model, prepared.steps, prepared.solver, prepared.options, prepared)
+        return cls(prepared.model, prepared.steps, prepared.solver, prepared.options, prepared, frames=frames)
 
     @property
     def stages(self) -> list[Stage]:
@@ -69,12 +72,12 @@ class Built:
         return [Stage(self.name, lambda before: (self.model, self.steps)), *self.after]
 
     def solve(self, progress: Show = None) -> list[Result]:
-        """Run all operations, with a frame at the end of each step."""
+        """Run all operations, with the frames that the numbers follow from."""
         found: list[Result] = []
         for stage in self.stages:
             model, steps = stage.build(found[-1] if found else None)
             settings = {"solver": self.solver, "options": self.options}
-            found.append(solve(model, steps, **settings, frames=1, progress=progress))  # type: ignore[arg-type]
+            found.append(solve(model, steps, **settings, frames=self.frames, progress=progress))  # type: ignore[arg-type]
         return found
 
 
@@ -171,7 +174,7 @@ class OfCase:
 
     def build(self) -> Built:
         """The model of its problem."""
-        return Built.of(problem_of(self.case).build())
+        return Built.of(problem_of(self.case).build(), frames_of(self.case))
 
     def refuse_unknown(self, built: Built, wanted: Sequence[str | Function], where: str = "of") -> None:
         """Refuse what is neither of the quantities of its process nor of the history of its last operation."""

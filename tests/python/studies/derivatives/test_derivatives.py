@@ -15,7 +15,9 @@ import umform as uf
 from umform.errors import FileProblem, InvalidValue
 from umform.problem import Problem
 from umform.processes.air_bending import AirBending
+from umform.processes.draw import Cup, draw
 from umform.processes.draw.u_bend import NUMISHEET, UBend
+from umform.results.forming import BY_PATHS, BY_STRAINS
 from umform.studies.derivatives import derive
 
 EXAMPLES = Path(__file__).resolve().parents[4] / "examples" / "umat"
@@ -389,6 +391,18 @@ def test_a_flange_that_lies_flat_between_planes():
     assert one.why == ""
     assert one.residual < 1e-9
     assert found.stages["run"].missing == ""
+
+
+def test_the_path_dependent_limit_of_a_draw_is_that_of_its_own_run():
+    """Strain paths go through the states that a run keeps: with their ends only they were straight."""
+    sizes = {"thickness": 1.0, "blank_radius": 40.0, "punch_radius": 25.0, "punch_edge": 5.0, "die_edge": 10.0}
+    press = {"holder_force": 40e3, "friction": 0.09, "stroke": 15.0}
+    case = Cup(material=uf.sheet_metals.get("DC04").law, **sizes, **press, turn=30.0, around=4)
+    found = uf.derivatives(case, ["friction"], [BY_PATHS, BY_STRAINS], progress=False)
+    values = {one.name: one.value for one in found.responses}
+    drawn = draw(case, progress=False)
+    assert values[BY_PATHS] == pytest.approx(drawn[BY_PATHS].value, rel=1e-6)
+    assert values[BY_PATHS] > 1.2 * values[BY_STRAINS]
 
 
 @pytest.mark.parametrize("value", ["steel", True, None, [1.0]])
