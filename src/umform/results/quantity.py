@@ -98,7 +98,8 @@ class Quantity(InNotebook):
     label, unit : str
         What people read.
     decimals : int or None
-        Digits behind the point; None: as many as the error has, or `digits`.
+        Digits behind the point; None: as many as the error has, or `digits`. They are more where they would show an
+        error as zero that is within the `digits` of the number.
     name : str
         Key in records and tables; default: the label.
     value : float or None
@@ -215,11 +216,12 @@ class Quantity(InNotebook):
         """A value, an error or a change of this quantity as text."""
         if _known(value) is None or value is None:
             return UNKNOWN
-        error = None if self.band is None or self.decimals is not None else _known(self.band.error)
-        if self.decimals is None and not error:
-            return f"{value + 0.0:{sign}.{self.digits}g}"
-        if self.decimals is not None:
+        error = None if self.band is None else _known(self.band.error)
+        hidden = error and round(error, self.decimals or 0) == 0.0 and self.relative_error >= 10.0**-self.digits
+        if self.decimals is not None and not hidden:
             return f"{value + 0.0:{sign}.{self.decimals}f}"
+        if not error:
+            return f"{value + 0.0:{sign}.{self.digits}g}"
         places = 1 - math.floor(math.log10(error or 1.0))
         if value:  # an error of round-off asks for all digits that there are
             places = min(places, max(self.digits, _MOST_DIGITS) - 1 - math.floor(math.log10(abs(value))))

@@ -53,7 +53,13 @@ def test_page_names_no_other_server():
 def test_quantities_are_shown_as_in_the_terminal():
     one = Quantity("height", "mm", 2, value=12.3456)
     bare = replace(one, decimals=None, value=0.00275849)
-    shown = [one, replace(one, band=Band(0.123, "mesh", middle=11.0)), bare, replace(bare, band=Band(0.00012, "mesh"))]
+    shown = [
+        one,
+        replace(one, band=Band(0.00213, "mesh")),
+        replace(one, band=Band(0.123, "mesh", middle=11.0)),
+        bare,
+        replace(bare, band=Band(0.00012, "mesh")),
+    ]
     script = "const [module, given] = process.argv.slice(1); import(module).then(({ numberText, errorText }) => "
     script += "console.log(JSON.stringify(JSON.parse(given).map((one) => [numberText(one), errorText(one)]))));"
     arguments = [(PAGE / "quantities.js").as_uri(), json.dumps([quantity.record() for quantity in shown])]

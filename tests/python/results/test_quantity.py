@@ -37,6 +37,8 @@ HEIGHT = Quantity("height", "mm", 2, value=12.3456)
         ({"band": Band(0.123, "mesh")}, "12.35", "± 0.12"),
         ({"decimals": None, "band": Band(0.00123, "mesh")}, "12.3456", "± 0.0012"),
         ({"decimals": None, "band": Band(0.0, "mesh")}, "12.35", ""),
+        ({"band": Band(0.00213, "mesh")}, "12.3456", "± 0.0021"),
+        ({"band": Band(1e-12, "round-off")}, "12.35", "± 0.00"),
         ({"band": Band(math.nan, "mesh")}, "12.35", NO_BAND),
         ({"band": Band(0.5, "meshes", middle=11.0)}, "11.00", "± 0.50"),
     ],

@@ -13,9 +13,11 @@ import { has, language, number, t } from "./texts.js";
 /** @param {Quantity} one */
 const unitOf = ({ unit }) => (unit === "degrees" ? "°" : unit);
 
-/** A value, an error or another number, as the terminal shows it: by its decimals, else to the second digit of its error. @param {Quantity} one @param {number | null} value */
-function shown({ decimals, digits, band }, value) {
-  const places = decimals ?? (band?.error ? Math.max(1 - Math.floor(Math.log10(band.error)), 0) : null);
+/** A value, an error or another number, as the terminal shows it: by its decimals, unless they show an error as zero, else to the second digit of its error. @param {Quantity} one @param {number | null} value */
+function shown({ decimals, digits, band, value: own }, value) {
+  const hidden = band?.error && own && Number(band.error.toFixed(decimals ?? 0)) === 0 && band.error / Math.abs(own) >= 10 ** -digits;
+  const fixed = hidden ? null : decimals;
+  const places = fixed ?? (band?.error ? Math.max(1 - Math.floor(Math.log10(band.error)), 0) : null);
   if (places !== null || value === null) return number(value, places ?? undefined);
   return value.toLocaleString(language, { useGrouping: false, maximumSignificantDigits: digits });
 }
