@@ -7,7 +7,7 @@ import pytest
 
 import umform as uf
 from umform_book.derivatives.chains import CHAINS, compared_chain
-from umform_book.derivatives.differences import compared
+from umform_book.derivatives.differences import SHADOW, compared
 from umform_book.derivatives.laws import LAWS, example
 from umform_book.derivatives.sheets import SHEETS
 from umform_book.derivatives.steps import EXAMPLES
@@ -28,7 +28,7 @@ def test_all_constants_of_a_law(name):
 def test_a_model(name):
     for one in compared(MODELS[name]):
         assert one.derivative < MODELS[name].limit, one
-        assert MODELS[name].ends or one.shadow < 1e-4, one
+        assert MODELS[name].ends or one.shadow < SHADOW, one
 
 
 def test_a_clamped_strip_slips_back_and_still_rubs_at_the_end_of_its_release():

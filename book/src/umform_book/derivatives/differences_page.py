@@ -10,7 +10,7 @@ import umform as uf
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
 from umform_book.derivatives.chains import CHAINS, compared_chain
-from umform_book.derivatives.differences import TIGHT, Example, compared
+from umform_book.derivatives.differences import SHADOW, TIGHT, Example, compared
 from umform_book.derivatives.laws import LAWS, example
 from umform_book.derivatives.sheets import SHEETS
 from umform_book.derivatives.steps import BEND, EXAMPLES, bent
@@ -28,7 +28,7 @@ def _table(page: Page, title: str, what: str, examples: Mapping[str, Example], s
         rows.append((name, ", ".join(one.columns), len(found), shadow, derivative, one.limit))
         page.at_most(f"{name}: derivative", derivative, one.limit)
         if shadow is not None:
-            page.at_most(f"{name}: shadow", shadow, 1e-4)
+            page.at_most(f"{name}: shadow", shadow, SHADOW)
     columns = (what, "columns", "parameters", "shadow", "derivative", "limit")
     page.table(title, columns, rows)
 

@@ -18,8 +18,8 @@ from umform.results.records import Cause, Failed, Iteration
 #: A residual that is far from equilibrium, relative to the force scale.
 _FAR = 0.1
 #: A jump to the next stable state, or contact that sorts itself out in an undeformed sheet, may take so many times the
-#: iterations of an increment; where the residual is so many times its tolerance, a few points of contact may still come
-#: and go, and it may take twice as many.
+#: iterations of an increment; where points of contact still come and go at so many times the tolerance of the residual,
+#: twice as many.
 _LONG, _NEAR, _LONGER = 4, 3.0, 2
 
 
@@ -68,7 +68,8 @@ class DivergenceGuard:
         """
         if self.jumps or self._extended:
             return _LONG * usual
-        near = bool(iterations) and iterations[-1].residual <= _NEAR * tolerance
+        last = iterations[-1] if iterations else None
+        near = last is not None and last.residual <= _NEAR * tolerance and last.entered + last.left > 0
         return _LONGER * usual if near else usual
 
     def needs_symmetric_part(self, residual: float) -> bool:

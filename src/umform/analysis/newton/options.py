@@ -31,7 +31,7 @@ class NewtonOptions:
     increment: Positive = 1e-6
     """Tolerance of the increment, relative to the largest displacement."""
     max_iterations: Annotated[Count, Le(1000)] = 25
-    """Largest number of iterations before an increment is cut; twice as many near the tolerance of the residual."""
+    """Largest number of iterations before an increment is cut; twice as many while contact settles."""
     line_search: bool | None = None
     """Shorten increments that are too long, see :mod:`umform.analysis.newton.line_search`; default: if a law has a
     history, but not where supports and tools are removed, and with friction."""

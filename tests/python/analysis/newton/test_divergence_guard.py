@@ -97,8 +97,8 @@ def test_contact_of_an_undeformed_sheet_gets_more_iterations():
     assert DivergenceGuard(system, extended=True).iteration_limit(25, [], 1e-3) == 100
 
 
-def test_iterations_near_their_tolerance_go_on():
+def test_iterations_go_on_where_contact_settles_near_the_tolerance():
     guard = guard_of()
-    for residual, limit in ((1e-1, 25), (3.1e-3, 25), (2.9e-3, 50), (1e-4, 50)):
-        iterations = [SimpleNamespace(residual=1.0), SimpleNamespace(residual=residual)]
+    for residual, left, limit in ((1e-1, 1, 25), (3.1e-3, 1, 25), (2.9e-3, 1, 50), (1e-4, 1, 50), (1e-4, 0, 25)):
+        iterations = [SimpleNamespace(residual=residual, entered=0, left=left)]
         assert guard.iteration_limit(25, iterations, 1e-3) == limit
