@@ -254,7 +254,7 @@ points = "auto"
 """
 
 
-def test_a_contact_is_estimated_where_the_part_lies(drawn):
+def test_sizes_of_elements_are_those_where_the_part_lies(drawn):
     text = (drawn / "draw.toml").read_text()
     (drawn / "draw.toml").write_text(text.replace("[5, 1]", "[20, 1]"))  # short elements along x
     assert umform("run", drawn / "draw.toml", "--out", drawn / "draw", "--overwrite").exit_code == 0
@@ -265,12 +265,9 @@ def test_a_contact_is_estimated_where_the_part_lies(drawn):
     for text in (there, turned.replace('axis = "y"', 'axis = "x"')):
         deck = Problem.read(text, folder=drawn)
         problem = deck.build()
-        pair = problem.contacts["roll"]
         size = [one.text for one in bends(deck, problem) if "an element is" in one.text]
-        found.append((pair.points, pair.penalty, size))
-    assert found[1][0] == found[0][0] > 2
-    assert found[1][1] == pytest.approx(found[0][1], rel=1e-9)
-    assert found[1][2] == found[0][2] != []
+        found.append(size)
+    assert found[1] == found[0] != []
 
 
 def test_tools_are_written_near_the_place_of_the_part(drawn):

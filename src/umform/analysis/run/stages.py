@@ -195,8 +195,7 @@ def continued(model: Model, before: Result, motion: RigidMotion | None = None) -
         Result of the stage before.
     motion : RigidMotion, optional
         Rigid motion of the part before the stage, into other tools for instance. eq. (5.91)
-        Add its contacts afterwards, or give them a penalty: the default is estimated where the sheet lies when they are
-        added.
+        Give its contacts a penalty then: the default is estimated from the undeformed sheet, which lies elsewhere.
 
     Returns
     -------

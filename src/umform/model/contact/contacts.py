@@ -84,17 +84,17 @@ class Contacts(list[Contact]):
                 remedy="what tool() of this model returned, or a surface",
             )
         surface = tool.surface if isinstance(tool, Tool) else tool
-        rows, at = self.mesh.face_set(faces), self.mesh.displaced(self.tools.now.u)
+        rows = self.mesh.face_set(faces)
         if isinstance(surface, UserSurface):
             facets = self.mesh.facets_of(rows)[:, :4]
-            check_beside(surface, at[facets], sheet_thickness(self.mesh, rows), f"contact {name}")
+            check_beside(surface, self.mesh.points[facets], sheet_thickness(self.mesh, rows), f"contact {name}")
         body, layers = self.bodies.of(rows[:, 0]), layers_behind(self.bodies, rows[:, 0])
         try:
             wanted = ContactOptions(**options)
         except InvalidValue as error:
             error.where = f"contact {name}, {error.where}"
             raise
-        settings = contact_settings(self.mesh, faces, surface, layers, wanted, f"contact {name}", at)
+        settings = contact_settings(self.mesh, faces, surface, layers, wanted, f"contact {name}")
         if body.element.plane_strain and not wanted.augmented and settings.cells is None and self._one_side(faces):
             settings = replace(settings, width_points=body.element.width_points)
         touched = tool if isinstance(tool, Tool) else Tool(name, tool, self.tools.now)

@@ -73,13 +73,10 @@ class Encounter:
         return self.radius >= _FLATTEST * self.thickness
 
     @classmethod
-    def of(
-        cls, mesh: Mesh, faces: Ids, tool: _core.Surface, layers: Sequence[Layer], where: str, at: Floats | None = None
-    ) -> Encounter:
-        """Evaluate mesh, tool and laws, that at the faces first; nodes at positions (n, 3), or those of the mesh."""
+    def of(cls, mesh: Mesh, faces: Ids, tool: _core.Surface, layers: Sequence[Layer], where: str) -> Encounter:
+        """Evaluate mesh and tool in their present position, and the laws, that of the layer at the faces first."""
         h = sheet_thickness(mesh, faces)
-        points = mesh.points if at is None else at
-        radius, length = _sharpest(points[mesh.facets_of(faces)[:, :4]], tool, _FLATTEST * h)
+        radius, length = _sharpest(mesh.points[mesh.facets_of(faces)[:, :4]], tool, _FLATTEST * h)
         strain = min(h / (2.0 * radius + h), _LARGEST_STRAIN)
         stretched = sum(bending_stress(one.material, strain, where) * (one.thickness or h) for one in layers)
         stiffness = bending_stress(layers[0].material, 1e-7, where) / 1e-7

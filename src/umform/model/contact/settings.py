@@ -15,7 +15,7 @@ from umform import _core
 from umform.errors import InvalidPenalty, InvalidValue
 from umform.mesh import Mesh, Selector
 from umform.model.contact.cells import MOST, RIPPLE, cells_for, refuse_points_and_cells, ripple_of
-from umform.model.contact.encounter import Encounter, Floats, Layer, sheet_thickness
+from umform.model.contact.encounter import Encounter, Layer, sheet_thickness
 from umform.model.contact.friction import AnyFriction, friction_kernel, refuse_slip_alone
 from umform.model.contact.own_law import AnyContactLaw
 from umform.model.contact.own_stiffness import measured, refuse_beside
@@ -148,17 +148,11 @@ class ContactSettings(PenaltySettings):
 
 
 def contact_settings(
-    mesh: Mesh,
-    faces: Selector,
-    tool: Surface,
-    layers: Sequence[Layer],
-    options: ContactOptions,
-    where: str = "contact",
-    at: Floats | None = None,
+    mesh: Mesh, faces: Selector, tool: Surface, layers: Sequence[Layer], options: ContactOptions, where: str = "contact"
 ) -> ContactSettings:
     """Settings from the given values, the rest from mesh, tool and the layers of the sheet, that at the faces first.
 
-    The nodes are ``at`` positions (n, 3) where they are not those of the mesh. eqs. (4.29), (4.31), (4.122)
+    eqs. (4.29), (4.31), (4.122)
 
     Raises
     ------
@@ -176,10 +170,9 @@ def contact_settings(
     estimated, given = penalty is None or points == "auto", penalty is not None
     if allowed is None and (penalty is None or augmented):
         allowed = ALLOWED * thickness
-    meet = partial(Encounter.of, mesh, rows, tool.kernel(), layers, where, at)
     met = None
     if estimated:
-        met = meet()
+        met = Encounter.of(mesh, rows, tool.kernel(), layers, where)
         if points == "auto" and over_cells:
             points = _cells(met, penalty, allowed, ripple)
         elif points == "auto":
@@ -197,6 +190,7 @@ def contact_settings(
     number = int(points) if over_cells else None
     expected = None
     if number is not None:
+        meet = partial(Encounter.of, mesh, rows, tool.kernel(), layers, where)
         expected = _ripple(met, meet, number, allowed)
     largest = 0.0 if given or augmented or met is None else _largest(met)
     plain = ContactSettings(
@@ -213,19 +207,21 @@ def contact_settings(
         return plain
     slip = _SLIP * thickness if slip is None else float(slip)
     if given or allowed is None:
-        pressure = _pressure(meet, penalty, points, ALLOWED * thickness)
+        pressure = _pressure(mesh, faces, tool, layers, penalty, points)
     else:
         pressure = penalty * allowed
     ratio = _tangential_stiffness(law, pressure, slip) / penalty
     return replace(plain, friction=options.friction, slip=slip, ratio=ratio)
 
 
-def _pressure(meet: Callable[[], Encounter], penalty: float, points: int | str, default: float) -> float:
+def _pressure(
+    mesh: Mesh, faces: Selector, tool: Surface, layers: Sequence[Layer], penalty: float, points: int | str
+) -> float:
     """Expected pressure for a penalty. eqs. (4.28), (4.15)"""
     try:
-        met = meet()
+        met = Encounter.of(mesh, mesh.face_set(faces), tool.kernel(), layers, "")
     except InvalidPenalty:  # no estimate: assume the penalty of the default penetration
-        return penalty * default
+        return penalty * ALLOWED * sheet_thickness(mesh, mesh.face_set(faces))
     spacing = met.length if isinstance(points, str) else met.length / points
     length = max(contact_length(met.radius, met.line_force, penalty), spacing)
     return met.line_force / length
