@@ -24,7 +24,8 @@ def chain(segments: Sequence[Segment], tolerance: float, where: str) -> tuple[li
     segments : sequence of Line or Arc
         As they were drawn.
     tolerance : float
-        Ends nearer than this become one point, their mean; shorter segments are left out.
+        Ends nearer than this become one point, their mean. Segments that are shorter are left out; a run of them, one
+        after the other as polylines and splines have them, becomes lines that are just longer.
     where : str
         For messages.
 
@@ -40,7 +41,7 @@ def chain(segments: Sequence[Segment], tolerance: float, where: str) -> tuple[li
     OpenSection
         If it is empty, or has a gap, a branch, or several curves; the message has the coordinates.
     """
-    segments = [s for s in segments if s.length > tolerance]
+    segments = _without_short(segments, tolerance)
     if not segments:
         raise OpenSection(
             "there is no line and no arc",
@@ -64,6 +65,23 @@ def chain(segments: Sequence[Segment], tolerance: float, where: str) -> tuple[li
     return _walked(segments, points, ends, degree)
 
 
+def _without_short(segments: Sequence[Segment], tolerance: float) -> list[Segment]:
+    """The segments with chords in place of runs of short ones, no farther from them than the tolerance."""
+    kept, start, end = list[Segment](), None, None
+    for segment in segments:
+        if segment.length > tolerance:
+            kept.append(segment)
+            start = None
+            continue
+        if start is None or end is None or math.dist(end, segment.start) > tolerance:
+            start = segment.start
+        end = segment.end
+        if math.dist(start, end) > tolerance:
+            kept.append(Line(start, end))
+            start = end
+    return kept
+
+
 def _points(segments: Sequence[Segment], tolerance: float) -> tuple[Floats, Ids]:
     """Points, and those at the start and the end of each segment."""
     at = np.array([end for segment in segments for end in (segment.start, segment.end)])
@@ -75,10 +93,14 @@ def _walked(segments: Sequence[Segment], points: Floats, ends: Ids, degree: Ids)
     """Segments in the order of a walk from a free end, or from the first one."""
     free = np.flatnonzero(degree == 1)
     at = int(free[0]) if len(free) else int(ends[0, 0])
-    left, walk = set(range(len(segments))), []
-    while left:
-        i = min(k for k in left if at in ends[k])
-        left.remove(i)
+    left, walk = [list[int]() for _ in points], list[Segment]()
+    for k in reversed(range(len(segments))):
+        for one in set(ends[k].tolist()):
+            left[one].append(k)
+    while left[at]:
+        i = left[at][-1]
+        for one in set(ends[i].tolist()):
+            left[one].remove(i)
         forward = ends[i, 0] == at
         segment = segments[i] if forward else segments[i].reversed()
         following = int(ends[i, 1] if forward else ends[i, 0])

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from itertools import combinations
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -37,7 +36,8 @@ def refuse_crossings(segments: Sequence[Segment], closed: bool, endless: tuple[b
     size = max(float(np.abs([segment.start, segment.end]).max()) for segment in segments)
     size = max(size, max((segment.radius for segment in segments if isinstance(segment, Arc)), default=0.0))
     last = len(segments) - 1
-    for (i, one), (k, other) in combinations(enumerate(segments), 2):
+    for i, k in _near(segments, endless, 1e3 * _TOUCH * size):
+        one, other = segments[i], segments[k]
         joints = [one.end] if k == i + 1 else []
         if closed and i == 0 and k == last:
             joints.append(one.start)
@@ -56,6 +56,25 @@ def refuse_crossings(segments: Sequence[Segment], closed: bool, endless: tuple[b
                     else "corners in another order",
                     remedy="give the corners in the order of a walk with the solid on the left",
                 )
+
+
+def _near(segments: Sequence[Segment], endless: tuple[bool, bool], reach: float) -> Iterator[tuple[int, int]]:
+    """Pairs of segments whose surrounding rectangles, made larger by a distance, overlap."""
+    ends = np.array([(segment.start, segment.end) for segment in segments], dtype=float)
+    beyond = np.array([[reach + _rise(segment)] for segment in segments])
+    low, high = ends.min(axis=1) - beyond, ends.max(axis=1) + beyond
+    for number in (k for k, goes_on in zip((0, -1), endless, strict=True) if goes_on):
+        low[number], high[number] = -np.inf, np.inf
+    for i in range(len(segments) - 1):
+        near = (low[i + 1 :] <= high[i]) & (high[i + 1 :] >= low[i])
+        yield from ((i, i + 1 + int(k)) for k in np.flatnonzero(near.all(axis=1)))
+
+
+def _rise(segment: Segment) -> float:
+    """Largest distance of a segment from the rectangle around its ends, or more."""
+    if isinstance(segment, Line):
+        return 0.0
+    return 2.0 * segment.radius if segment.angle > math.pi else segment.radius * (1.0 - math.cos(0.5 * segment.angle))
 
 
 def _meetings(one: Segment, other: Segment, size: float) -> list[Floats]:

@@ -64,9 +64,8 @@ def read_dxf(
             cause="another name of the unit",
             remedy="the unit of the model: unit='mm'",
         )
-    drawing = _drawing(path)
-    factor = ezdxf.units.conversion_factor(drawing.units, _UNITS[unit]) if drawing.units else 1.0
-    entities = list(_flat(drawing.modelspace()))
+    entities, number = _drawn(path)
+    factor = ezdxf.units.conversion_factor(number, _UNITS[unit]) if number else 1.0
     chosen = [entity for entity, own in entities if layer is None or own.lower() == layer.lower()]
     if not chosen and layer is not None:
         raise InvalidValue(
@@ -90,10 +89,10 @@ def layers_and_unit(path: str | Path) -> tuple[list[str], str]:
     FileProblem
         If the file cannot be read.
     """
-    drawing = _drawing(Path(path))
-    units = {number: name for name, number in _UNITS.items()}
-    unit = units.get(drawing.units, f"number {drawing.units}") if drawing.units else ""
-    return sorted({layer for _, layer in _flat(drawing.modelspace())}), unit
+    entities, number = _drawn(Path(path))
+    units = {value: name for name, value in _UNITS.items()}
+    unit = units.get(number, f"number {number}") if number else ""
+    return sorted({layer for _, layer in entities}), unit
 
 
 def write_dxf(path: str | Path, layers: Mapping[str, Sequence[Segment]]) -> Path:
@@ -137,10 +136,12 @@ def _draw(space: Any, segment: Segment, attributes: dict[str, str]) -> None:
         space.add_arc(segment.centre, segment.radius, first, last, **ways)
 
 
-def _drawing(path: Path) -> Any:
+def _drawn(path: Path) -> tuple[list[tuple[Any, str]], int]:
+    """Entities of the model space with their layers, and the number of the unit."""
     ezdxf = dxf_library("reading", "from_dxf")
     try:
-        return ezdxf.readfile(str(path))
+        drawing = ezdxf.readfile(str(path))
+        return list(_flat(drawing.modelspace())), drawing.units
     except Exception as error:  # ezdxf lets many kinds through on a broken file
         missing, why = not path.exists(), getattr(error, "strerror", None) or str(error)
         raise FileProblem(
@@ -194,9 +195,21 @@ def _flat(entities: Iterable[Any], outer: str | None = None) -> Iterator[tuple[A
 
 def _segments(entity: Any, curve_error: float, where: str) -> list[Segment]:
     """Lines and arcs of one entity."""
+    try:
+        return [] if entity.dxftype() in _IGNORED else _converted(entity, curve_error, where)
+    except ValueError as error:  # of ezdxf, such as a spline with too few knots
+        raise FileProblem(
+            f"this {entity.dxftype().lower()} of the drawing is broken",
+            where=where,
+            value=f"on the layer {entity.dxf.layer}",
+            cause=" ".join(str(error).split()),
+            remedy="draw it again, or put the section on a layer of its own and name it",
+        ) from error
+
+
+def _converted(entity: Any, curve_error: float, where: str) -> list[Segment]:
+    """Lines and arcs of an entity that a section may have."""
     kind = entity.dxftype()
-    if kind in _IGNORED:
-        return []
     if kind == "LINE":
         start, end = pair(entity.dxf.start), pair(entity.dxf.end)
         _check_level([entity.dxf.start, entity.dxf.end], curve_error, kind, where)

@@ -242,11 +242,11 @@ class Profile:
 
     def _check_joints(self) -> None:
         """Check that each segment starts where the previous one ends, and does not turn back there."""
-        count = len(self.segments)
+        count, size = len(self.segments), self.size
         for i in range(count if self.closed else count - 1):
             one, other = self.segments[i], self.segments[(i + 1) % count]
             where = f"end of segment {i} of a profile"
-            if np.hypot(*np.subtract(other.start, one.end)) > 1e-9 * self.size:
+            if np.hypot(*np.subtract(other.start, one.end)) > 1e-9 * size:
                 raise InvalidValue(
                     "segments of a profile must meet",
                     where=where,

@@ -182,6 +182,15 @@ def test_an_outline_on_a_layer_of_a_drawing(tmp_path):
         outline_of(tmp_path / "flange.csv", "EDGE")
 
 
+@pytest.mark.parametrize(("start", "end"), [((9.0, 0.0), (0.0, 9.0)), ((0.0, -9.0), (0.0, 9.0))])
+def test_an_outline_of_the_modelled_part(tmp_path, start, end):
+    """Half of it has its ends above each other: there is no solid below."""
+    path = write_dxf(tmp_path / "flange.dxf", {"EDGE": [Arc(start, end, (0.0, 0.0))]})
+    corners = outline_of(path)
+    assert np.hypot(*corners.T) == pytest.approx(9.0, abs=0.01)
+    np.testing.assert_allclose([corners[0], corners[-1]], [start, end], atol=1e-12)
+
+
 def test_an_outline_to_which_no_mesh_is_stretched_is_refused():
     disc = uf.mesh.disc(20.0, 1.0, (4, 6), part="quarter")
     edge = Edge.of(disc, [Mirror(0, 0.0), Mirror(1, 0.0)]).star

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 
 import numpy as np
 import pytest
@@ -198,6 +199,27 @@ def test_end_points_of_splines_may_coincide(draw):
     assert len(made.segments) < 40
 
 
+@pytest.mark.parametrize("radius", [0.2, 2.0])
+def test_segments_shorter_than_the_tolerance_do_not_open_a_curve(draw, radius):
+    """A fillet of pieces of 0.8 micrometres was left out, and the section open without a word."""
+    angle = np.linspace(0.0, 0.5 * np.pi, round(0.5 * np.pi * radius / 0.8e-3))
+    fillet = np.c_[10 - radius + radius * np.cos(angle), 5 - radius + radius * np.sin(angle)]
+    made = draw(lambda m, doc: m.add_lwpolyline([(0, 0), (10, 0), *fillet.tolist(), (0, 5)], close=True))
+    assert made.closed
+    assert made.area == pytest.approx(50 - (1 - np.pi / 4) * radius**2, abs=1e-3 * radius)
+    on = np.array([(x, 0.0, y) for x, y in fillet])
+    assert np.abs(Extruded(made).gap(on)[0]).max() < 1e-3
+
+
+def test_a_polyline_of_thousands_of_points_is_read_at_once(draw):
+    """All pairs of segments were tried: two minutes for 2000."""
+    angle = np.linspace(0.0, 2 * np.pi, 3001)[:-1]
+    begin = time.process_time()
+    made = draw(lambda m, doc: m.add_lwpolyline(np.c_[30 * np.cos(angle), 30 * np.sin(angle)].tolist(), close=True))
+    assert time.process_time() - begin < 30.0
+    assert made.area == pytest.approx(900 * np.pi, rel=1e-5)
+
+
 @pytest.mark.parametrize(
     ("add", "message"),
     [
@@ -242,6 +264,20 @@ def test_files_that_cannot_be_read(tmp_path):
     (tmp_path / "die.dxf").write_text("AC1032 no drawing")
     with pytest.raises(FileProblem, match="no DXF drawing"):
         Profile.from_dxf(tmp_path / "die.dxf")
+
+
+def _few_knots(m, doc):
+    spline = m.add_spline()
+    spline.control_points, spline.knots = [(0, 0, 0), (1, 1, 0), (2, 0, 0), (3, 1, 0)], [0, 0, 0, 1, 1, 1]
+
+
+@pytest.mark.parametrize(
+    ("add", "message"),
+    [(_few_knots, "this spline of the drawing is broken"), (lambda m, doc: m.add_blockref("GONE", (0, 0)), "GONE")],
+)
+def test_broken_drawings(draw, add, message):
+    with pytest.raises(FileProblem, match=message):
+        draw(add)
 
 
 def test_segments_keep_their_kind(draw):

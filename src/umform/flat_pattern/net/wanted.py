@@ -15,6 +15,8 @@ from umform.flat_pattern.net.star import Star
 from umform.flat_pattern.one_step import distance_to_outline
 from umform.spec.types import FARTHEST
 from umform.surfaces import Profile
+from umform.surfaces.chains import chain
+from umform.surfaces.dxf import read_dxf
 
 Floats = NDArray[np.float64]
 
@@ -101,7 +103,7 @@ def outline_of(path: str | Path, layer: str | None = None) -> Floats:
         If there is no such layer, or the file has no layers.
     """
     if Path(path).suffix.lower() == ".dxf":
-        return Profile.from_dxf(path, layer, tolerance=_CHORD).points(_CHORD)
+        return Profile(*chain(*read_dxf(path, layer, "mm", _CHORD), str(path))).points(_CHORD)  # a half has no solid
     if layer is not None:
         raise InvalidValue("only a drawing has layers", where=str(path), value=layer, remedy="leave the layer out")
     try:
