@@ -9,8 +9,10 @@ from umform.errors import FileProblem
 NOT_READ = {"INCLUDE", "SYSTEM", "NGEN", "NFILL", "NCOPY", "ELGEN", "ELCOPY"}
 
 
-def check_abaqus(path: Path) -> None:
-    """Reject the parts of the Abaqus language that meshio would read wrongly without saying so.
+def checked_abaqus(path: Path) -> str:
+    """The text of a file without its comments, at which meshio would end a list of nodes, elements or sets.
+
+    Rejects the other parts of the Abaqus language that meshio would read wrongly without saying so.
 
     These are generated or included nodes and elements, several lists of nodes (parts and assemblies), sets
     made of other sets, sets given in pieces, and element sets named on some ``*ELEMENT`` lines only.
@@ -68,6 +70,7 @@ def check_abaqus(path: Path) -> None:
             ", ".join(given),
             "ELSET must stand on all *ELEMENT lines, with different names, or on none",
         )
+    return "\n".join(line for line in lines if not line.lstrip().startswith("**")) + "\n"
 
 
 def _keyword(text: str) -> tuple[str, dict[str, str]]:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from umform.errors import FileProblem, WrongCellType
-from umform.io.abaqus import check_abaqus
+from umform.io.abaqus import checked_abaqus
 from umform.io.atomic import PendingFile
 from umform.io.cells import CELL_TYPES, cell_type, from_vtk, to_vtk
 from umform.io.checks import Fields, FloatArray, IntArray, check_ids, check_points, field_arrays
@@ -185,17 +185,17 @@ def read_by_meshio(path: Path) -> Any:
     FileProblem
         The file cannot be read, or not unambiguously.
     """
-    if path.suffix.lower() == ".inp":
-        check_abaqus(path)
+    text = checked_abaqus(path) if path.suffix.lower() == ".inp" else None
     with _quiet() as said:
         try:
-            mesh = meshio.read(path)
+            mesh = meshio.read(path) if text is None else meshio.read(io.StringIO(text), file_format="abaqus")
         except (Exception, SystemExit) as error:  # meshio raises arbitrary exceptions for a malformed file
             raise FileProblem(
                 "the mesh file cannot be read",
                 where=str(path),
                 cause=" ".join(said.getvalue().split()) or f"{type(error).__name__}: {error}",
-                remedy="check the path, the suffix and that another program can open the file",
+                remedy="check the path, the suffix and that another program can open the file"
+                + ("; save it in format 2 of Gmsh" if path.suffix.lower() == ".msh" else ""),
             ) from error
     # meshio keeps the number of the coordinate system of each Nastran point but does not transform the point
     if np.any(mesh.point_data.get("nastran:ref", 0)):

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from umform.errors import WrongCellType
+from umform.io.checks import check_points
 from umform.mesh.mesh import Floats, Mesh
 from umform.mesh.neighbours import Whole, outer_faces
 from umform.mesh.orient import orient
@@ -61,7 +62,7 @@ def read(path: str | Path, through: str | ArrayLike | None = None) -> Mesh:
         )
     raw = meshes.read_by_meshio(Path(path))
     hexahedra = _cells(raw, path, ("hexahedron", "hexahedron20", "hexahedron27"), 3, "hexahedra with 8, 20 or 27 nodes")
-    return orient(raw.points, hexahedra, _sets(raw, 3), through=through)
+    return orient(_three(raw.points, path), hexahedra, _sets(raw, 3), through=through)
 
 
 @takes(thicken, "points", "quads", "thickness", "sets")
@@ -95,7 +96,7 @@ def read_shell(path: str | Path, thickness: float | ArrayLike, **how: Any) -> Me
 
     raw = meshes.read_by_meshio(Path(path))
     quads = _cells(raw, path, ("quad", "quad8", "quad9"), 2, "quadrilaterals with 4, 8 or 9 nodes")
-    return thicken(_three(raw.points), quads, thickness, _sets(raw, 2), **how)
+    return thicken(_three(raw.points, path), quads, thickness, _sets(raw, 2), **how)
 
 
 def _cells(raw: Any, path: str | Path, known: tuple[str, ...], dimension: int, wanted: str) -> Whole:
@@ -129,7 +130,9 @@ def _sets(raw: Any, dimension: int) -> dict[str, Whole]:
     return sets
 
 
-def _three(points: Any) -> Floats:
-    """Positions with three coordinates: a flat mesh lies at z = 0."""
+def _three(points: Any, path: str | Path) -> Floats:
+    """Positions with three coordinates, all of them numbers: a flat mesh lies at z = 0."""
     X = np.asarray(points, dtype=float)
-    return X if X.shape[1] == 3 else np.column_stack([X, np.zeros((len(X), 3 - X.shape[1]))])
+    X = X if X.shape[1] == 3 else np.column_stack([X, np.zeros((len(X), 3 - X.shape[1]))])
+    check_points(X, str(path))
+    return X

@@ -169,6 +169,20 @@ def test_abaqus_sets_on_element_lines(file):
     }
 
 
+def test_abaqus_comments_among_the_data(file):
+    """meshio ends a list at a comment: cells and members of sets after it would be lost without a word."""
+    comment = "\n ** of the part 2\n**\n"
+    text = ABAQUS.replace("\n4, 0., 1.", f"{comment}4, 0., 1.").replace("\n7, 2", f"{comment}7, 2")
+    text = text.replace("14, 1, 4", f"14, 1{comment}4")
+    assert text.count(comment) == 3
+    whole, mesh = (read_mesh_arrays(file("a.inp", one)) for one in (ABAQUS, text))
+    np.testing.assert_array_equal(mesh.points, whole.points)
+    np.testing.assert_array_equal(mesh.cells["hex8"], whole.cells["hex8"])
+    assert {name: ids.tolist() for name, ids in mesh.point_sets.items()} == {
+        name: ids.tolist() for name, ids in whole.point_sets.items()
+    }
+
+
 @pytest.mark.parametrize(
     ("old", "new", "cause"),
     [

@@ -6,7 +6,7 @@ import meshio
 import numpy as np
 import pytest
 
-from umform.errors import InvalidValue, MeshError, WrongCellType
+from umform.errors import InvalidValue, MeshError, NotFinite, WrongCellType
 from umform.io.cells import HEX18, MIDDLE_TOLERANCE, to_vtk
 from umform.mesh import orient, read, read_shell, strip, thicken
 from umform.mesh.directions import CORNERS
@@ -251,3 +251,11 @@ def test_groups_of_cells_become_node_sets(tmp_path):
     nodes = np.unique(made.connectivity[:2])
     for through in (None, "z"):
         np.testing.assert_array_equal(read(tmp_path / "a.inp", through).nodes("first"), nodes)
+
+
+def test_points_that_are_no_numbers_are_named_with_their_file(tmp_path):
+    flat = [("quad", [[0, 1, 2, 3]])]
+    meshio.write(tmp_path / "a.vtu", meshio.Mesh([(0, 0, 0), (1, 0, 0), (np.nan, 1, 0), (0, 1, 0)], flat))
+    with pytest.raises(NotFinite, match="not finite") as caught:
+        read_shell(tmp_path / "a.vtu", 0.1)
+    assert caught.value.where == f"{tmp_path / 'a.vtu'}, point 2"
