@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue, MeshError
 from umform.mesh.blanks import order_of, stacked
+from umform.mesh.curves import Closed, check_curves, parts
 from umform.mesh.generators import Layers
 from umform.mesh.mesh import Floats, Mesh
 from umform.mesh.neighbours import Whole
@@ -24,23 +25,11 @@ from umform.spec.types import Positive
 #: Types of quadrilaterals and of triangles in gmsh, by the order of the nodes.
 _QUADS, _TRIANGLES = {1: 3, 2: 10}, (2, 9)
 _Point = tuple[float, float]
-#: Largest angle of an arc of the outline or of a hole that an element spans, and the growth of the sizes away from it.
+#: Largest angle of an arc of a curve that an element spans, and the growth of the sizes away from arcs and short lines.
 _SPAN, _GROWTH = math.radians(30.0), 0.5
 
 #: Largest number of meshes until sizes are met.
 _ROUNDS = 15
-
-
-class Closed(Protocol):
-    """A closed curve: :class:`umform.surfaces.Profile`."""
-
-    @property
-    def segments(self) -> Sequence[Any]:
-        """Lines and arcs, each starting where the one before has ended."""
-
-    @property
-    def closed(self) -> bool:
-        """Whether the end of the last one is the start of the first one."""
 
 
 @runtime_checkable
@@ -72,9 +61,10 @@ def blank(
     thickness : float
         Along z.
     size : float or callable
-        Length of the sides of elements, or a function (x, y) -> length. Near arcs it is smaller where an element would
-        span more than 30 degrees. gmsh misses sizes by a factor of up to 1.5 (it recombines triangles, then halves the
-        quadrilaterals); :class:`umform.surfaces.ToolSizes` are refined until the elements of the mesh meet them.
+        Length of the sides of elements, or a function (x, y) -> length. It is smaller where an element would span more
+        than 30 degrees of an arc, or be longer than a line or an arc of the outline or of a hole. gmsh misses sizes by
+        a factor of up to 1.5 (it recombines triangles, then halves the quadrilaterals);
+        :class:`umform.surfaces.ToolSizes` are refined until the elements of the mesh meet them.
     holes : sequence of Profile
         Closed curves inside of it.
     cell : {"hex8", "hex18"}
@@ -93,12 +83,13 @@ def blank(
     InvalidValue
         If a curve is open, a number is out of range, or gmsh is not installed.
     MeshError
-        If gmsh finds no mesh of quadrilaterals.
+        If curves meet, a hole lies outside of the outline or in another one, or gmsh finds no mesh of quadrilaterals.
     """
     check_arguments(blank, thickness=thickness, size=size, layers=layers)
     for curve in (outline, *holes):
         if not curve.closed:
             raise InvalidValue("the outline of a blank is closed", where="blank", remedy="Profile(..., closed=True)")
+    check_curves(outline, holes)
     for _ in range(_ROUNDS):
         made = _blank(outline, thickness, size, holes, cell, layers)
         if not isinstance(size, Refinable) or (smaller := size.refined(made)) is None:
@@ -121,8 +112,8 @@ def _blank(
         edges = [_loop(gmsh, curve) for curve in (outline, *holes)]
         gmsh.model.geo.addPlaneSurface([loop for loop, _ in edges])
         gmsh.model.geo.synchronize()
-        arcs = [part for curve in (outline, *holes) for part in curve.segments if hasattr(part, "centre")]
-        points, quads, ids = _meshed(gmsh, _Near(size, arcs), order)
+        segments = [segment for curve in (outline, *holes) for segment in curve.segments]
+        points, quads, ids = _meshed(gmsh, _Near(size, segments), order)
         on = {f"edge_{k}": _nodes_on(gmsh, tags, ids) for k, tags in enumerate(edges[0][1])}
         on["rim"] = np.any(list(on.values()), axis=0)
         for k, (_, tags) in enumerate(edges[1:]):
@@ -194,30 +185,26 @@ def _loop(gmsh: Any, curve: Closed) -> tuple[int, list[list[int]]]:
             tags.append([geo.addLine(corner(segment.start), corner(segment.end))])
             continue
         middle = geo.addPoint(*centre, 0.0)
-        ends = _parts(segment)
+        ends = parts(segment, 2.0 * math.pi / 3.0)
         tags.append([geo.addCircleArc(corner(a), middle, corner(b)) for a, b in pairwise(ends)])
     return geo.addCurveLoop([tag for parts in tags for tag in parts]), tags
 
 
-def _parts(arc: Any) -> list[Floats]:
-    """Ends of the parts of an arc, each of a third of a turn at most."""
-    centre, start = np.asarray(arc.centre, dtype=float), np.asarray(arc.start, dtype=float)
-    count = math.ceil(arc.angle / (2.0 * math.pi / 3.0) - 1e-9)
-    angles = math.atan2(*(start - centre)[::-1]) + arc.turn * arc.angle * np.arange(1, count) / count
-    between = [centre + arc.radius * np.array([math.cos(a), math.sin(a)]) for a in angles]
-    return [start, *between, np.asarray(arc.end, dtype=float)]
-
-
 class _Near:
-    """Sizes that follow the arcs of a blank."""
+    """Sizes that follow the lines and arcs of a blank: gmsh finds no mesh where a size is longer than its line."""
 
-    def __init__(self, size: float | Callable[[float, float], float], arcs: Sequence[Any]) -> None:
+    def __init__(self, size: float | Callable[[float, float], float], segments: Sequence[Any]) -> None:
         self._size = size
         self._arcs: list[tuple[float, float, float, _Point, _Point, float, float, float]] = [
             (float(arc.centre[0]), float(arc.centre[1]), float(arc.radius), _pair(arc.start), _pair(arc.end),
              math.atan2(arc.start[1] - arc.centre[1], arc.start[0] - arc.centre[0]), float(arc.turn), float(arc.angle))
-            for arc in arcs
+            for arc in segments
+            if hasattr(arc, "centre")
         ]  # fmt: skip
+        lines = [line for line in segments if not hasattr(line, "centre") and (callable(size) or line.length < size)]
+        self._starts = np.array([line.start for line in lines], dtype=float).reshape(-1, 2)
+        self._lengths = np.array([line.length for line in lines])
+        self._along = np.array([line.tangents()[0] for line in lines]).reshape(-1, 2)
 
     def __call__(self, x: float, y: float) -> float:
         """Size at a point."""
@@ -227,7 +214,12 @@ class _Near:
                 far = abs(math.hypot(x - cx, y - cy) - radius)
             else:
                 far = min(math.dist((x, y), start), math.dist((x, y), end))
-            size = min(size, _SPAN * radius + _GROWTH * far)
+            size = min(size, min(_SPAN, angle) * radius + _GROWTH * far)
+        if len(self._lengths):
+            away = np.array([x, y]) - self._starts
+            along = np.clip((away * self._along).sum(axis=1), 0.0, self._lengths)
+            far_off = np.hypot(*(away - along[:, None] * self._along).T)
+            size = min(size, float((self._lengths + _GROWTH * far_off).min()))
         return size
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import umform as uf
-from umform.errors import InvalidValue, WrongCellType
+from umform.errors import InvalidValue, MeshError, WrongCellType
 from umform.surfaces import Arc, Line
 
 pytest.importorskip("gmsh", reason="the extra mesh is not installed", exc_type=(ImportError, OSError))
@@ -86,6 +86,52 @@ def test_a_blank_can_be_drawn_on():
 def test_what_is_no_blank_is_refused(wrong):
     with pytest.raises((InvalidValue, WrongCellType)):
         uf.mesh.blank(**({"outline": OUTLINE, "thickness": 1.0, "size": 2.0} | wrong))
+
+
+@pytest.mark.parametrize(("x", "radius"), [(38.0, 3.0), (48.0, 3.0), (20.0, 5.0), (22.0, 5.0), (16.0, 10.0)])
+def test_curves_that_meet_are_refused(x, radius):
+    """gmsh searched for ever for a mesh around a hole that is there twice."""
+    with pytest.raises(MeshError, match="curves of the blank meet"):
+        uf.mesh.blank(OUTLINE, 1.0, 2.0, holes=[HOLE, uf.Profile.circle((x, 3.0 if x > 30 else 10.0), radius)])
+
+
+@pytest.mark.parametrize(
+    ("holes", "message"),
+    [
+        ([uf.Profile.circle((70.0, 10.0), 5.0)], "outside of the outline"),
+        ([uf.Profile.circle((20.0, 10.0), 200.0)], "outside of the outline"),
+        ([HOLE, uf.Profile.circle((20.0, 10.0), 2.0)], "in another one"),
+        ([uf.Profile.circle((20.0, 10.0), 2.0), HOLE], "in another one"),
+    ],
+)
+def test_holes_lie_side_by_side_in_the_outline(holes, message):
+    """A hole around the outline gave a blank that was the metal between them."""
+    with pytest.raises(MeshError, match=message):
+        uf.mesh.blank(OUTLINE, 1.0, 2.0, holes=holes)
+
+
+def test_holes_may_have_sides_on_one_line():
+    square = [(5.0, 5.0), (9.0, 5.0), (9.0, 9.0), (5.0, 9.0)]
+    beside = [uf.Profile.from_corners([(x + step, y) for x, y in square]) for step in (0.0, 6.0, 12.0)]
+    blank = uf.mesh.blank(OUTLINE, 1.0, 2.0, holes=beside)
+    assert _area(blank).sum() == pytest.approx(800 + 50 * np.pi - 48, rel=0.01)
+
+
+@pytest.mark.parametrize("length", [3.0, 0.5, 0.01])
+@pytest.mark.parametrize("size", [6.0, lambda x, y: 6.0], ids=["number", "function"])
+def test_lines_and_arcs_may_be_shorter_than_elements(length, size):
+    """gmsh found no mesh where a line was shorter than half of the size."""
+    corners = [(0.0, 0.0), (40.0, 0.0), (40.0, length), (40.0 + length, length), (40.0 + length, 20.0), (0.0, 20.0)]
+    blank = uf.mesh.blank(uf.Profile.from_corners(corners, [0.0, 0.0, 0.0, 0.0, 0.1 * length, 0.0]), 1.0, size)
+    assert _area(blank).sum() == pytest.approx(800 + length * (20 - length), rel=1e-3)
+    assert {blank.nodes(f"edge_{k}").size for k in (1, 2)} == {6}
+
+
+def test_a_polyline_of_short_lines_is_a_blank():
+    turn = np.linspace(0.0, 2 * np.pi, 121)[:-1]
+    outline = uf.Profile.from_corners(np.c_[30 * np.cos(turn), 20 * np.sin(turn)].tolist())
+    blank = uf.mesh.blank(outline, 1.0, 5.0)
+    assert _area(blank).sum() == pytest.approx(outline.area, rel=1e-9)
 
 
 _TO_NOBODY = """

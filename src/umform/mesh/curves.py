@@ -1,0 +1,108 @@
+"""Closed curves of a blank as polygons: whether they meet, and which lie inside of which."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import combinations
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import MeshError
+
+Floats = NDArray[np.float64]
+
+#: Angle of the chords in place of arcs.
+_CHORD = math.radians(2.0)
+
+
+class Closed(Protocol):
+    """A closed curve: :class:`umform.surfaces.Profile`."""
+
+    @property
+    def segments(self) -> Sequence[Any]:
+        """Lines and arcs, each starting where the one before has ended."""
+
+    @property
+    def closed(self) -> bool:
+        """Whether the end of the last one is the start of the first one."""
+
+
+def parts(arc: Any, largest: float) -> list[Floats]:
+    """Ends of the equal parts of an arc, each of at most an angle."""
+    centre, start = np.asarray(arc.centre, dtype=float), np.asarray(arc.start, dtype=float)
+    count = math.ceil(arc.angle / largest - 1e-9)
+    angles = math.atan2(*(start - centre)[::-1]) + arc.turn * arc.angle * np.arange(1, count) / count
+    between = [centre + arc.radius * np.array([math.cos(a), math.sin(a)]) for a in angles]
+    return [start, *between, np.asarray(arc.end, dtype=float)]
+
+
+def check_curves(outline: Closed, holes: Sequence[Closed]) -> None:
+    """Refuse curves that meet, and holes that do not lie side by side in the outline.
+
+    Raises
+    ------
+    MeshError
+        With the curves and the place; gmsh would search for ever, or mesh another region.
+    """
+    curves = {"the outline": _polygon(outline)} | {f"hole {k}": _polygon(hole) for k, hole in enumerate(holes)}
+    for (name, one), (other_name, other) in combinations(curves.items(), 2):
+        if (at := _meeting(one, other)) is not None:
+            raise MeshError(
+                "curves of the blank meet",
+                where="blank",
+                value=f"{name} and {other_name} at ({at[0]:.6g}, {at[1]:.6g})",
+                cause="a hole that is there twice, or that reaches the edge",
+                remedy="each hole once; a notch is part of the outline, and holes that overlap are one",
+            )
+        outer = name == "the outline"
+        if _inside(one, other[0]) != outer or (not outer and _inside(other, one[0])):
+            raise MeshError(
+                "a hole lies outside of the outline" if outer else "a hole lies in another one",
+                where="blank",
+                value=other_name if outer else f"{name} and {other_name}",
+                cause="another unit or origin, or another curve as the outline" if outer else "an outline among holes",
+                remedy="holes side by side inside of the outline",
+            )
+
+
+def _polygon(curve: Closed) -> Floats:
+    corners = [
+        corner
+        for segment in curve.segments
+        for corner in (parts(segment, _CHORD)[:-1] if hasattr(segment, "centre") else [segment.start])
+    ]
+    return np.array(corners, dtype=float)
+
+
+def _meeting(one: Floats, other: Floats) -> Floats | None:
+    """A common point of two polygons."""
+    (p, q), (r, s) = ((x, np.roll(x, -1, axis=0)) for x in (one, other))
+    near = (np.minimum(p, q) <= other.max(axis=0)) & (np.maximum(p, q) >= other.min(axis=0))
+    p, q = p[near.all(axis=1)], q[near.all(axis=1)]
+    overlap = (np.minimum(p, q)[:, None] <= np.maximum(r, s)) & (np.maximum(p, q)[:, None] >= np.minimum(r, s))
+    i, k = np.nonzero(overlap.all(axis=2))
+    p, q, r, s = p[i], q[i], r[k], s[k]
+    first, last = _side(r, s, p), _side(r, s, q)
+    hit = np.flatnonzero((first * last <= 0.0) & (_side(p, q, r) * _side(p, q, s) <= 0.0))
+    if not len(hit):
+        return None
+    n = hit[0]
+    share = first[n] / (first[n] - last[n]) if first[n] != last[n] else 0.0
+    return np.asarray(p[n] + share * (q[n] - p[n]))
+
+
+def _side(start: Floats, end: Floats, x: Floats) -> Floats:
+    """Twice the area of a triangle, positive if x is on the left of the way from start to end."""
+    a, b = end - start, x - start
+    return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
+
+
+def _inside(polygon: Floats, x: Floats) -> bool:
+    """Whether a ray from a point along x leaves a polygon."""
+    p, q = polygon, np.roll(polygon, -1, axis=0)
+    crossed = (p[:, 1] > x[1]) != (q[:, 1] > x[1])
+    p, q = p[crossed], q[crossed]
+    return bool(((_side(p, q, x) > 0.0) == (q[:, 1] > p[:, 1])).sum() % 2)
