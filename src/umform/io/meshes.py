@@ -165,7 +165,7 @@ def write_mesh_arrays(
         point_data={name: grid.complete(field) for name, field in point_fields.items()},
         cell_data={name: [field] for name, field in cell_fields.items()},
     )
-    with PendingFile(path) as temporary, _quiet():
+    with PendingFile(path) as temporary, quiet():
         try:
             meshio.write(temporary, mesh, file_format=WRITERS[suffix])
         except meshio.WriteError as error:
@@ -186,7 +186,7 @@ def read_by_meshio(path: Path) -> Any:
         The file cannot be read, or not unambiguously.
     """
     text = checked_abaqus(path) if path.suffix.lower() == ".inp" else None
-    with _quiet() as said:
+    with quiet() as said:
         try:
             mesh = meshio.read(path) if text is None else meshio.read(io.StringIO(text), file_format="abaqus")
         except (Exception, SystemExit) as error:  # meshio raises arbitrary exceptions for a malformed file
@@ -208,7 +208,7 @@ def read_by_meshio(path: Path) -> Any:
 
 
 @contextlib.contextmanager
-def _quiet() -> Iterator[io.StringIO]:
+def quiet() -> Iterator[io.StringIO]:
     """Keep meshio off the console: its output is collected and logged."""
     said = io.StringIO()
     with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said), warnings.catch_warnings():

@@ -95,7 +95,9 @@ def _write_triangles(surface: Triangles, path: Path, box: Box3) -> Path:
         )
     import meshio  # slow to import
 
+    from umform.io.meshes import quiet  # slow to import
+
     options = {"binary": True} if path.suffix.lower() == ".stl" else {}
-    with PendingFile(path) as temporary:
+    with PendingFile(path) as temporary, quiet():  # it prints warnings
         meshio.write(temporary, meshio.Mesh(surface.points, [("triangle", surface.triangles)]), **options)
     return path

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
 from pathlib import Path
 
 import numpy as np
@@ -69,6 +67,8 @@ def read_stl(path: str | Path, weld: float = 0.0, scale: float = 1.0) -> Triangl
 def _read(path: Path) -> tuple[Floats, Ids]:
     import meshio  # slow to import
 
+    from umform.io.meshes import quiet  # slow to import
+
     if not path.exists():
         raise FileProblem(
             "there is no such file",
@@ -76,19 +76,31 @@ def _read(path: Path) -> tuple[Floats, Ids]:
             cause="another name or folder; in a deck the path begins at its folder",
             remedy="give the path of an STL file",
         )
-    try:
-        with np.errstate(over="ignore"), contextlib.redirect_stdout(io.StringIO()):  # it prints warnings
+    with np.errstate(over="ignore"), quiet() as said:
+        try:
             made = meshio.read(path, file_format="stl")
-        triangles = [block.data for block in made.cells if block.type == "triangle"]
-    except (Exception, SystemExit) as error:  # meshio raises errors of any kind, and may exit
-        raise FileProblem(
-            "this is no STL file that can be read",
-            where=str(path),
-            cause=f"{type(error).__name__}: {' '.join(str(error).split())}",
-            remedy="export the surface as binary STL again",
-        ) from error
+            triangles = [block.data for block in made.cells if block.type == "triangle"]
+        except (Exception, SystemExit) as error:  # meshio raises errors of any kind, and may exit
+            raise FileProblem(
+                "this is no STL file that can be read",
+                where=str(path),
+                cause=_not_whole(path)
+                or " ".join(said.getvalue().split())
+                or f"{type(error).__name__}: {' '.join(str(error).split())}",
+                remedy="export the surface as binary STL again",
+            ) from error
     ids = np.vstack(triangles).astype(np.int64) if triangles else np.empty((0, 3), dtype=np.int64)
     return np.asarray(made.points, dtype=float), ids
+
+
+def _not_whole(path: Path) -> str:
+    """What is wrong with the size of a binary file; nothing of a text, or where the size is right."""
+    if not path.is_file() or (head := path.read_bytes()[:84]).lstrip()[:5].lower() == b"solid" or len(head) < 84:
+        return ""
+    count, size = int.from_bytes(head[80:], "little"), path.stat().st_size
+    whole = 84 + 50 * count
+    why = "it was cut off, or is of another kind" if size < whole else "there is more behind them"
+    return "" if size == whole else f"it has {size} bytes, and its {count} triangles need {whole}: {why}"
 
 
 def welded(points: Floats, triangles: Ids, near: float) -> tuple[Triangles, NDArray[np.bool_]]:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import meshio
 import numpy as np
 import pytest
 from formed_parts import cylinder, grid
 
 import umform as uf
-from umform.errors import FileProblem, InvalidValue, NoConvergence, UnfitTriangles
+from umform.errors import FileProblem, InvalidValue, NoConvergence, NotFinite, UnfitTriangles
 from umform.flat_pattern.one_step.part import sheet_of
 from umform_book.drawing.revolved import cup, disc
 
@@ -141,9 +142,29 @@ def test_a_part_that_cannot_be_read_so(given, where):
     assert error.value.where == where
 
 
-def test_files_that_cannot_be_read(tmp_path):
+def test_files_that_cannot_be_read(tmp_path, capfd):
     (tmp_path / "part.vtk").write_text("nothing")
-    with pytest.raises(FileProblem):
+    with pytest.raises(FileProblem) as error:
         uf.blank(tmp_path / "part.vtk", uf.Blank(STEEL, 1.0))
+    assert "Illegal VTK header" in error.value.cause
+    assert capfd.readouterr() == ("", "")
     with pytest.raises(FileProblem):
         uf.blank(tmp_path / "missing.stl", uf.Blank(STEEL, 1.0))
+
+
+def test_points_and_corners_of_arrays_are_checked():
+    points, triangles = cylinder()
+    with pytest.raises(NotFinite) as error:
+        uf.blank((np.where(np.arange(len(points))[:, None] == 7, np.nan, points), triangles), uf.Blank(STEEL, 1.0))
+    assert error.value.where == "part, point 7"
+    with pytest.raises(InvalidValue, match="points that do not exist"):
+        uf.blank((points, triangles + 1), uf.Blank(STEEL, 1.0))
+
+
+def test_a_node_that_no_triangle_has_does_not_count(tmp_path):
+    """One of reference far away made all others one point."""
+    points, triangles = cylinder()
+    mesh = meshio.Mesh(np.concatenate([points, [[1e9, 0, 0]]]), [("triangle", triangles)])
+    meshio.write(tmp_path / "part.vtk", mesh)
+    found, plain = (uf.blank(part, uf.Blank(STEEL, 1.0)) for part in (tmp_path / "part.vtk", (points, triangles)))
+    assert found["length"].value == pytest.approx(plain["length"].value, rel=1e-9)

@@ -259,6 +259,18 @@ def test_files_that_cannot_be_read(tmp_path):
         Triangulated.from_stl(tmp_path / "text.stl")
 
 
+@pytest.mark.parametrize(
+    ("change", "why"), [(lambda data: data[:-60], "it was cut off"), (lambda data: data + b"a", "there is more behind")]
+)
+def test_a_file_of_another_size_than_that_of_its_triangles_says_so(tmp_path, capfd, change, why):
+    ball = write_tool(Sphere((0, 0, 0), 3), tmp_path / "ball.stl", box=((-4, -4, -4), (4, 4, 4)), chord=0.2)
+    ball.write_bytes(change(ball.read_bytes()))
+    with pytest.raises(FileProblem, match=why):
+        Triangulated.from_stl(ball)
+    write_tool(Sphere((0, 0, 0), 3), tmp_path / "ball.ply", box=((-4, -4, -4), (4, 4, 4)), chord=0.2)
+    assert capfd.readouterr() == ("", "")
+
+
 # Refusals ----------------------------------------------------------------------------------------------------
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
 import math
 from pathlib import Path
 
@@ -11,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import FileProblem, InvalidValue
+from umform.io.checks import check_ids, check_points
 from umform.mesh import Mesh
 from umform.spec import check_value
 from umform.spec.types import Length, NotNegative, Positive
@@ -53,7 +52,7 @@ def surface_of(
     Raises
     ------
     InvalidValue
-        If a number is none, or the size asks for far too many triangles.
+        If a number is none, a triangle has a point that does not exist, or the size asks for far too many triangles.
     FileProblem
         If the file cannot be read, or has no triangles.
     """
@@ -62,7 +61,7 @@ def surface_of(
     if isinstance(part, Triangles):
         made = part
     elif isinstance(part, tuple):
-        made = Triangles(np.asarray(part[0], dtype=float), np.asarray(part[1], dtype=np.int64))
+        made = _of_arrays(np.asarray(part[0], dtype=float), np.asarray(part[1], dtype=np.int64), "part")
     else:
         path = Path(part)
         kind = path.suffix.lower()
@@ -111,18 +110,9 @@ def _of_cad(path: Path, scale: float, weld: float) -> Triangles:
 
 
 def _of_mesh(path: Path, scale: float, weld: float) -> Triangles:
-    import meshio  # slow to import
+    from umform.io.meshes import read_by_meshio  # slow to import
 
-    try:
-        with contextlib.redirect_stdout(io.StringIO()):  # it prints warnings
-            mesh = meshio.read(path)
-    except (Exception, SystemExit) as error:  # meshio raises errors of any kind, and may exit
-        raise FileProblem(
-            "the part cannot be read",
-            where=str(path),
-            cause=f"{type(error).__name__}: {' '.join(str(error).split())}"[:200],
-            remedy="an STL file, a STEP file, or a mesh of triangles or quadrilaterals that meshio knows",
-        ) from error
+    mesh = read_by_meshio(path)
     cells = [np.asarray(block.data) for block in mesh.cells if block.type in ("triangle", "quad")]
     if not cells:
         raise FileProblem(
@@ -135,8 +125,17 @@ def _of_mesh(path: Path, scale: float, weld: float) -> Triangles:
     points = np.zeros((len(mesh.points), 3))
     points[:, : mesh.points.shape[1]] = scale * mesh.points
     triangles = np.concatenate([_halves(block) for block in cells]).astype(np.int64)
-    size = float(np.ptp(points, axis=0).max())
-    return welded(points, triangles, weld or _WELD * size)[0]
+    made = _of_arrays(points, triangles, str(path))
+    size = float(np.ptp(made.points, axis=0).max())
+    return welded(made.points, made.triangles, weld or _WELD * size)[0]
+
+
+def _of_arrays(points: Floats, triangles: NDArray[np.int64], where: str) -> Triangles:
+    """Triangles with their points, of which a file may have others, such as a node of reference far away."""
+    check_ids(triangles, len(points), where)
+    used, ids = np.unique(triangles, return_inverse=True)
+    check_points(points[used], where)
+    return Triangles(points[used], ids.reshape(triangles.shape).astype(np.int64))
 
 
 def _halves(cells: NDArray[np.integer]) -> NDArray[np.integer]:
