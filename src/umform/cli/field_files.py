@@ -13,7 +13,7 @@ def file_of_fields(path: Path) -> Path:
     Raises
     ------
     FileProblem
-        If there is none.
+        If there is none, or it is damaged.
     """
     from umform.errors import FileProblem
 
@@ -27,6 +27,8 @@ def file_of_fields(path: Path) -> Path:
         )
     import h5py
 
+    from umform.io.trees import opened
+
     if not h5py.is_hdf5(file):
         raise FileProblem(
             "this is no file of fields",
@@ -34,7 +36,7 @@ def file_of_fields(path: Path) -> Path:
             cause="another ending, as that of a table",
             remedy="give a file that ends in .vtkhdf",
         )
-    with h5py.File(file) as content:
+    with opened(file) as content:
         if "VTKHDF" not in content:
             raise FileProblem(
                 "this HDF5 file holds no VTKHDF",

@@ -95,13 +95,35 @@ def read_tree(path: str | os.PathLike[str], kind: str, *, part: str | None = Non
 
 
 def kind_of(path: str | os.PathLike[str]) -> str:
-    """What a tree in a file is; empty if the file has none."""
+    """What a tree in a file is; empty if the file has none.
+
+    Raises
+    ------
+    FileProblem
+        It is an HDF5 file that is damaged.
+    """
     import h5py
 
     if not h5py.is_hdf5(path):
         return ""
-    with h5py.File(path, "r") as file:
+    with opened(path) as file:
         return str(file.attrs.get("kind", ""))
+
+
+def opened(path: str | os.PathLike[str]) -> h5py.File:
+    """An HDF5 file, open for reading.
+
+    Raises
+    ------
+    FileProblem
+        It is damaged; HDF5 does not name the file.
+    """
+    import h5py
+
+    try:
+        return h5py.File(Path(path), "r")
+    except OSError as error:
+        raise _problem(path, "this HDF5 file is damaged", f"it was cut short: {error}") from error
 
 
 def _problem(path: str | os.PathLike[str], what: str, cause: str) -> FileProblem:

@@ -140,6 +140,16 @@ def test_what_is_wrong_is_one_message_and_no_file(here, words, said):
     assert not new_files(here)
 
 
+@pytest.mark.parametrize(("file", "words"), [("state.h5", []), ("fields.vtkhdf", ["--to", "vtu"])])
+def test_a_file_that_was_cut_short_is_named(here, file, words):
+    """HDF5 says why, but of which file it does not say."""
+    data = (here / "results/bend" / file).read_bytes()
+    (here / file).write_bytes(data[: len(data) // 2])
+    said = umform("export", file, *words, "--out", "bend.vtu" if words else "bend.k").stderr
+    assert "this HDF5 file is damaged" in said and f"where:  {file}" in said and "truncated" in said
+    assert not new_files(here)
+
+
 def test_a_file_is_not_overwritten_unasked(here):
     assert umform("export", "results/bend").exit_code == 0
     (here / "bend.k").write_text("mine")
