@@ -195,7 +195,7 @@ def read_by_meshio(path: Path) -> Any:
                 where=str(path),
                 cause=" ".join(said.getvalue().split()) or f"{type(error).__name__}: {error}",
                 remedy="check the path, the suffix and that another program can open the file"
-                + ("; save it in format 2 of Gmsh" if path.suffix.lower() == ".msh" else ""),
+                + ("; save it in format 2 of Gmsh" if path.suffix.lower() == ".msh" and path.is_file() else ""),
             ) from error
     # meshio keeps the number of the coordinate system of each Nastran point but does not transform the point
     if np.any(mesh.point_data.get("nastran:ref", 0)):

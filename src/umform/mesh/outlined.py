@@ -86,9 +86,15 @@ def blank(
         If curves meet, a hole lies outside of the outline or in another one, or gmsh finds no mesh of quadrilaterals.
     """
     check_arguments(blank, thickness=thickness, size=size, layers=layers)
-    for curve in (outline, *holes):
+    for k, curve in enumerate((outline, *holes)):
         if not curve.closed:
-            raise InvalidValue("the outline of a blank is closed", where="blank", remedy="Profile(..., closed=True)")
+            raise InvalidValue(
+                "the outline of a blank and its holes are closed",
+                where="blank",
+                value=f"hole {k - 1}" if k else "the outline",
+                cause="closed = false, or a drawing whose ends do not meet",
+                remedy="let the last line end where the first one begins",
+            )
     check_curves(outline, holes)
     for _ in range(_ROUNDS):
         made = _blank(outline, thickness, size, holes, cell, layers)

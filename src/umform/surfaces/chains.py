@@ -41,7 +41,15 @@ def chain(segments: Sequence[Segment], tolerance: float, where: str) -> tuple[li
     OpenSection
         If it is empty, or has a gap, a branch, or several curves; the message has the coordinates.
     """
-    segments = _without_short(segments, tolerance)
+    drawn, segments = segments, _without_short(segments, tolerance)
+    if drawn and not segments:
+        raise OpenSection(
+            "all lines and arcs are shorter than the tolerance",
+            where=where,
+            value=f"up to {max(segment.length for segment in drawn):.3g}, the tolerance is {tolerance:.3g}",
+            cause="a drawing without its unit, or in another one than it says",
+            remedy="the right unit in the drawing, or a smaller tolerance",
+        )
     if not segments:
         raise OpenSection(
             "there is no line and no arc",

@@ -88,6 +88,12 @@ def test_what_is_no_blank_is_refused(wrong):
         uf.mesh.blank(**({"outline": OUTLINE, "thickness": 1.0, "size": 2.0} | wrong))
 
 
+def test_an_open_curve_is_named():
+    with pytest.raises(InvalidValue, match="closed") as caught:
+        uf.mesh.blank(OUTLINE, 1.0, 2.0, holes=[HOLE, uf.Profile([Line((0.0, 0.0), (1.0, 0.0))], closed=False)])
+    assert caught.value.value == "hole 1"
+
+
 @pytest.mark.parametrize(("x", "radius"), [(38.0, 3.0), (48.0, 3.0), (20.0, 5.0), (22.0, 5.0), (16.0, 10.0)])
 def test_curves_that_meet_are_refused(x, radius):
     """gmsh searched for ever for a mesh around a hole that is there twice."""

@@ -224,6 +224,7 @@ def test_a_polyline_of_thousands_of_points_is_read_at_once(draw):
     ("add", "message"),
     [
         (lambda m, doc: m.add_text("nothing"), "no line and no arc"),
+        (lambda m, doc: m.add_circle((0, 0), 1e-4), r"shorter than the tolerance(.*\n)*.*up to 0.000628"),
         (
             lambda m, doc: [m.add_line((0, 0), end) for end in ((1, 0), (0, 1), (-1, 0))],
             r"more than two ends.*\n.*\n.*\(0, 0\)",
