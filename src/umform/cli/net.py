@@ -25,7 +25,7 @@ def net(
     ] = None,
     outline_layer: Annotated[str | None, option("Layer of this drawing with the outline.", _WANTED)] = None,
     height: Annotated[
-        float | None, option("Height of the edge over the bottom in mm, both on the mid-surface: of a cup.", _WANTED)
+        float | None, option("Height of the edge over the bottom, both on the mid-surface: of a cup.", _WANTED)
     ] = None,
     corrections: Annotated[int, option("Number of corrections, each with its run.", _BLANK)] = 2,
     first: Annotated[
@@ -50,6 +50,7 @@ def net(
     from umform.flat_pattern.net.wanted import outline_of
     from umform.io.folders import chosen_folder
     from umform.problem import running
+    from umform.problem.named_units import length_of
 
     print_warnings_once()
     if (outline is None) == (height is None):
@@ -69,14 +70,15 @@ def net(
     with deck_errors("height", "corrections", "first", wanted="--outline"):
         loaded = read(deck, changes or (), trust)
         running.refuse_implausible(loaded, loaded.build(), force=force)
-        wanted = height if outline is None else outline_of(outline, outline_layer)
+        unit = length_of(loaded)
+        wanted = height if outline is None else outline_of(outline, outline_layer, unit)
         assert wanted is not None
         found = net_blank(
             loaded,
             wanted,
             names(stem)["mesh"],
             corrections=corrections,
-            first=None if first is None else outline_of(first, first_layer),
+            first=None if first is None else outline_of(first, first_layer, unit),
         )
     files = write_files(place, stem, found)
     with printing(f"the files of the blank are in {place}"):

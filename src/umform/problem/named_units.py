@@ -10,9 +10,8 @@ from umform.problem.lines import Path
 from umform.problem.material import FromLibrary
 from umform.problem.problem import Problem
 from umform.surfaces import Drawing
+from umform.surfaces.dxf import MILLIMETRE
 
-#: Names of units of length, and a millimetre in each of them.
-_MILLIMETRE = {"mm": 1.0, "cm": 0.1, "m": 1e-3, "um": 1e3, "in": 1.0 / 25.4, "ft": 1.0 / 304.8}
 #: Other names of the inch.
 _INCH = dict.fromkeys(("inch", "inches"), "in")
 #: Names of units of force, and a newton in each of them.
@@ -24,18 +23,18 @@ _PROFILES, _LIST = ("profile", "outline", "line"), "holes"
 def named_units(deck: Problem) -> Iterator[Finding]:
     """Warn of drawings, and of a metal of the library, that are read in other units than those of `[units]`."""
     named, force = deck.contents.units.length, deck.contents.units.force
-    length = _INCH.get(named or "", named)
+    length = _INCH.get(named, named)
     if isinstance(deck.contents.material, FromLibrary):
-        newton, millimetre = _NEWTON.get(force or "N"), _MILLIMETRE.get(length or "mm")
+        newton, millimetre = _NEWTON.get(force or "N"), MILLIMETRE.get(length or "mm")
         if newton and millimetre and abs(newton / millimetre**2 - 1.0) > 1e-3:
             both = " and ".join(filter(None, [named, force]))
             text = f"the library has MPa, which is N and mm, and [units] names {both}"
             yield warning("units", text, 'length = "mm" and force = "N", or the law with its numbers in other units')
-    if length not in _MILLIMETRE:
+    if length not in MILLIMETRE:
         return
     for name, part in deck.contents.tools.items():
         if isinstance(part.tool, Drawing) and not part.tool.file.lower().endswith(".stl"):
-            scale = _MILLIMETRE[length]
+            scale = MILLIMETRE[length]
             if abs(part.tool.scale / scale - 1.0) > 1e-3:
                 text = f"its drawing is read in mm times {part.tool.scale:g}, and [units] names {named}"
                 yield warning(f"tool {name}", text, f"scale = {scale:.6g}")
@@ -43,6 +42,13 @@ def named_units(deck: Problem) -> Iterator[Finding]:
         if unit != length:
             text = f"its drawing is converted to {unit}, and [units] names {named}"
             yield warning(".".join(map(str, path)), text, f'unit = "{length}" beside file')
+
+
+def length_of(deck: Problem) -> str:
+    """Unit of the lengths of a deck as drawings name it: mm where it names none, or one that they do not know."""
+    named = deck.contents.units.length
+    length = _INCH.get(named, named)
+    return length if length in MILLIMETRE else "mm"
 
 
 def _drawn(data: Any, path: Path = ()) -> Iterator[tuple[Path, str]]:

@@ -19,8 +19,9 @@ from umform.surfaces.segments import Arc, Floats, Line, Segment
 
 #: Entities that may accompany the section and are ignored.
 _IGNORED = {"TEXT", "MTEXT", "DIMENSION", "LEADER", "MULTILEADER", "MLEADER", "POINT", "HATCH", "ATTDEF", "VIEWPORT"}
-#: Names of the units of a drawing, by their number in the header.
-_UNITS = {"in": 1, "ft": 2, "mm": 4, "cm": 5, "m": 6, "um": 13}
+#: Numbers in the header of a drawing by the names of its units, and a millimetre in each of them.
+UNITS = {"in": 1, "ft": 2, "mm": 4, "cm": 5, "m": 6, "um": 13}
+MILLIMETRE = {"in": 1.0 / 25.4, "ft": 1.0 / 304.8, "mm": 1.0, "cm": 0.1, "m": 1e-3, "um": 1e3}
 #: Largest distance in mm of arcs from the curves in their place, and of ends that are one point, where none is given.
 _TOLERANCE = 1e-3
 #: A direction normal to the drawing plane.
@@ -56,16 +57,9 @@ def read_dxf(
     """
     ezdxf = dxf_library("reading", "from_dxf")
     path = Path(path)
-    if unit not in _UNITS:
-        raise InvalidValue(
-            "a unit is one of " + ", ".join(_UNITS),
-            where="from_dxf",
-            value=unit,
-            cause="another name of the unit",
-            remedy="the unit of the model: unit='mm'",
-        )
+    check_unit(unit, "from_dxf")
     entities, number = _drawn(path)
-    factor = ezdxf.units.conversion_factor(number, _UNITS[unit]) if number else 1.0
+    factor = ezdxf.units.conversion_factor(number, UNITS[unit]) if number else 1.0
     chosen = [entity for entity, own in entities if layer is None or own.lower() == layer.lower()]
     if not chosen and layer is not None:
         raise InvalidValue(
@@ -76,9 +70,21 @@ def read_dxf(
             remedy="layers with something on them: " + ", ".join(sorted({own for _, own in entities})),
         )
     if tolerance is None:
-        tolerance = _TOLERANCE * ezdxf.units.conversion_factor(_UNITS["mm"], _UNITS[unit])
+        tolerance = _TOLERANCE * MILLIMETRE[unit]
     segments = [s for entity in chosen for s in _segments(entity, tolerance / factor, str(path))]
     return [_scaled(segment, factor) for segment in segments], tolerance
+
+
+def check_unit(unit: str, where: str) -> None:
+    """Refuse a unit of length that drawings do not know."""
+    if unit not in UNITS:
+        raise InvalidValue(
+            "a unit is one of " + ", ".join(UNITS),
+            where=where,
+            value=unit,
+            cause="another name of the unit",
+            remedy="the unit of the model: unit='mm'",
+        )
 
 
 def layers_and_unit(path: str | Path) -> tuple[list[str], str]:
@@ -90,13 +96,13 @@ def layers_and_unit(path: str | Path) -> tuple[list[str], str]:
         If the file cannot be read.
     """
     entities, number = _drawn(Path(path))
-    units = {value: name for name, value in _UNITS.items()}
+    units = {value: name for name, value in UNITS.items()}
     unit = units.get(number, f"number {number}") if number else ""
     return sorted({layer for _, layer in entities}), unit
 
 
-def write_dxf(path: str | Path, layers: Mapping[str, Sequence[Segment]]) -> Path:
-    """Write lines and arcs as they are, in mm.
+def write_dxf(path: str | Path, layers: Mapping[str, Sequence[Segment]], unit: str = "mm") -> Path:
+    """Write lines and arcs as they are.
 
     Parameters
     ----------
@@ -104,6 +110,8 @@ def write_dxf(path: str | Path, layers: Mapping[str, Sequence[Segment]]) -> Path
         The drawing.
     layers : mapping of str to sequence of Line or Arc
         What lies on each layer.
+    unit : str
+        Their unit, which the drawing names.
 
     Raises
     ------
@@ -111,7 +119,7 @@ def write_dxf(path: str | Path, layers: Mapping[str, Sequence[Segment]]) -> Path
         If ezdxf is not installed, or the file cannot be written.
     """
     drawing = dxf_library("writing", "write_tool").new()
-    drawing.units = _UNITS["mm"]
+    drawing.units = UNITS[unit]
     space = drawing.modelspace()
     for layer, segments in layers.items():
         drawing.layers.add(layer)

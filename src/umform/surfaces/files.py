@@ -8,6 +8,7 @@ from pathlib import Path
 from umform.errors import InvalidValue
 from umform.io.atomic import PendingFile
 from umform.spec import check_arguments
+from umform.surfaces.dxf import check_unit, write_dxf
 from umform.surfaces.tool import Tool
 from umform.surfaces.triangles import Box3, Triangles
 
@@ -15,7 +16,13 @@ from umform.surfaces.triangles import Box3, Triangles
 _TRIANGLES, _DXF, _STEP = (".stl", ".vtk", ".vtu", ".ply", ".obj"), (".dxf",), (".step", ".stp")
 
 
-def write_tool(tool: Tool | Mapping[str, Tool], path: str | Path, box: Box3 | None = None, chord: float = 0.0) -> Path:
+def write_tool(
+    tool: Tool | Mapping[str, Tool],
+    path: str | Path,
+    box: Box3 | None = None,
+    chord: float = 0.0,
+    unit: str = "mm",
+) -> Path:
     """Write a tool as a drawing of its section, as a solid, or as triangles: the end of the name chooses.
 
     Parameters
@@ -32,6 +39,8 @@ def write_tool(tool: Tool | Mapping[str, Tool], path: str | Path, box: Box3 | No
         Lowest and highest corner of what is written; not for .dxf.
     chord : float, optional
         Largest distance of a triangle from the true surface; by default 1/1000 of the diagonal of the box.
+    unit : str
+        Unit of the model: mm, cm, m, um, in or ft. A .dxf names it, a .step is in mm; triangles have none.
 
     Returns
     -------
@@ -41,7 +50,7 @@ def write_tool(tool: Tool | Mapping[str, Tool], path: str | Path, box: Box3 | No
     Raises
     ------
     InvalidValue
-        If the extension is unknown, no part of the tool lies in the box, or a tool has no exact shape.
+        If the extension or the unit is unknown, no part of the tool lies in the box, or a tool has no exact shape.
     FileProblem
         If the file cannot be written.
 
@@ -53,14 +62,14 @@ def write_tool(tool: Tool | Mapping[str, Tool], path: str | Path, box: Box3 | No
     >>> uf.write_tool(tools, "bend.dxf")  # doctest: +SKIP
     """
     check_arguments(write_tool, path=path)
+    check_unit(unit, "write_tool")
     path = Path(path)
     suffix = path.suffix.lower()
     tools = tool if isinstance(tool, Mapping) else {path.stem: tool}
     if suffix in _DXF:
-        from umform.surfaces.dxf import write_dxf
         from umform.surfaces.sections import sections
 
-        return write_dxf(path, sections(tools))
+        return write_dxf(path, sections(tools), unit)
     if suffix not in _TRIANGLES + _STEP:
         raise InvalidValue(
             "a tool is written as " + ", ".join(_DXF + _STEP + _TRIANGLES),
@@ -80,7 +89,7 @@ def write_tool(tool: Tool | Mapping[str, Tool], path: str | Path, box: Box3 | No
     if suffix in _STEP:
         from umform.surfaces.cad.writing import write_step
 
-        return write_step(path, tools, box)
+        return write_step(path, tools, box, unit)
     return _write_triangles(Triangles.all_of([one.triangles(box, chord) for one in tools.values()]), path, box)
 
 

@@ -6,17 +6,19 @@ import pytest
 from command_line import umform as run
 
 from umform.problem.templates import template_file
+from umform.surfaces.dxf import layers_and_unit
 
 COARSE = ["--set", "mesh.cells=[14,1]", "--set", "steps.0.to.stroke=1.0", "--set", "steps.0.increments=10"]
 
 
 def test_a_deck_is_compensated(tmp_path):
-    words = ["--want", "stroke_force:peak=45 +- 0.05", "--by", "to.stroke=0.5:2"]
+    words = ["--want", "stroke_force:peak=45 +- 0.05", "--by", "to.stroke=0.5:2", "--set", "units.length=cm"]
     done = run("compensate", template_file("air-bending"), *words, *COARSE, "--out", tmp_path)
     assert done.exit_code == 0, done.output
     assert "steps.0.to.stroke = " in done.output
     files = {file.name for file in tmp_path.iterdir()}
     assert files >= {"compensation.csv", "compensated.toml", "compensation.html", "compensated.dxf"}
+    assert layers_and_unit(tmp_path / "compensated.dxf")[1] == "cm"  # the numbers of the deck, whatever they are
 
 
 def test_a_bend_with_a_wanted_radius_gets_another_opening(tmp_path):

@@ -157,6 +157,21 @@ def test_the_command(tmp_path):
     assert refused.exit_code == 1 and "a layer is that of a drawing" in str(refused.exception) + refused.output
 
 
+def test_drawings_of_a_deck_in_inches_are_in_inches(tmp_path):
+    """The numbers of the deck are taken as inches, the wanted outline is drawn in mm."""
+    (tmp_path / "cup.toml").write_text(deck().with_({"units": {"length": "inch"}}).toml(), encoding="utf-8")
+    radius = 40.0 * 25.4
+    write_dxf(tmp_path / "flange.dxf", {"EDGE": [Arc((radius, 0.0), (radius, 0.0), (0.0, 0.0))]})
+    words = ["net", str(tmp_path / "cup.toml"), "--outline", str(tmp_path / "flange.dxf"), "--corrections", "1"]
+    done = CliRunner().invoke(cli.app, words)
+    assert done.exit_code == 0, done.output
+    assert "largest distance, in" in done.output
+    rim = load(tmp_path / "cup-net.toml").sheet().mesh
+    drawn = outline_of(tmp_path / "cup-net.dxf", unit="in")
+    assert np.hypot(*drawn.T).max() == pytest.approx(np.hypot(*rim.points[:, :2].T).max(), rel=1e-9)
+    assert outline_of(tmp_path / "cup-net.dxf") == pytest.approx(25.4 * drawn)
+
+
 def test_a_row_of_an_outline_that_is_no_point_is_refused(tmp_path):
     path = tmp_path / "flange.csv"
     path.write_text("x,y\n40,0\n0,40 mm\n-40,0\n0,-40\n")

@@ -57,6 +57,22 @@ def test_tools_of_one_drawing_have_their_layers_and_places(tmp_path):
         np.testing.assert_allclose(again.gap(places())[0], tool.gap(places())[0], atol=1e-6)
 
 
+@pytest.mark.parametrize(("unit", "factor"), [("m", 1e-3), ("in", 1 / 25.4), ("um", 1e3)])
+def test_a_tool_of_a_model_in_another_unit_has_its_size(unit, factor, tmp_path):
+    tool, small = uf.VDie(16, 84, 2), uf.VDie(16 * factor, 84, 2 * factor)
+    drawing = uf.write_tool(small, tmp_path / "tool.dxf", unit=unit)
+    assert dxf.layers_and_unit(drawing)[1] == unit
+    again = uf.Extruded(uf.Profile.from_dxf(drawing))
+    np.testing.assert_allclose(again.gap(places())[0], tool.gap(places())[0], atol=1e-9)
+    pytest.importorskip("OCP")
+    box = tuple(tuple(factor * x for x in corner) for corner in BOX)
+    solid = uf.read_tool(uf.write_tool(small, tmp_path / "tool.step", box, unit=unit), scale=factor)
+    x = np.array([(0.0, 0.0, 0.5), (9.0, 1.0, 0.3), (1.0, -2.0, -3.0)])
+    np.testing.assert_allclose(solid.gap(factor * x)[0] / factor, tool.gap(x)[0], atol=1e-6)
+    with pytest.raises(InvalidValue, match="a unit is one of"):
+        uf.write_tool(small, tmp_path / "tool.dxf", unit="mile")
+
+
 def test_a_meridian_is_drawn(tmp_path):
     file = uf.write_tool(uf.Revolved(MERIDIAN, (0, 0, 3), "-z"), tmp_path / "tool.dxf")
     again = uf.Revolved(uf.Profile.from_dxf(file))

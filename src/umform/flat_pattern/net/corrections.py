@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -17,9 +18,11 @@ from umform.flat_pattern.net.star import Star, stretched
 from umform.flat_pattern.net.wanted import OnOutline, Wanted, height
 from umform.flat_pattern.one_step import corrected_blank, mid_surface
 from umform.mesh import Mesh
+from umform.problem.named_units import length_of
 from umform.problem.problem import Problem
 from umform.progress import Show
 from umform.report.symmetry import mirrors_of_blank
+from umform.surfaces.dxf import MILLIMETRE
 
 log = logging.getLogger("umform")
 
@@ -93,8 +96,13 @@ class NetBlank:
     def table(self) -> list[tuple[str, str, str]]:
         """Header and rows: distances of the formed edge from where it is wanted, by run."""
         names = ["the blank as it was", *(f"correction {k}" for k in range(1, len(self.runs)))]
-        rows = [(name, f"{run.largest:.3f}", f"{run.mean:.3f}") for name, run in zip(names, self.runs, strict=True)]
-        return [("blank", "largest distance, mm", "mean, mm"), *rows]
+        unit = length_of(self.deck)
+        digits = max(0, 3 - round(math.log10(MILLIMETRE[unit])))
+        rows = [
+            (name, f"{run.largest:.{digits}f}", f"{run.mean:.{digits}f}")
+            for name, run in zip(names, self.runs, strict=True)
+        ]
+        return [("blank", f"largest distance, {unit}", f"mean, {unit}"), *rows]
 
 
 def net_blank(
@@ -117,8 +125,8 @@ def net_blank(
     deck : Problem
         A deck with a flat blank of one layer of hexahedra; planes of symmetry across x or y are found.
     wanted : array_like, shape (n, 2) or (n, 3), or float
-        Outline of the formed part, whole or of the modelled part, in mm; without z it is seen along z. A number is the
-        height of the edge over the bottom, both on the mid-surface: of a cup.
+        Outline of the formed part, whole or of the modelled part, in the unit of the deck; without z it is seen along
+        z. A number is the height of the edge over the bottom, both on the mid-surface: of a cup.
     mesh : str or Path
         File for the mesh of the corrected blank, ``.inp``; a relative path is from the folder of the deck.
     corrections : int
@@ -163,7 +171,7 @@ def net_blank(
             blank, u = problem.model.mesh, problem.model.u
             formed, surface = edge.formed(blank, u), mid_surface(blank, u).points
             runs.append(NetRun(stars[-1], formed, goal.distance(formed, surface)))
-            log.info("blank %d: largest distance %.3f mm, mean %.3f mm", len(runs), runs[-1].largest, runs[-1].mean)
+            log.info("blank %d: largest distance %.4g, mean %.4g", len(runs), runs[-1].largest, runs[-1].mean)
             if len(runs) <= corrections:
                 steps.append(corrected_blank(blank, u, goal.places(formed, surface)) - stars[-1].points)
                 factor = _factor(factor, steps)

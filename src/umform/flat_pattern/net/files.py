@@ -9,6 +9,7 @@ import numpy as np
 from umform.flat_pattern.net.corrections import NetBlank
 from umform.flat_pattern.one_step.files import write_dxf
 from umform.io.tables import write_csv
+from umform.problem.named_units import length_of
 
 
 def names(stem: str) -> dict[str, str]:
@@ -35,7 +36,7 @@ def write_files(folder: Path, stem: str, found: NetBlank) -> list[Path]:
     """
     files = {kind: folder / name for kind, name in names(stem).items()}
     files["deck"].write_text(found.deck.toml(), encoding="utf-8")
-    write_dxf(files["outline"], [found.outline[:-1]])
+    write_dxf(files["outline"], [found.outline[:-1]], length_of(found.deck))
     columns = {"run": np.repeat(np.arange(len(found.runs)), [len(run.distance) for run in found.runs])}
     for heads, part in (
         (("blank_x", "blank_y"), [run.blank.points for run in found.runs]),

@@ -51,7 +51,7 @@ class Star:
                 where=where,
                 value=f"an array of shape {x.shape}",
                 cause="another table, or a missing number",
-                remedy="columns x, y or x, y, z in mm",
+                remedy="columns x, y or x, y, z",
             )
         hair = _HAIR * float(np.ptp(x[:, :2], axis=0).max())
         x = x[np.linalg.norm(x - np.roll(x, 1, axis=0), axis=1) > hair]

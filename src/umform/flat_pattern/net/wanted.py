@@ -16,7 +16,7 @@ from umform.flat_pattern.one_step import distance_to_outline
 from umform.spec.types import FARTHEST
 from umform.surfaces import Profile
 from umform.surfaces.chains import chain
-from umform.surfaces.dxf import read_dxf
+from umform.surfaces.dxf import MILLIMETRE, read_dxf
 
 Floats = NDArray[np.float64]
 
@@ -85,7 +85,7 @@ class AtHeight:
         return np.asarray(abs(self.places(edge, surface)[:, 2] - edge[:, 2]))
 
 
-def outline_of(path: str | Path, layer: str | None = None) -> Floats:
+def outline_of(path: str | Path, layer: str | None = None, unit: str = "mm") -> Floats:
     """Corners of an outline in a file, shape (n, 2) or (n, 3).
 
     Parameters
@@ -94,6 +94,8 @@ def outline_of(path: str | Path, layer: str | None = None) -> Floats:
         A DXF drawing of one closed curve, or a CSV table with the columns x, y or x, y, z; a heading is left out.
     layer : str, optional
         The layer of the drawing with the curve; by default all of it is the curve.
+    unit : str
+        Unit to which a drawing is converted.
 
     Raises
     ------
@@ -103,7 +105,8 @@ def outline_of(path: str | Path, layer: str | None = None) -> Floats:
         If there is no such layer, or the file has no layers.
     """
     if Path(path).suffix.lower() == ".dxf":
-        return Profile(*chain(*read_dxf(path, layer, "mm", _CHORD), str(path))).points(_CHORD)  # a half has no solid
+        chord = _CHORD * MILLIMETRE[unit]
+        return Profile(*chain(*read_dxf(path, layer, unit, chord), str(path))).points(chord)  # a half has no solid
     if layer is not None:
         raise InvalidValue("only a drawing has layers", where=str(path), value=layer, remedy="leave the layer out")
     try:
@@ -124,7 +127,7 @@ def outline_of(path: str | Path, layer: str | None = None) -> Floats:
             "a row of the outline is no point",
             where=f"{path}, row {int(np.argmin(known[1:])) + 2}",
             cause="an empty cell, or a unit behind a number",
-            remedy="x, y or x, y, z in mm in each row below the heading",
+            remedy="x, y or x, y, z in each row below the heading",
         )
     return np.asarray(rows[known])
 
@@ -143,6 +146,6 @@ def height(value: float) -> AtHeight:
             where="height",
             value=value,
             cause=f"a sign, nan, or beyond {FARTHEST:g}",
-            remedy="in mm, from the bottom to the edge",
+            remedy="from the bottom to the edge, in the unit of the deck",
         )
     return AtHeight(value)

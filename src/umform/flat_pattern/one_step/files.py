@@ -14,7 +14,7 @@ from umform.flat_pattern.one_step.estimate import ESTIMATE, BlankEstimate
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
 from umform.results.outcome import QUANTITIES
-from umform.surfaces.dxf import dxf_library
+from umform.surfaces.dxf import UNITS, dxf_library
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -75,8 +75,8 @@ def outline_columns(found: BlankEstimate) -> dict[str, Any]:
     return {"outline": number, **dict(zip(names, columns, strict=True))}
 
 
-def write_dxf(path: Path, outlines: Iterable[NDArray[np.float64]]) -> None:
-    """Write outlines as closed polylines in mm, AutoCAD 2010: the outer one, then holes.
+def write_dxf(path: Path, outlines: Iterable[NDArray[np.float64]], unit: str = "mm") -> None:
+    """Write outlines in a unit as closed polylines, AutoCAD 2010: the outer one, then holes.
 
     Raises
     ------
@@ -85,7 +85,7 @@ def write_dxf(path: Path, outlines: Iterable[NDArray[np.float64]]) -> None:
     """
     ezdxf = dxf_library("writing", str(path))
     drawing = ezdxf.new("R2010")
-    drawing.units = 4  # mm
+    drawing.units = UNITS[unit]
     for name, colour in LAYERS.items():
         drawing.layers.add(name, color=colour)
     space = drawing.modelspace()

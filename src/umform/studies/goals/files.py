@@ -24,8 +24,8 @@ _MODULES = {DRAWING: "ezdxf", SOLIDS: "OCP"}
 _CHORD = 1e-4
 
 
-def write_tools(folder: Path, found: Tools) -> list[Path]:
-    """Write tools: sections that one drawing can show as DXF, solids as STEP, all others as STL.
+def write_tools(folder: Path, found: Tools, unit: str) -> list[Path]:
+    """Write tools in a unit: sections that one drawing can show as DXF, solids as STEP, all others as STL.
 
     What a missing extra would write is left out, with a message.
     """
@@ -35,7 +35,7 @@ def write_tools(folder: Path, found: Tools) -> list[Path]:
         if kept and importlib.util.find_spec(_MODULES[name]) is None:
             missing.append(name)
         elif kept:
-            files.append(write_tool(kept, folder / name, found.box))
+            files.append(write_tool(kept, folder / name, found.box, unit=unit))
     if missing:
         log.warning(f'{" and ".join(missing)} not written: pip install "umform[cad]"')
     chord = _CHORD * sum((high - low) ** 2 for low, high in zip(*found.box, strict=True)) ** 0.5

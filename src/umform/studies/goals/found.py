@@ -11,6 +11,7 @@ import numpy as np
 from umform.errors import InvalidValue
 from umform.io.tables import write_csv
 from umform.problem import Problem
+from umform.problem.named_units import length_of
 from umform.processes.rules import number as is_number
 from umform.processes.rules import positive
 from umform.results.outcome import Annex, Study
@@ -216,7 +217,8 @@ class Compensated(Study):
         if isinstance(self.subject, Problem):
             files.append(write_deck(folder / DECK, self.subject, "wanted results"))
         if self.tools is not None:
-            files += write_tools(folder, self.tools)
+            unit = length_of(self.subject) if isinstance(self.subject, Problem) else "mm"
+            files += write_tools(folder, self.tools, unit)
         if self._pictured is not None:
             save(picture(*self._pictured), folder / PICTURE)
             files.append(folder / PICTURE)

@@ -111,7 +111,7 @@ class Shape:
 
     def __init__(self, path: str | Path, scale: float = 1.0) -> None:
         self.path = Path(path)
-        self._shape = _scaled(read_shape(self.path)[0], scale)
+        self._shape = scaled(read_shape(self.path)[0], scale)
         self.size = self._size()
         if self.path.suffix.lower() in IGES or not self._has_solid():  # loose faces have no common orientation
             self._shape = _sewn(self._shape, _SEWN * self.size)
@@ -258,7 +258,8 @@ def _unit_of(reader: Any) -> str:
     return str(names[0].Value(1).ToCString()).lower() if names[0].Length() else ""
 
 
-def _scaled(shape: Any, scale: float) -> Any:
+def scaled(shape: Any, scale: float) -> Any:
+    """The shape made larger by a factor."""
     if scale == 1.0:
         return shape
     gp = importlib.import_module("OCP.gp")

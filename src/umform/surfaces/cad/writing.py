@@ -12,8 +12,9 @@ import numpy as np
 
 from umform.errors import FileProblem, InvalidValue
 from umform.io.atomic import PendingFile
-from umform.surfaces.cad.opencascade import quiet, static
+from umform.surfaces.cad.opencascade import quiet, scaled, static
 from umform.surfaces.directions import right_angle, unit_vector
+from umform.surfaces.dxf import MILLIMETRE
 from umform.surfaces.profile import Profile
 from umform.surfaces.segments import Arc, Floats, Line, Segment
 from umform.surfaces.solids import Box
@@ -22,7 +23,7 @@ from umform.surfaces.tool import Placed, Tool
 from umform.surfaces.triangles import Box3, across
 
 
-def write_step(path: str | Path, tools: Mapping[str, Tool], box: Box3) -> Path:
+def write_step(path: str | Path, tools: Mapping[str, Tool], box: Box3, unit: str = "mm") -> Path:
     """Write the parts of tools in a box as solids, in mm.
 
     Parameters
@@ -33,6 +34,8 @@ def write_step(path: str | Path, tools: Mapping[str, Tool], box: Box3) -> Path:
         The tools by their names, which are those of the parts.
     box : tuple of two points
         Lowest and highest corner.
+    unit : str
+        Unit of tools and box, from which they are converted.
 
     Raises
     ------
@@ -54,7 +57,8 @@ def write_step(path: str | Path, tools: Mapping[str, Tool], box: Box3) -> Path:
     writer = control.STEPControl_Writer()
     for name, tool in tools.items():
         static("Interface", "Interface_Static", "SetCVal")("write.step.product.name", name)
-        writer.Transfer(_inside(_solid(tool, box, name), box, name), control.STEPControl_StepModelType.STEPControl_AsIs)
+        part = scaled(_inside(_solid(tool, box, name), box, name), 1.0 / MILLIMETRE[unit])
+        writer.Transfer(part, control.STEPControl_StepModelType.STEPControl_AsIs)
     done = importlib.import_module("OCP.IFSelect").IFSelect_ReturnStatus.IFSelect_RetDone
     with PendingFile(path) as temporary:
         if writer.Write(str(temporary)) != done:
