@@ -46,7 +46,9 @@ def blank(
     clamped: Annotated[
         bool, typer.Option("--clamped", help="The outer edge is held as it lies.", rich_help_panel=_HELD)
     ] = False,
-    scale: Annotated[float, option("Factor on the coordinates of the file: 25.4 for inches.", _PART)] = 1.0,
+    scale: Annotated[
+        float, option("Factor on coordinates: 25.4 for STL and meshes in inches; CAD files have their unit.", _PART)
+    ] = 1.0,
     offset: Annotated[
         float, option("Distance from the surface to the mid-surface along its normals in mm.", _PART)
     ] = 0.0,

@@ -41,7 +41,7 @@ class Outlined(Part, of=mesh.blank, leave=("cell",)):
         """Mesh of cells of a type, of a constant size or with those of a function."""
         outline = profile_of(self.outline, folder)
         holes = [profile_of(hole, folder) for hole in self.holes]
-        cells = outline.area / self.size**2 * self.of_spec()["layers"] if outline.closed else 0.0
+        cells = abs(outline.area) / self.size**2 * self.of_spec()["layers"] if outline.closed else 0.0
         if cells > _MOST_CELLS:
             raise InvalidValue(
                 f"some {cells:.2g} cells are more than {_MOST_CELLS}",

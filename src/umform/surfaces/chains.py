@@ -79,11 +79,14 @@ def _without_short(segments: Sequence[Segment], tolerance: float) -> list[Segmen
     for segment in segments:
         if segment.length > tolerance:
             kept.append(segment)
-            start = None
+            start = end = None
             continue
-        if start is None or end is None or math.dist(end, segment.start) > tolerance:
-            start = segment.start
-        end = segment.end
+        one, other = segment.start, segment.end
+        if end is not None and math.dist(end, other) < math.dist(end, one):  # drawn the other way round
+            one, other = other, one
+        if start is None or end is None or math.dist(end, one) > tolerance:
+            start = one
+        end = other
         if math.dist(start, end) > tolerance:
             kept.append(Line(start, end))
             start = end

@@ -80,5 +80,9 @@ def test_a_symmetry_of_nodes_in_no_plane_is_a_warning(tmp_path):
 def test_mistakes():
     with pytest.raises(DeckError, match="another unit"):
         Problem.read(deck_text().replace("size = 6.0", "size = 1e-3")).build()
+    clockwise = "corners = [[0.0, 75.0], [75.0, 75.0], [75.0, 0.0], [0.0, 0.0]]"
+    corners = "corners = [[0.0, 0.0], [75.0, 0.0], [75.0, 75.0], [0.0, 75.0]]"
+    with pytest.raises(DeckError, match="another unit"):
+        Problem.read(deck_text().replace("size = 6.0", "size = 1e-3").replace(corners, clockwise)).build()
     with pytest.raises(DeckError, match="closed"):
         Problem.read(deck_text().replace("radii = [0.0, 0.0, 20.0, 0.0]", "closed = false")).build()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -200,11 +201,20 @@ def test_end_points_of_splines_may_coincide(draw):
 
 
 @pytest.mark.parametrize("radius", [0.2, 2.0])
-def test_segments_shorter_than_the_tolerance_do_not_open_a_curve(draw, radius):
+@pytest.mark.parametrize("lines", [None, 1, -1])
+def test_segments_shorter_than_the_tolerance_do_not_open_a_curve(draw, radius, lines):
     """A fillet of pieces of 0.8 micrometres was left out, and the section open without a word."""
     angle = np.linspace(0.0, 0.5 * np.pi, round(0.5 * np.pi * radius / 0.8e-3))
     fillet = np.c_[10 - radius + radius * np.cos(angle), 5 - radius + radius * np.sin(angle)]
-    made = draw(lambda m, doc: m.add_lwpolyline([(0, 0), (10, 0), *fillet.tolist(), (0, 5)], close=True))
+    corners = [(0, 0), (10, 0), *fillet.tolist(), (0, 5)]
+
+    def add(m, doc):
+        if lines is None:
+            m.add_lwpolyline(corners, close=True)
+        else:  # exploded, in the order of the walk or against it
+            [m.add_line(*ends) for ends in list(pairwise([*corners, (0, 0)]))[::lines]]
+
+    made = draw(add)
     assert made.closed
     assert made.area == pytest.approx(50 - (1 - np.pi / 4) * radius**2, abs=1e-3 * radius)
     on = np.array([(x, 0.0, y) for x, y in fillet])

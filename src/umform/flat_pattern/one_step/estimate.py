@@ -215,7 +215,7 @@ def blank(
     case : Blank
         Sheet, holder, beads.
     scale : float
-        Factor on coordinates of a file; 25.4 for inches.
+        Factor on coordinates of a file: 25.4 for an STL or mesh file in inches. CAD files are converted to mm before.
     weld : float
         Corners nearer than this are one point, mm; 0: 1e-6 of the size.
     size : float, optional
