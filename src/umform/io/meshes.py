@@ -26,6 +26,9 @@ BY_MESHIO = {kind.meshio_type: kind for kind in CELL_TYPES.values()}
 VTKHDF_SUFFIXES = (".vtkhdf", ".hdf")
 WRITERS = {".vtu": "vtu", ".vtk": "vtk", ".msh": "gmsh"}
 
+#: What meshio reads of Gmsh: not format 4.0, nor elements without a physical group beside others in 4.1.
+_OF_GMSH = "; save it from Gmsh in format 2, or without 'Save all elements'"
+
 _log = logging.getLogger(__name__)
 
 
@@ -185,6 +188,7 @@ def read_by_meshio(path: Path) -> Any:
     FileProblem
         The file cannot be read, or not unambiguously.
     """
+    from_gmsh = path.suffix.lower() == ".msh" and path.is_file()
     text = checked_abaqus(path) if path.suffix.lower() == ".inp" else None
     with quiet() as said:
         try:
@@ -194,8 +198,7 @@ def read_by_meshio(path: Path) -> Any:
                 "the mesh file cannot be read",
                 where=str(path),
                 cause=" ".join(said.getvalue().split()) or f"{type(error).__name__}: {error}",
-                remedy="check the path, the suffix and that another program can open the file"
-                + ("; save it in format 2 of Gmsh" if path.suffix.lower() == ".msh" and path.is_file() else ""),
+                remedy="check the path, the suffix and that another program can open the file" + _OF_GMSH * from_gmsh,
             ) from error
     # meshio keeps the number of the coordinate system of each Nastran point but does not transform the point
     if np.any(mesh.point_data.get("nastran:ref", 0)):

@@ -319,6 +319,7 @@ def test_unreadable_files(file, capfd, name, text):
         read_mesh_arrays(path)
     assert info.value.cause
     assert info.value.where == str(path)
+    assert ("in format 2" in info.value.remedy) == name.endswith(".msh")
     assert capfd.readouterr() == ("", "")
 
 
