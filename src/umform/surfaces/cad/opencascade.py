@@ -214,7 +214,7 @@ def read_shape(path: Path) -> tuple[Any, str]:
             where=str(path),
             value=suffix,
             cause="another format",
-            remedy="export as .step, or an STL file with Triangulated.from_stl",
+            remedy="export as .step or .stl; a section in a DXF drawing is a profile, such as that of an Extruded tool",
         )
     if not path.exists():
         raise FileProblem(
