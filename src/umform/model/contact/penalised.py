@@ -111,7 +111,7 @@ class Penalised(Term, Generic[F]):
 
     @property
     def initial_penalty(self) -> float:
-        """Penalty at the start, given or estimated."""
+        """Penalty at the start: given, estimated, or that of a stage before."""
         return self._settings.penalty
 
     @property
@@ -135,7 +135,8 @@ class Penalised(Term, Generic[F]):
     def begin_with(self, penalty: float) -> None:
         """Begin with the penalty of a stage before, if it is estimated and grows; 0: there was none."""
         if self.adapts and penalty > 0.0:
-            self._restore_penalty(min(penalty, self.largest_penalty))
+            self._settings = replace(self._settings, penalty=min(penalty, self.largest_penalty))
+            self._restore_penalty(self.initial_penalty)
 
     def _restore_penalty(self, value: float) -> None:
         """Set the penalty of the converged state, and evaluate with it."""
