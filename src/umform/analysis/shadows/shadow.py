@@ -238,7 +238,7 @@ class Shadow:
 
         A run that does not get there by the factors of the reference takes its own: where the reference is free of its
         tools, and this run not yet, they are those of a sheet that nothing holds. Then it begins with a line search,
-        and the reference at last like the run.
+        and at last like the run.
         """
         system, newton = self.run.model.system, self.run.newton
         missed: Failed | None = None
@@ -257,8 +257,6 @@ class Shadow:
         try:
             near = rough.solve(goal, du, newton.mode(friction=True))
         except Failed:
-            if factors is not None:
-                raise
             run, controls = self.run, tuple(self.run.model.controls)
             system.prepare(goal)
             last = run.evaluation

@@ -266,6 +266,26 @@ def test_a_shadow_that_the_factors_of_the_run_do_not_solve_takes_its_own():
     np.testing.assert_allclose(found.shadows["Y"]["punch_force"], expected["punch_force"], rtol=1e-7, atol=1e-7)
 
 
+def sprung(press):
+    """A strip is bent over a roll, released, and pressed by a bar on a spring; friction."""
+    model = uf.Model(uf.mesh.strip(30.0, 4.0, 1.0, (30, 2)), material=uf.sheet_metals.get("DC04").law)
+    model.fix("x0")
+    roll, bar = uf.Cylinder((8.0, 0.0, -10.55), "y", 10.0), uf.Cylinder((20.0, 0.0, 6.5), "y", 4.0)
+    model.contact("lower", roll, penalty=3e4, points=3, friction=0.1, name="roll")
+    above = model.contact("upper", bar, penalty=2e4, points=3, friction=0.15, name="bar")
+    spring = model.spring(above, "-z", 50.0, name="press")
+    tip = model.prescribe("x1_upper", "z", name="tip")
+    return model, [uf.Move(tip, -6.0, steps=20), uf.Release(tip), uf.Move(spring, press, steps=12)]
+
+
+def test_a_shadow_that_no_line_search_solves_takes_the_attempts_of_a_run():
+    found = solve_with_shadows(sprung(300.0), sprung(300.0), {"more": sprung(300.03)}, frames=0)
+    assert not found.kept["more"].lost
+    more, as_it_is = (solve(*sprung(one), options=TIGHT, frames=0)["press_way"][-1] for one in (300.03, 300.0))
+    own = found.shadows["more"]["press_way"][-1] - found.reference["press_way"][-1]
+    assert own == pytest.approx(more - as_it_is, rel=1e-3)
+
+
 # Refusals -------------------------------------------------------------------------------------------------------
 
 
