@@ -58,6 +58,16 @@ def test_outlines_that_a_ray_meets_twice_are_refused():
         Star.of(SQUARE[:2], (1.0, 1.0), "here")
 
 
+@pytest.mark.parametrize("ends", [(5.0, 90.0), (0.0, 85.0), (90.0, 180.0)])
+def test_a_part_of_an_outline_reaches_over_the_whole_edge(tmp_path, ends):
+    """Rays beyond its ends met the side that closes it: a blank of another shape, without a word."""
+    arc = 40.0 * np.array([[np.cos(angle), np.sin(angle)] for angle in np.radians(np.linspace(*ends, 20))])
+    for wrong in {"wanted": arc}, {"wanted": circle(40.0), "first": arc}:
+        with pytest.raises(uf.errors.InvalidValue, match="does not reach over the whole modelled part"):
+            net_blank(deck(), mesh=tmp_path / "net.inp", **wrong)
+    Star.of(circle(40.0, np.pi), (0.0, 0.0), "here").check_reaches(np.linspace(0.0, np.pi, 9), "here")
+
+
 def test_a_mesh_is_stretched_outside_of_its_inner_half():
     disc = uf.mesh.disc(20.0, 1.0, (4, 6), part="quarter")
     edge = Edge.of(disc, [Mirror(0, 0.0), Mirror(1, 0.0)])
@@ -92,6 +102,10 @@ def test_wanted_places():
     flange = OnOutline(Star.of(circle(12.0), (0.0, 0.0), "here"))
     assert flange.places(edge, edge) == pytest.approx(np.array([[12.0, 0.0], [0.0, 12.0]]))
     assert flange.distance(edge, edge) == pytest.approx([2.0, 1.0], abs=2e-3)
+    for turn in 0.5 * np.pi, np.pi:  # the side that closes a part is none of its own
+        part = OnOutline(Star.of(circle(12.0, turn), (0.0, 0.0), "here"))
+        inside = np.array([[11.0, 0.0, 0.0], [10.5, 0.5, 0.0], [0.0, 11.0, 0.0]])
+        assert part.distance(inside, inside) == pytest.approx(flange.distance(inside, inside), abs=2e-3)
     surface = np.concatenate([edge, [[0.0, 0.0, -2.0]]])
     assert AtHeight(10.5).places(edge, surface)[:, 2].tolist() == [8.5, 8.5]
     assert AtHeight(10.5).distance(edge, surface).tolist() == [1.5, 0.5]
@@ -178,6 +192,10 @@ def test_a_row_of_an_outline_that_is_no_point_is_refused(tmp_path):
     with pytest.raises(FileProblem, match="a row of the outline is no point") as error:
         outline_of(path)
     assert error.value.where.endswith("row 3")
+    path.write_text("40,\n0,40\n-40,0\n0,-40\n")  # not a heading
+    with pytest.raises(FileProblem, match="a row of the outline is no point") as error:
+        outline_of(path)
+    assert error.value.where.endswith("row 1")
 
 
 @pytest.mark.parametrize("rows", ["", "x;y\n40;0\n0;40\n-40;0\n", "40,0,0,1\n0,40,0,1\n-40,0,0,1\n"])

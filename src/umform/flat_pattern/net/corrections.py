@@ -151,13 +151,19 @@ def net_blank(
     model = deck.build().model
     edge = Edge.of(model.mesh, mirrors_of_blank(model))
     own, centre = edge.star, edge.star.centre
-    goal: Wanted = (
-        height(float(wanted)) if isinstance(wanted, int | float) else OnOutline(Star.of(wanted, centre, "wanted"))
-    )
+    rays = np.arctan2(*(own.points - centre).T[::-1])
+
+    def around(points: ArrayLike, name: str) -> Star:
+        """An outline that the rays through the corners of the edge meet."""
+        star = Star.of(points, centre, name)
+        star.check_reaches(rays, name)
+        return star
 
     def on_rays(points: ArrayLike, name: str) -> Star:
-        """An outline by its places on the rays through the corners of the edge, which keep them."""
-        return Star(centre, Star.of(points, centre, name).at(np.arctan2(*(own.points - centre).T[::-1])))
+        """An outline by its places on these rays, which keep them."""
+        return Star(centre, around(points, name).at(rays))
+
+    goal: Wanted = height(float(wanted)) if isinstance(wanted, int | float) else OnOutline(around(wanted, "wanted"))
 
     stars, runs, steps = [own if first is None else on_rays(first, "first")], list[NetRun](), list[Floats]()
     factor = 1.0

@@ -16,6 +16,8 @@ Floats = NDArray[np.float64]
 _TURN = 2.0 * math.pi
 #: Angle below which a ray goes through a point, and length over the size below which points are one.
 _HAIR = 1e-9
+#: Angle by which an outline may end before a ray.
+_SHORT = 1e-3
 #: Part of the way from the centre to the edge on which a mesh stays as it is.
 KEPT = 0.5
 
@@ -69,9 +71,41 @@ class Star:
             )
         return cls(c, x)
 
+    def check_reaches(self, angle: ArrayLike, where: str) -> None:
+        """Refuse an outline that ends before rays at some angles; the side that closes it is no part of it.
+
+        Raises
+        ------
+        InvalidValue
+            If rays miss it; ``where`` names it.
+        """
+        corners = self._corners
+        behind = np.mod(np.asarray(angle, dtype=float) - corners[-1], _TURN)
+        missed = np.flatnonzero((behind > _SHORT) & (behind < _TURN - np.ptp(corners) - _SHORT))
+        if len(missed) and not self.closed:
+            first, last = np.degrees(corners[[0, -1]])
+            raise InvalidValue(
+                "an outline does not reach over the whole modelled part",
+                where=where,
+                value=f"from {first:.5g} to {last:.5g} degrees about ({self.centre[0]:.4g}, {self.centre[1]:.4g}); "
+                f"{len(missed)} points of the edge of the blank lie elsewhere",
+                cause="an end before a plane of symmetry, or another half or quarter",
+                remedy="the whole outline, or the modelled part of it to its planes of symmetry",
+            )
+
+    @property
+    def closed(self) -> bool:
+        """Whether it is a whole outline: its last side is then that to the first corner."""
+        return _TURN - float(np.ptp(self._corners)) < math.pi - _SHORT
+
+    @property
+    def _corners(self) -> Floats:
+        """Angles of the corners, rising."""
+        return np.asarray(np.unwrap(np.arctan2(*(self.points[:, :2] - self.centre).T[::-1])))
+
     def at(self, angle: ArrayLike) -> Floats:
         """Where rays at some angles meet it."""
-        corners = np.unwrap(np.arctan2(*(self.points[:, :2] - self.centre).T[::-1]))
+        corners = self._corners
         turned = np.mod(np.asarray(angle, dtype=float) - corners[0], _TURN)
         turned[turned > _TURN - _HAIR] = 0.0
         place = np.searchsorted(corners - corners[0], turned + _HAIR, side="right") - 1

@@ -58,7 +58,8 @@ class OnOutline:
         """Distance from the outline."""
         del surface
         points = self.star.points
-        return distance_to_outline(edge[:, : points.shape[1]], np.concatenate([points, points[:1]]))
+        line = np.concatenate([points, points[:1]]) if self.star.closed else points
+        return distance_to_outline(edge[:, : points.shape[1]], line)
 
 
 @dataclass(frozen=True)
@@ -122,10 +123,11 @@ def outline_of(path: str | Path, layer: str | None = None, unit: str = "mm") -> 
             remedy="a DXF drawing with one closed curve, or a CSV file with columns x, y or x, y, z",
         ) from error
     known = np.isfinite(rows).all(axis=1)
-    if not known[1:].all():  # the first one may be a heading
+    heading = not np.isfinite(rows[0]).any()
+    if not known[heading:].all():
         raise FileProblem(
             "a row of the outline is no point",
-            where=f"{path}, row {int(np.argmin(known[1:])) + 2}",
+            where=f"{path}, row {int(np.argmin(known[heading:])) + heading + 1}",
             cause="an empty cell, or a unit behind a number",
             remedy="x, y or x, y, z in each row below the heading",
         )
