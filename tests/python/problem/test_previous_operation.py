@@ -296,7 +296,9 @@ def test_supports_of_a_formed_part_do_not_move_it_back(control, drawn):
     stays = begins.replace("[7.0, -2.0, 0.5]", "[0.0, 0.0, 0.0]")
     for text in (begins + SLIDING, stays + aside + step + SLIDING):
         (drawn / "moved.toml").write_text(text + OUTPUT)
-        with pytest.raises(UmformError, match=r"holds a node elsewhere than it is(.*\n)*.*before(.*\n)*.*kind = \"fix\""):
+        with pytest.raises(
+            UmformError, match=r"holds a node elsewhere than it is(.*\n)*.*before(.*\n)*.*kind = \"fix\""
+        ):
             load(drawn / "moved.toml").build()
 
 

@@ -204,9 +204,9 @@ def refuse_elsewhere(model: Evaluated, where: str) -> None:
             where=f"{where}, node {node}",
             value=f"{np.linalg.norm(away.reshape(-1, 3)[node]):.4g} away",
             cause="a support or a displacement that begins where nodes were in the undeformed mesh",
-            remedy="tools or loads where nodes are to be moved; a part stays in its planes of symmetry; where a placement "
-            'has moved these, kind = "fix" holds nodes where they are; in Python here=True in fix(), hinge() or '
-            "hold_director()",
+            remedy="tools or loads where nodes are to be moved; a part stays in its planes of symmetry; where a "
+            'placement has moved these, kind = "fix" holds nodes where they are; in Python here=True in fix(), hinge() '
+            "or hold_director()",
         )
 
 

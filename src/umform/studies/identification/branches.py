@@ -32,8 +32,8 @@ def branches(values: Floats) -> list[tuple[int, int]]:
 
 def at_abscissae(
     x: Floats, columns: tuple[Floats, Floats], derivatives: tuple[Floats, Floats]
-) -> Iterator[tuple[float, Floats, float]]:
-    """Ordinate of a run at each abscissa, its derivatives, and how far the abscissa is beyond the run.
+) -> Iterator[tuple[float, Floats, float, tuple[float, float]]]:
+    """Ordinate of a run at each abscissa, its derivatives, how far the abscissa is beyond its branch, and its ends.
 
     A point of the k-th branch of the abscissae is looked for on the k-th branch of the run. Between two rows both
     columns are linear; the rows move with the parameters, eq. (5.171).
@@ -63,4 +63,4 @@ def at_abscissae(
             slope = (Y[row] - Y[row - 1]) / step if step else 0.0
             beyond = max(way[0] - sign * value, sign * value - way[-1], 0.0)
             inner = (1.0 - t) * (dY[row - 1] - slope * dX[row - 1]) + t * (dY[row] - slope * dX[row])
-            yield float(Y[row - 1] + t * (Y[row] - Y[row - 1])), inner, float(beyond)
+            yield float(Y[row - 1] + t * (Y[row] - Y[row - 1])), inner, float(beyond), (float(X[begin]), float(X[end]))

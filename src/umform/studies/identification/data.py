@@ -302,10 +302,11 @@ class MeasuredCurve:
         found = list(at_abscissae(x, (X, Y), (dX, dY)))
         worst = max(range(len(x)), key=lambda row: found[row][2])
         if found[worst][2] > NOISE * float(np.ptp(X)):
+            begin, end = found[worst][3]
             raise InvalidValue(
                 "the curve goes beyond the run",
                 where=f"curve {self.x},{self.y}",
-                value=f"{self.x} {x[worst]:.6g}; the run goes from {X.min():.6g} to {X.max():.6g}",
+                value=f"{self.x} {x[worst]:.6g}; the run goes there from {begin:.6g} to {end:.6g}",
                 cause="another unit or sign, or a run that ends earlier",
                 remedy="a longer run, or fewer rows",
             )

@@ -39,3 +39,5 @@ def test_how_far_an_abscissa_is_beyond_the_run():
     found = list(at_abscissae(np.array([-0.5, 1.5, 2.5]), (X, Y), (zero, zero)))
     assert [one[0] for one in found] == [-1.0, 2.5, 3.5]
     assert [one[2] for one in found] == [0.5, 0.0, 0.5]
+    down = list(at_abscissae(np.array([1.0, 2.0, 0.5]), (np.array([0.0, 2.0, 1.2]), Y), (zero, zero)))
+    assert [one[2:] for one in down] == [(0.0, (0.0, 2.0)), (0.0, (0.0, 2.0)), (0.7, (2.0, 1.2))]

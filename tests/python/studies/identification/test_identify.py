@@ -200,6 +200,19 @@ def test_a_curve_that_the_run_does_not_have_is_refused(tension, change, said):
         uf.identify(bar, BOUNDS, [replace(curve(tension, deviation=1.0), **change)])
 
 
+def test_a_curve_that_goes_back_farther_than_the_run_has_the_way_back_in_its_message():
+    def build(strength):
+        metal = uf.J2(200e3, 0.3, hardening=uf.Linear(strength, 2000.0))
+        model = uf.Model(uf.mesh.strip(1.0, 1.0, 1.0, (1, 1)), "BEND8", material=metal)
+        model.symmetry("x0", "x"), model.symmetry("y0", "y"), model.hinge("x0", "z")
+        pull = model.prescribe("x1", "x", name="pull")
+        return model, [uf.Move(pull, to=0.01, steps=4), uf.Move(pull, to=0.009, steps=2)]
+
+    back = uf.MeasuredCurve("pull", "pull_force", ([0.005, 0.01, 0.007], [200.0, 210.0, 50.0]), 1.0)
+    with pytest.raises(UmformError, match=r"pull 0\.007; the run goes there from 0\.01 to 0\.009"):
+        uf.identify(build, {"strength": (100.0, 300.0)}, [back])
+
+
 def test_a_number_under_two_names_is_refused():
     find = {"strength": (400.0, 700.0), "material.hardening.strength": (400.0, 700.0)}
     with pytest.raises(UmformError, match="looked for twice"):
