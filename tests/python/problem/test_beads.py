@@ -65,3 +65,17 @@ def test_a_bead_of_no_contact_a_negative_one_and_one_beside_its_tool_are_named(e
     assert "line 23, beads.front.restraint" in error.where
     (error,) = errors(BEADED.replace("[9, -9, -0.5]", "[9, -9, -9.5]"))
     assert "beside its tool" in error.what and "beads.front" in error.where
+
+
+def test_a_bead_holds_a_placed_part_from_where_it_lies():
+    """The way from the place of the blank was one along the tool: the bead slipped at once, and had its work."""
+    pulled = BEADED.replace("displacement", "force").replace('direction = "x"', "force = [90.0, 0.0, 0.0]")
+    pulled = pulled.replace("E = 210e3", "E = 2e3").replace("pull = 0.5", "pull = 1.0")
+    pulled = '[[supports]]\nkind = "fix"\nnodes = "x0"\n' + pulled
+    moved = "[placement]\nrotation = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\nshift = [50.0, 3.0, 0.0]\n"
+    placed = moved + pulled.replace("[[9, -9, -0.5], [9, 9, -0.5]]", "[[59, -9, -0.5], [59, 9, -0.5]]")
+    here, there = (Problem.read(text, "deck.toml").build().solve() for text in (pulled, placed))
+    for column in ("front_restraint", "front_slipping", "front_work", "external_work"):
+        np.testing.assert_allclose(there[column], here[column], rtol=1e-9, atol=1e-9)
+    assert here["front_restraint"][0] == here["front_work"][0] == 0.0
+    assert here["front_work"][-1] > 1.0

@@ -116,7 +116,7 @@ class PairPoints(Penalised[ContactFound]):
         block.name, block.open = f"contact {self.name}", self.tool.open
         if self.has_friction:
             block.set_pose(*self.pose)
-            block.locate(np.zeros(block.dofs))
+            block.locate(self.tool.now.u)
             block.begin()
         return block
 
