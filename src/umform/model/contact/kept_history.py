@@ -91,9 +91,7 @@ class KeptContact:
         return replace(self, faces=faces, history=self.history[kept], feet=feet)
 
     def moved(self, pose: Pose) -> KeptContact:
-        """That of a part and a tool that are placed elsewhere, by a rotation and a shift; between sheets as it is."""
-        if self.feet is not None:
-            return self
+        """That of a part and a tool that are placed elsewhere, by a rotation and a shift."""
         return replace(self, history=_turned(self.history, self.history_variables, pose))
 
     def put(self, contact: Contact | SheetContact) -> int:
@@ -188,10 +186,12 @@ def _rows(faces: Ids, wanted: Ids) -> Numbers:
 
 
 def _turned(history: Floats, history_variables: dict[str, int], pose: Pose) -> Floats:
-    """A history with its places and vectors turned, and its places shifted."""
+    """A history with its places and vectors turned, and its places shifted; places on a facet go with that."""
     rotation, shift = pose
     out = history.copy()
     for name, values in named(out, history_variables).items():
+        if values.shape[-1] < 3:
+            continue
         if name in _PLACES or name in _VECTORS:
             values[:] = values @ rotation.T
         if name in _PLACES:

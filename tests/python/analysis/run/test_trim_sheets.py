@@ -10,6 +10,7 @@ from umform.analysis.run import solve
 from umform.errors import InvalidValue
 from umform.history_variables import named
 from umform.model.contact.kept_history import KeptContact
+from umform.model.transfer.rigid_motion import RigidMotion
 
 
 def contact_of(model, **options):
@@ -132,3 +133,18 @@ def test_decks_keep_it_too(bent, tmp_path):
     contact = contact_of(uf.Model(model.mesh, material=uf.SVK(E=1.0, nu=0.0)))
     assert kept.put(contact) == 23
     np.testing.assert_array_equal(contact.state()["history"], before.state()["history"])
+
+
+def test_friction_goes_with_a_part_that_is_placed_elsewhere(bent):
+    """A motion of both sheets as one body is no way of one along the other."""
+    model, before = bent
+    works = []
+    for turn in np.eye(3), np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]):
+        motion = RigidMotion(turn, np.array([5.0, 3.0, -7.0]))
+        there = uf.Model(model.mesh, material=uf.SVK(E=1.0, nu=0.0))
+        contact = contact_of(there)
+        there.u[:] = motion.displacement(model.mesh.points, model.u)
+        there.evaluate(there.u)
+        KeptContact.of(before).moved((motion.rotation, motion.shift)).put(contact)
+        works.append(there.evaluate(there.u).found[contact].sum("friction_work"))
+    assert works[1] == pytest.approx(works[0], rel=1e-12)
