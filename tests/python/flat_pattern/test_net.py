@@ -237,6 +237,13 @@ def test_a_search_that_fails_leaves_no_mesh(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+def test_a_deck_that_does_not_begin_with_its_blank_is_refused(tmp_path):
+    """Before its run: the blank is that of another deck, or lies elsewhere."""
+    placed = deck().with_({"placement": {"rotation": np.eye(3).tolist(), "shift": [0.0, 0.0, 1.0]}})
+    with pytest.raises(uf.errors.InvalidValue, match="is no flat blank"):
+        net_blank(placed, 20.0, tmp_path / "net.inp")
+
+
 def test_a_first_blank_is_given(tmp_path):
     found = net_blank(deck(), circle(40.0), tmp_path / "net.inp", corrections=1, first=circle(44.0))
     assert found.runs[0].blank.radius([0.0, 0.3]) == pytest.approx([44.0, 44.0], rel=0.02)

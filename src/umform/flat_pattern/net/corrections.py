@@ -139,13 +139,21 @@ def net_blank(
     Raises
     ------
     InvalidValue
-        If the blank has several layers, holes or arms, an outline is not one around the middle of the blank, or is far
-        from the formed sheet.
+        If the deck does not begin with its blank, this has several layers, holes or arms, or an outline is not one
+        around the middle of the blank, does not reach over the modelled part, or is far from the formed sheet.
     NoConvergence
         If a run does not reach its end.
     """
     if not (isinstance(corrections, int) and 1 <= corrections <= 10):
         raise InvalidValue("a blank is corrected once to ten times", where="corrections", value=corrections, remedy="2")
+    if deck.before is not None or deck.start is not None or deck.contents.placement is not None:
+        raise InvalidValue(
+            "a part of an operation before, or one that is placed elsewhere, is no flat blank",
+            where="deck",
+            value=deck.source.name,
+            cause="its table before or placement",
+            remedy="the deck of the first operation, with the edge that its part should have",
+        )
     file = Path(mesh)
     trial = file.with_name(f"{file.stem}-trial{file.suffix}")
     model = deck.build().model
