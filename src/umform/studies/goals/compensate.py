@@ -230,7 +230,7 @@ class _Search:
             if exact and missed > _WAVY * self._distance(found):
                 self.missed = max(self.missed, missed / self._distance(found))
             slopes = self._corrected(slopes, least=_SAYS if gain < 1.0 else 0.0)
-            if gain < 1.0:
+            if gain < 1.0 or self._error(y_new) <= 1.0:
                 x, y = x_new, y_new
             exact = not self.missed and not good and _SLOW < gain < 1.0 and len(self.trials) < most
             if exact:

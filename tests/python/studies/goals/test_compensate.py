@@ -224,6 +224,23 @@ def test_a_part_that_does_not_respond_is_refused(monkeypatch):
         uf.compensate(BEND, {"angle": uf.Wanted(128.0, 0.02)}, ["stroke"])
 
 
+def test_a_run_with_all_results_within_their_tolerances_ends_the_search(monkeypatch):
+    """Although the sum of squares was smaller before, when one of them was not."""
+    search = sys.modules["umform.studies.goals.compensate"]._Search
+    derived = search._derived
+
+    def first(self, x):
+        derived(self, x)
+        self.trials.clear()
+        return self._keep(x, [1.05, 0.0], None, None, derived=True), np.array([[1.0], [3.0]])
+
+    monkeypatch.setattr(search, "_derived", first)
+    monkeypatch.setattr(search, "_plain", lambda self, x: self._keep(x, [0.9, 0.9], None, None))
+    want = {"tip": uf.Wanted(0.0, 1.0), "tip_force": uf.Wanted(0.0, 1.0)}
+    found = uf.compensate(lambda way: cantilever(way, 210e3), want, {"way": 0.5})
+    assert found.reached and len(found.trials) == 2
+
+
 def test_a_start_outside_of_its_bounds_is_refused():
     with pytest.raises(InvalidValue, match="starts outside of its bounds"):
         uf.compensate(BEND, {"angle": uf.Wanted(128.0, 0.02)}, ["stroke"], bounds={"stroke": (4.0, 5.0)})
