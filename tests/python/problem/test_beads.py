@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from umform.history_variables import named
+from umform.model.contact.kept_history import KeptContact
 from umform.problem import Problem
 
 BEADED = """
@@ -79,3 +81,16 @@ def test_a_bead_holds_a_placed_part_from_where_it_lies():
         np.testing.assert_allclose(there[column], here[column], rtol=1e-9, atol=1e-9)
     assert here["front_restraint"][0] == here["front_work"][0] == 0.0
     assert here["front_work"][-1] > 1.0
+
+
+def test_the_forces_of_a_kept_bead_turn_with_it():
+    problem = Problem.read(BEADED.replace("width = 6.0", "width = 6.0\nuplift = 2.0"), "deck.toml").build()
+    problem.solve()
+    (bead,) = problem.model.system.others
+    kept, turn = KeptContact.of(bead), np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
+    moved = kept.moved((turn, np.array([5.0, 3.0, -7.0])))
+    before, after = (named(one.history, one.history_variables) for one in (kept, moved))
+    assert abs(before["traction"]).max() > 1.0 and abs(before["lift"]).max() > 0.1
+    for name in ("traction", "lift"):
+        np.testing.assert_allclose(after[name], before[name] @ turn.T)
+    np.testing.assert_allclose(after["place"], before["place"] @ turn.T + [5.0, 3.0, -7.0])

@@ -19,7 +19,10 @@ Numbers = NDArray[np.int64]
 
 #: Parts of the history in the frame of the tool: places, and vectors.
 _PLACES = ("place",)
-_VECTORS = ("normal", "tangential traction", "tangential multiplier", "change of tangential multiplier")
+_VECTORS = (
+    *("normal", "tangential traction", "tangential multiplier", "change of tangential multiplier"),
+    *("traction", "lift"),  # of a bead
+)
 #: Parts of the history of sheets that add up over a run.
 _ADDED = ("slip", "friction work", "contact work")
 
