@@ -135,7 +135,8 @@ class Before(Part):
                     "the deck has no contact of this name",
                     where="keep",
                     value=name,
-                    remedy="one of " + (", ".join(contacts) or "none: there is no contact"),
+                    cause="" if contacts else "it has no contacts",
+                    remedy=f"one of {', '.join(contacts)}" if contacts else "the contact, or no keep",
                 )
             model.system.evaluate(model.system.x)
             contacts[name].begin()

@@ -163,7 +163,8 @@ class ModelPart:
                 "the sheet had no contact of this name",
                 where="keep_friction()",
                 value=name,
-                remedy="one of " + (", ".join(self.contacts) or "none: the stage before had no contact"),
+                cause="" if self.contacts else "the stage before had no contacts",
+                remedy=f"one of {', '.join(self.contacts)}" if self.contacts else "leave keep_friction() out",
             )
         self.model.system.evaluate(self.model.system.x)
         contact.begin()
