@@ -10,8 +10,8 @@ from typer.testing import CliRunner
 import umform as uf
 from umform.cli import app
 from umform.errors import InvalidValue
-from umform.problem import load
-from umform.problem.measured import may_report, names_begin
+from umform.problem import Problem, load
+from umform.problem.measured import Taken, may_report, names_begin
 from umform.problem.measures.hat import halves
 from umform.problem.templates import template, template_file
 from umform.problem.unloading import loading_steps
@@ -177,6 +177,51 @@ def test_forces_are_sizes_along_the_stroke_and_the_punch_pushes(run, numbers):
     assert numbers["forces", "work of friction"][2] == "N mm" and numbers["edge", "draw-in, mean"][2] == "mm"
     curve = columns(run[0] / "measure-forces.csv")
     assert len(curve["stroke"]) == loading.sum()
+
+
+PRESSED = """
+[mesh]
+generator = "strip"
+length = 4.0
+width = 1.0
+thickness = 1.0
+cells = [4, 1]
+[material]
+law = "SVK"
+E = 1e3
+nu = 0.0
+[placement]
+rotation = [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]
+[tools.plate]
+shape = "Plane"
+point = [0.5, 0.0, 0.0]
+normal = "-x"
+[contacts.plate]
+tool = "plate"
+faces = "upper"
+[[supports]]
+kind = "fix"
+nodes = "lower"
+[controls.press]
+kind = "press"
+contact = "plate"
+direction = "-x"
+[[steps]]
+kind = "move"
+to = { press = 12.0 }
+increments = 2
+[measures.forces]
+kind = "forces"
+control = "press"
+"""
+
+
+def test_forces_of_a_pressed_tool_are_those_along_its_direction():
+    problem = Problem.read(PRESSED, "deck")
+    prepared = problem.build()
+    taken = Taken.of(problem, prepared, prepared.solve(progress=False), complete=True)
+    numbers = {one.name: one.value for one in taken.quantities}
+    assert numbers["forces.largest force of plate.formed"] == pytest.approx(12.0, rel=1e-9)
 
 
 def test_a_measure_that_is_no_longer_asked_for_leaves_no_files(tmp_path):

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from umform.analysis.run import Result
 from umform.errors import InvalidValue
 from umform.model import Model
-from umform.model.terms.control import Control, Prescribed
-from umform.model.tools.tool_controls import ToolMotion
+from umform.model.terms.control import Control, OnDofs, Prescribed
+from umform.model.tools.tool_controls import ToolForce, ToolMotion
 from umform.problem.measures.base import Formed, Measured, MeasurePart, in_states
 from umform.problem.parts import Name
 from umform.report.symmetry import modelled_part
@@ -27,7 +27,8 @@ class Forces(MeasurePart):
 
     kind: Literal["forces"]
     control: Name
-    """Control of the abscissa, such as the stroke; forces are those along its direction, else along z."""
+    """Control of the abscissa, such as the stroke or the force of a pressed tool; forces are those along its direction,
+    those over another load or a turn along z."""
 
     def check(self, model: Model, *, released: bool) -> None:
         """Refuse a deck without tools."""
@@ -65,4 +66,7 @@ def _along(direction: Floats, result: Result, tool: str) -> Floats:
 
 
 def _direction(control: Control) -> Floats:
-    return np.asarray(control.direction if isinstance(control, ToolMotion) else (0.0, 0.0, 1.0))
+    way = control.way if isinstance(control, ToolForce) else control
+    if isinstance(way, OnDofs):
+        return np.asarray(np.eye(3)[way.dofs[0] % 3])
+    return np.asarray(way.direction if isinstance(way, ToolMotion) else (0.0, 0.0, 1.0))
