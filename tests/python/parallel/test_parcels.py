@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import umform as uf
+from umform.analysis.ranks import share
 from umform.analysis.ranks.outline import Outline
 from umform.errors import InvalidValue
 from umform.mesh import strip
@@ -153,6 +154,33 @@ def test_a_begun_state_goes_along():
         np.testing.assert_array_equal(history["history"], model.bodies.only.block.state[rows])
         np.testing.assert_array_equal(history["alpha"], model.bodies.only.block.alpha[rows])
         np.testing.assert_array_equal(contact["history"][:, 0, 0], 9.0 * facets)
+
+
+@pytest.mark.parametrize("begun", [True, False])
+def test_points_with_friction_begin_where_the_part_of_a_rank_lies(monkeypatch, begun):
+    class Filled(Exception):
+        """The system of a rank needs PETSc."""
+
+    def system(*arguments):
+        raise Filled
+
+    monkeypatch.setattr(share, "SharedSystem", system)
+    model, _ = sheet()
+    ball = uf.Sphere((6.0, 0.0, -10.5), 10.0)
+    contact = model.contact("lower", ball, penalty=10.0, points=3, friction=0.1, name="ball")
+    model.u = np.random.default_rng(5).normal(size=model.u.size)
+    cut = parcels(model)
+    assert not contact.has_begun
+    if begun:
+        contact.begin()
+        cut = parcels(model)
+    for one, (_, facets, history) in zip(cut, pieces(cut, model, "contacts")[-1], strict=True):
+        assert (history is not None) == begun
+        outline = Outline.of(model)
+        with pytest.raises(Filled):
+            share.Share(outline, one, None)
+        mine, whole = (part.block.positions.reshape(-1, 9, 3) for part in (outline.contacts[-1], contact))
+        np.testing.assert_allclose(mine, whole[facets], atol=1e-12)
 
 
 def test_each_node_of_a_term_is_on_one_rank_with_what_belongs_to_it():

@@ -245,11 +245,11 @@ class Share(Model):
 
     def __init__(self, outline: Outline, parcel: Parcel, ranks: MpiRanks, whole: Model | None = None) -> None:
         mesh = Mesh(parcel.points, {parcel.cell: parcel.connectivity})
+        now = outline.now
+        now.u = parcel.u  # before contacts with a history make their points, which begin where the part lies
+        now.began = now.converged = now.time
         for thing, piece in zip(outline.pieces_for(), parcel.pieces, strict=True):
             thing.fill(piece, mesh)
-        now = outline.now
-        now.u = parcel.u
-        now.began = now.converged = now.time
         controls, bodies = Controls(now), Bodies(outline.bodies)
         tools, supports = Tools(controls, now), SharedSupports(mesh, controls, now)
         contacts = Contacts(mesh, bodies, tools)
