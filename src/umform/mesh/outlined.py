@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue, MeshError
 from umform.mesh.blanks import order_of, stacked
-from umform.mesh.curves import Closed, check_curves, parts
+from umform.mesh.curves import Closed, check_curves
 from umform.mesh.generators import Layers
 from umform.mesh.mesh import Floats, Mesh
 from umform.mesh.neighbours import Whole
@@ -191,9 +191,18 @@ def _loop(gmsh: Any, curve: Closed) -> tuple[int, list[list[int]]]:
             tags.append([geo.addLine(corner(segment.start), corner(segment.end))])
             continue
         middle = geo.addPoint(*centre, 0.0)
-        ends = parts(segment, 2.0 * math.pi / 3.0)
+        ends = _parts(segment)
         tags.append([geo.addCircleArc(corner(a), middle, corner(b)) for a, b in pairwise(ends)])
     return geo.addCurveLoop([tag for parts in tags for tag in parts]), tags
+
+
+def _parts(arc: Any) -> list[Floats]:
+    """Ends of the parts of an arc, each of a third of a turn at most."""
+    centre, start = np.asarray(arc.centre, dtype=float), np.asarray(arc.start, dtype=float)
+    count = math.ceil(arc.angle / (2.0 * math.pi / 3.0) - 1e-9)
+    angles = math.atan2(*(start - centre)[::-1]) + arc.turn * arc.angle * np.arange(1, count) / count
+    between = [centre + arc.radius * np.array([math.cos(a), math.sin(a)]) for a in angles]
+    return [start, *between, np.asarray(arc.end, dtype=float)]
 
 
 class _Near:
