@@ -216,10 +216,11 @@ class _Near:
             for arc in segments
             if hasattr(arc, "centre")
         ]  # fmt: skip
-        lines = [line for line in segments if not hasattr(line, "centre") and (callable(size) or line.length < size)]
+        lines = [line for line in segments if not hasattr(line, "centre")]
         self._starts = np.array([line.start for line in lines], dtype=float).reshape(-1, 2)
         self._lengths = np.array([line.length for line in lines])
         self._along = np.array([line.tangents()[0] for line in lines]).reshape(-1, 2)
+        self._shortest = min((line.length for line in lines), default=math.inf)
 
     def __call__(self, x: float, y: float) -> float:
         """Size at a point."""
@@ -230,7 +231,7 @@ class _Near:
             else:
                 far = min(math.dist((x, y), start), math.dist((x, y), end))
             size = min(size, min(_SPAN, angle) * radius + _GROWTH * far)
-        if len(self._lengths):
+        if size > self._shortest:  # gmsh asks at many places
             away = np.array([x, y]) - self._starts
             along = np.clip((away * self._along).sum(axis=1), 0.0, self._lengths)
             far_off = np.hypot(*(away - along[:, None] * self._along).T)
