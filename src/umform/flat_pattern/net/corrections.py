@@ -97,7 +97,7 @@ class NetBlank:
         """Header and rows: distances of the formed edge from where it is wanted, by run."""
         names = ["the blank as it was", *(f"correction {k}" for k in range(1, len(self.runs)))]
         unit = length_of(self.deck)
-        digits = max(0, 3 - round(math.log10(MILLIMETRE[unit])))
+        digits = 3 - round(math.log10(MILLIMETRE[unit]))
         rows = [
             (name, f"{run.largest:.{digits}f}", f"{run.mean:.{digits}f}")
             for name, run in zip(names, self.runs, strict=True)
