@@ -78,9 +78,9 @@ def corrected_blank(mesh: Mesh, u: Floats, wanted: ArrayLike) -> Floats:
         raise InvalidValue(
             "the wanted outline is far from the formed sheet",
             where=f"point {worst} of the outline",
-            value=f"{largest:.4g} mm",
+            value=f"{largest:.4g} away",
             cause="another position or unit, or a blank that is much too small",
-            remedy="the outline in the coordinates of the run, mm; begin with the blank of uf.blank",
+            remedy="the outline in the coordinates and the unit of the run; begin with the blank of uf.blank",
         )
     chosen = flat[formed.triangles[near[row, best]]]
     s, t = s[row, best, None], t[row, best, None]
