@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from umform.analysis.newton.growing_penalties import relaxed
 from umform.errors import UmformError
 from umform.problem import load
 from umform.problem.check import before_run
@@ -152,6 +153,8 @@ def test_a_tool_that_stays_keeps_the_penalty_that_has_grown(tmp_path):
     np.testing.assert_allclose(found.pressure[:points], before.found.pressure[:points], rtol=1e-9)
     problem.solve(progress=False)
     assert die.penalty >= before.penalty
+    estimate = load(tmp_path / "trim.toml", {"before.keep": []}).build().contacts["die"].penalty
+    assert relaxed(problem.model) and die.penalty == estimate < before.penalty
 
 
 ROLLED = """

@@ -107,10 +107,10 @@ def _grown(model: Model, newton: Newton, converged: Converged, growth: float, mo
 
 
 def relaxed(model: Model) -> bool:
-    """Reset grown penalties to their initial values; whether there were any."""
+    """Reset grown penalties, also those that have grown in a stage before; whether there were any."""
     grown = [
-        contact for contact in model.system.penalised if contact.penalty > contact.initial_penalty and contact.adapts
+        contact for contact in model.system.penalised if contact.penalty > contact.softest_penalty and contact.adapts
     ]
     for contact in grown:
-        contact.use_penalty(contact.initial_penalty)
+        contact.use_penalty(contact.softest_penalty)
     return bool(grown)

@@ -65,7 +65,7 @@ class Penalised(Term, Generic[F]):
     def __init__(self, settings: PenaltySettings, name: str) -> None:
         self.name = name
         self._settings, self._penalty = settings, settings.penalty
-        self._standing_penalty = settings.penalty
+        self._standing_penalty = self._initial_penalty = settings.penalty
         self.elsewhere = False
         self.before = np.empty(0)
         self._last: F | None = None
@@ -112,7 +112,12 @@ class Penalised(Term, Generic[F]):
     @property
     def initial_penalty(self) -> float:
         """Penalty at the start: given, estimated, or that of a stage before."""
-        return self._settings.penalty
+        return self._initial_penalty
+
+    @property
+    def softest_penalty(self) -> float:
+        """Penalty to which grown ones may return: given or estimated; that of a stage before had grown, too."""
+        return min(self._settings.penalty, self._initial_penalty)
 
     @property
     def penalty(self) -> float:
@@ -130,13 +135,14 @@ class Penalised(Term, Generic[F]):
                 remedy="another law: model.contact(..., law=...)",
             )
         self._settings = replace(self._settings, penalty=value, largest=0.0)
+        self._initial_penalty = value
         self._restore_penalty(value)
 
     def begin_with(self, penalty: float) -> None:
         """Begin with the penalty of a stage before, if it is estimated and grows; 0: there was none."""
         if self.adapts and penalty > 0.0:
-            self._settings = replace(self._settings, penalty=min(penalty, self.largest_penalty))
-            self._restore_penalty(self.initial_penalty)
+            self._initial_penalty = min(penalty, self.largest_penalty)
+            self._restore_penalty(self._initial_penalty)
 
     def _restore_penalty(self, value: float) -> None:
         """Set the penalty of the converged state, and evaluate with it."""
