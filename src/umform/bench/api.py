@@ -31,6 +31,7 @@ from umform.errors import InvalidValue, UmformError
 from umform.flat_pattern import FILES as FLAT_FILES
 from umform.io.tables import CSV_STYLES
 from umform.problem.measured import OF_ONE
+from umform.problem.results import CHECKPOINT
 from umform.problem.results import FILES as DECK_FILES
 from umform.problem.templates import template
 from umform.processes.air_bending.files import RESULTS as BEND_FILES
@@ -142,7 +143,9 @@ class _Api:
         there = folder / RESULTS
         files = sorted(one.name for one in there.iterdir() if _is_known(one.name)) if there.is_dir() else []
         shape = (folder / SHAPE).is_file()
-        return {**asdict(job), "live": self.queue.live(job.id), "files": files, "has_shape": shape}
+        kept = (there / CHECKPOINT).is_file()
+        known = {"files": files, "has_shape": shape, "has_checkpoint": kept}
+        return {**asdict(job), "live": self.queue.live(job.id), **known}
 
     def _row(self, job: Job) -> _Json:
         row = asdict(job)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,6 +12,7 @@ from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.spec import AirBending
 from umform.processes.hemming import Hemming
 from umform.processes.hemming.formulas import flattening_forces
+from umform.results.quantity import Band, Quantity
 
 #: Force of bottoming over that in the air: what is usual.
 _BOTTOMING = (3.0, 5.0)
@@ -30,6 +32,8 @@ class Force:
         "rule", "given" or "computed".
     beyond : bool
         Whether the force may exceed the range, as in bottoming by a way.
+    band : Band or None
+        Error of a computed force, in kN/m.
     """
 
     operation: str
@@ -37,14 +41,18 @@ class Force:
     high: float
     basis: str = "rule"
     beyond: bool = False
+    band: Band | None = None
 
     def over(self, length: float) -> dict[str, Any]:
         """For the page, in kN over a length in mm."""
+        band = self.band
+        error = None if band is None or math.isnan(band.error) else band.error * length / 1e3
         return {
             "operation": self.operation,
             "force": self.high * length / 1e3,
             "basis": self.basis,
             "beyond": self.beyond,
+            "band": None if band is None else {"error": error, "middle": None, "source": band.source},
         }
 
 
@@ -64,14 +72,21 @@ def rule_forces(wanted: Wanted, case: AirBending) -> list[Force]:
     return [Force("bottom", _BOTTOMING[0] * low, _BOTTOMING[1] * high, beyond=True)]
 
 
-def computed_forces(wanted: Wanted, case: AirBending, computed: Mapping[str, float]) -> list[Force]:
-    """The same with computed forces; for air bending the larger one of rule and computation."""
+def computed_forces(wanted: Wanted, case: AirBending, computed: Mapping[str, Quantity]) -> list[Force]:
+    """The same with computed forces by their operations; for air bending the larger one of rule and computation."""
     found = []
     for rule in rule_forces(wanted, case):
-        force = computed[rule.operation]
+        one = computed[rule.operation]
+        force = one.best
+        assert force is not None
         larger = rule.operation == "bend" and force < rule.high
-        found.append(rule if larger else Force(rule.operation, force, force, "computed"))
+        found.append(rule if larger else Force(rule.operation, force, force, "computed", band=one.band))
     return found
+
+
+def largest_of(quantities: Iterable[Quantity]) -> Quantity:
+    """The largest one of the largest forces among the numbers of bends or a hem."""
+    return max((one for one in quantities if one.name == "largest_force"), key=lambda one: one.best or 0.0)
 
 
 def largest(forces: list[Force]) -> Force:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
 from umform.analysis.run.observers import watching
 from umform.bench.folders import RESULTS
-from umform.bench.forces import computed_forces, largest
+from umform.bench.forces import computed_forces, largest, largest_of
 from umform.bench.live import Watch, write_live
 from umform.bench.live_strips import StripProgress
 from umform.bench.wanted import Wanted
@@ -82,9 +83,9 @@ def run_strip(folder: Path, title: str, wanted: Wanted, sheet: AirBending, note:
             part_files.write_files(results, done, note)
     watch.phase("end", 1.0)
     part = done.first if isinstance(done, Hem) else done
-    forces = {"bend": max(bend.measures.largest_force for bend in part.bends)}
+    forces = {"bend": largest_of(chain.from_iterable(part.of_bends.values()))}
     if isinstance(done, Hem):
-        forces["flatten"] = done.measures.largest_force
+        forces["flatten"] = largest_of(done.quantities)
     needed = largest(computed_forces(wanted, sheet, forces)).over(wanted.choices.length)
     if isinstance(done, Hem):
         return _of_hem(done) | {"press": needed}

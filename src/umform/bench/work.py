@@ -18,7 +18,7 @@ from typing import Any
 from umform.analysis.run.observers import watching
 from umform.bench.errors_as_json import error_record
 from umform.bench.folders import DECK, ORDER, OUTCOME, RESULTS, locked
-from umform.bench.forces import computed_forces, largest
+from umform.bench.forces import computed_forces, largest, largest_of
 from umform.bench.form import DRAWS
 from umform.bench.limits import limit_memory
 from umform.bench.live import BendProgress, DeckProgress, Watch, write_live
@@ -147,7 +147,7 @@ def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
             watch.shape(done.result)
             write_files(results, done, note)
     watch.phase("end", 1.0)
-    needed = largest(computed_forces(wanted, case, {wanted.choices.work: done.measures.largest_force}))
+    needed = largest(computed_forces(wanted, case, {wanted.choices.work: largest_of(done.quantities)}))
     return {**record(done), "length": length, "note": note, "press": needed.over(length)}
 
 

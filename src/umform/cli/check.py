@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import re
 import tomllib
 from collections.abc import Iterator, Sequence
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
     from umform.problem import Problem
     from umform.problem.findings import Finding
     from umform.problem.prepared import Prepared
+
+log = logging.getLogger("umform")
 
 DeckFile = Annotated[Path, typer.Argument(metavar="DECK", help="Deck, a TOML file.")]
 Changes = Annotated[
@@ -84,6 +87,17 @@ def read(path: Path, changes: Sequence[str], trust: bool) -> Problem:
             say(f"--set {key} is given twice; the last value counts: {value}")
         found[key] = value
     return load(path, found, trust)
+
+
+def read_to_run(path: Path, changes: Sequence[str], trust: bool) -> Problem:
+    """The same, with a warning where a changed thickness leaves its tools behind."""
+    from umform.problem.findings import accept
+    from umform.problem.tools_that_stay import changed_thickness
+
+    deck = read(path, changes, trust)
+    for text in accept(changed_thickness(deck)):
+        log.warning(text)
+    return deck
 
 
 @contextmanager

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read
+from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read_to_run
 from umform.cli.folders import out_option, results_folder, say_written
 from umform.cli.outcome_screen import show_annex
 from umform.cli.root import Debug, Overwrite, Verbose, app, say
@@ -75,7 +75,7 @@ def compensate(
     print_warnings_once()
     said: list[str] = []
     with deck_errors("by", "want", "within"):
-        problem = read(deck, changes or (), trust)
+        problem = read_to_run(deck, changes or (), trust)
         place = results_folder(out, f"{deck.stem}-compensated", (TABLE,), overwrite=overwrite, say=said.append)
         if bool(want) == bool(shape) or (within is not None and not shape):
             raise InvalidValue(

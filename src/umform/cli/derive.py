@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read
+from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read_to_run
 from umform.cli.folders import out_option, results_folder, say_written
 from umform.cli.outcome_screen import show_annex
 from umform.cli.root import Debug, Overwrite, Verbose, app, say
@@ -72,7 +72,7 @@ def derive(
     said: list[str] = []
     typed = {"by": by, "of": of, "hold": hold}
     with deck_errors("width", **KEYS | {name: f"--{name}" for name, values in typed.items() if values}):
-        problem = read(deck, changes or (), trust)
+        problem = read_to_run(deck, changes or (), trust)
         table = problem.contents.derivatives
         paths, held = by or (table.by if table else []), _pairs(hold or ())
         wanted = of or (table.results or None if table else None)

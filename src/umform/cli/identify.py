@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read
+from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read_to_run
 from umform.cli.folders import out_option, results_folder, say_written
 from umform.cli.outcome_screen import print_table
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing, say
@@ -71,7 +71,7 @@ def identify(
     """
     print_warnings_once()
     with deck_errors():
-        problem = read(deck, changes or (), trust)
+        problem = read_to_run(deck, changes or (), trust)
     identify_case(problem, find, curve, quantity, out, f"{deck.stem}-identified", most, overwrite)
 
 

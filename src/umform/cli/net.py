@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from umform.cli.check import Changes, DeckFile, Force, Trust, deck_errors, read
+from umform.cli.check import Changes, DeckFile, Force, Trust, deck_errors, read_to_run
 from umform.cli.folders import say_written
 from umform.cli.options import option
 from umform.cli.outcome_screen import print_table
@@ -68,7 +68,7 @@ def net(
     stem = f"{deck.stem}-net"
     place = chosen_folder(deck.parent, list(names(stem).values()), overwrite=overwrite)
     with deck_errors("height", "corrections", "first", wanted="--outline"):
-        loaded = read(deck, changes or (), trust)
+        loaded = read_to_run(deck, changes or (), trust)
         running.refuse_implausible(loaded, loaded.build(), force=force)
         unit = length_of(loaded)
         wanted = height if outline is None else outline_of(outline, outline_layer, unit)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from umform.cli import INTERRUPTED
-from umform.cli.check import Changes, DeckFile, Force, Trust, deck_errors, read
+from umform.cli.check import Changes, DeckFile, Force, Trust, deck_errors, read_to_run
 from umform.cli.folders import out_option
 from umform.cli.outcome_screen import print_table
 from umform.cli.ranks import WithPetscOptions, let_the_first_end_all, let_the_first_talk, on_all_ranks, petsc_options
@@ -63,7 +63,7 @@ def run(
     let_the_first_talk()
     print_warnings_once()
     with deck_errors(), let_the_first_end_all():
-        loaded = read(deck, changes or (), trust)
+        loaded = read_to_run(deck, changes or (), trust)
         chosen = solver or loaded.contents.solution.solver
         if budget and chosen == "petsc":
             raise InvalidValue(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read
+from umform.cli.check import Changes, DeckFile, Trust, deck_errors, read_to_run
 from umform.cli.folders import out_option, results_folder, say_written
 from umform.cli.outcome_screen import show_annex
 from umform.cli.root import Debug, Overwrite, Verbose, app
@@ -35,7 +35,7 @@ def sigma(
 
     print_warnings_once()
     with deck_errors():
-        loaded = read(deck, changes or (), trust)
+        loaded = read_to_run(deck, changes or (), trust)
     scatter.check(loaded)
     place = results_folder(out, f"{deck.stem}-sigma", FILES, overwrite=overwrite)
     with staging(place, FILES):

@@ -124,7 +124,14 @@ def test_remarks_on_a_bend_are_german():
     measures = SimpleNamespace(outer_strain=0.5, largest_force=50.0, force=40.0)
     body = "const { message } = await load('/messages.js'); return JSON.parse(given).map(message);"
     force, strain = in_german(body, remarks(AirBending(), measures))
-    assert "% unter der Faustformel" in force and strain.startswith("die Randdehnung 0.50 übersteigt die 0.22")
+    assert "% unter der Faustformel" in force and strain.startswith("die Randdehnung 0,50 übersteigt die 0,22")
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="no Node to run JavaScript")
+def test_names_in_german_messages_keep_their_points():
+    body = "const { message } = await load('/messages.js'); return JSON.parse(given).map(message);"
+    said = in_german(body, [f"{name}; or leave it out" for name in ("at least 0.25", "part-2.5.step", "steps.0.to")])
+    assert [text.split(";")[0] for text in said] == ["at least 0,25", "part-2.5.step", "steps.0.to"]
 
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="no Node to run JavaScript")

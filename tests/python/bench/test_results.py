@@ -2,8 +2,12 @@
 
 import csv
 import io
+import re
 
 from visits import Visit, quick, serious
+
+from umform.bench.forces import Force
+from umform.results.quantity import Band
 
 PHONE = {"viewport": {"width": 390, "height": 844}, "color_scheme": "dark", "locale": "de-DE", "has_touch": True}
 
@@ -39,6 +43,30 @@ def test_numbers_of_a_coarse_mesh_say_so_and_its_job_is_not_green(visit):
     assert dot.get_attribute("aria-label") in ("done, with warnings", "limit missed")
     assert "section (2D)" in page.locator("#jobs button").first.inner_text()
     assert "section (2D)" in page.locator("#result h2").inner_text()
+
+
+def test_the_press_has_the_error_of_the_computed_force(visit):
+    press = Force("flatten", 100.0, 100.0, "computed", band=Band(4.0, "studies")).over(500.0)
+    job = {"summary": {"hem": {}, "warnings": [], "first": {"angle": 40.0, "stroke": 12.0}, "press": press}}
+    said = "(job) => import('/assets/strips.js').then(({ stripNumbers }) => stripNumbers(job)[0].textContent)"
+    assert "50.0 kN ± 2.0" in visit.page.evaluate(said, job)
+
+
+def test_only_a_job_with_a_checkpoint_is_resumed(visit):
+    page = visit.page
+    bent(page, 1.15)
+    answers = {}
+
+    def answer(route):
+        route.fulfill(json=route.fetch().json() | {"state": "failed", "reason": "it failed"} | answers)
+
+    page.route(re.compile(r"/api/jobs/[^/]+$"), answer)
+    page.reload()
+    page.wait_for_selector("#do-restart")
+    assert page.locator("#do-resume").count() == 0
+    answers["has_checkpoint"] = True
+    page.reload()
+    page.wait_for_selector("#do-resume")
 
 
 def test_a_job_beyond_a_limit_is_red_in_words_and_colour(visit):

@@ -104,7 +104,12 @@ def test_hem_is_that_of_the_library(bench, form):
     wanted = Wanted.read(form)
     job = bench.ended(bench.order(**form, stroke=None), 300)
     assert job["state"] == "done", job["reason"]
-    assert job["summary"]["hem"]["height"] == hemming(wanted.hem(wanted.case()), progress=False).measures.height
+    hem = hemming(wanted.hem(wanted.case()), progress=False)
+    assert job["summary"]["hem"]["height"] == hem.measures.height
+    [force] = [one for one in hem.quantities if one.name == "largest_force"]
+    press = job["summary"]["press"]
+    assert press["operation"] == "flatten" and press["band"]["source"] == force.band.source
+    assert press["band"]["error"] / press["force"] == pytest.approx(force.error / force.best)
 
 
 @pytest.mark.parametrize("work", ["bend", "bottom", "sequence", "outside", "hem", "correct", "cup", "u"])

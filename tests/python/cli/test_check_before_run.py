@@ -38,6 +38,25 @@ def test_a_run_refuses_what_cannot_be_meant(change, text, deck, tmp_path):
     assert umform("check", deck, *SHORT, "--set", change).exit_code == 1
 
 
+@pytest.mark.parametrize("command", ["derive", "sigma", "compensate", "identify", "run", "net"])
+def test_a_changed_thickness_that_leaves_tools_behind_is_said_before_the_run(command, tmp_path):
+    path = tmp_path / "deck.toml"
+    path.write_text(template("air-bending"))
+    # the run is refused afterwards, for a path or a solver that is not known
+    wrong = {
+        "derive": ["--by", "no.path"],
+        "sigma": ["--scatter", "no.path=1%"],
+        "compensate": ["--by", "no.path", "--want", "stroke=1+-0.1"],
+        "identify": ["--find", "no.path", "--quantity", "stroke=1+-0.1"],
+        "run": ["--solver", "none"],
+        "net": ["--height", "5"],
+    }
+    for thickness, count in (("1.6", 1), ("2.0", 0)):
+        said = umform(command, path, *wrong[command], "--set", f"mesh.thickness={thickness}")
+        assert said.exit_code == 1
+        assert said.stderr.count("places of tools do not follow the thickness: at 2 and 1.6") == count
+
+
 def test_force_runs_it_all_the_same(deck, tmp_path):
     forced = umform("run", deck, *SHORT, "--set", "mesh.width=0.005", "--set", "output.report=false", "--force")
     assert "a side of 0.005 thicknesses" in forced.stderr

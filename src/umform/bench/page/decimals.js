@@ -8,7 +8,7 @@ const NUMBER = /^[+-]?(\d+[.,]?\d*|[.,]\d+)(e[+-]?\d+)?$/i;
 const GROUP = /^[+-]?[1-9]\d{0,2}([.,])\d{3}$/;
 
 /** The sign before decimals. @param {string} language */
-const point = (language) => (language === "de" ? "," : ".");
+export const point = (language) => (language === "de" ? "," : ".");
 
 /**
  * A text as a number. The sign of the other language is read as the sign before decimals too (`other`), unless it may

@@ -1,15 +1,21 @@
 // @ts-check
 // Messages of the program in the language of the reader: English templates with {} and their translations.
 
+import { point } from "./decimals.js";
+
 /** @type {Map<string, string>} */
 let exact = new Map();
 /** @type {[RegExp, string][]} */
 let filled = [];
+/** A number with decimals, which is no part of a name or a path. */
+const DECIMALS = /(?<![\w.])\d+\.\d+(?:e[+-]?\d+)?(?![\w]|\.\w)/g;
+let sign = ".";
 
 /** @param {string} language */
 export async function loadMessages(language) {
   const known = language === "en" ? {} : await (await fetch(`/assets/messages.${language}.json`)).json();
   const pairs = /** @type {[string, string][]} */ (Object.entries(known));
+  sign = point(language);
   exact = new Map(pairs.filter(([text]) => !text.includes("{}")));
   // the longest first: "{} differ" would match too much
   filled = pairs.filter(([text]) => text.includes("{}")).sort(([a], [b]) => b.length - a.length)
@@ -33,9 +39,11 @@ export function message(text) {
   return text;
 }
 
-/** An insert: a list of messages, or one of them. @param {string} text */
+/** An insert: a list of messages, or one of them, or numbers and names. @param {string} text */
 function listed(text) {
   const parts = text.split(", ");
   const said = parts.map(message);
-  return said.every((one, i) => one !== parts[i]) ? said.join(", ") : message(text);
+  if (said.every((one, i) => one !== parts[i])) return said.join(", ");
+  const whole = message(text);
+  return whole === text ? text.replace(DECIMALS, (number) => number.replace(".", sign)) : whole;
 }

@@ -18,8 +18,9 @@ const GRAVITY = 9.80665;
 /** The force for choosing the press, as a quantity; none for a job without one. @param {any} summary @returns {Quantity[]} */
 function pressOf({ press, coarse_mesh: coarse = [] }) {
   if (!press) return [];
-  const mesh = press.basis === "computed" && coarse.length > 0;
-  return [{ name: "press", label: "", unit: "kN", decimals: 1, digits: 4, value: press.force, missed: false, band: null, of_mesh: mesh }];
+  const band = press.band ?? null; // a job of an earlier bench has none
+  const mesh = press.basis === "computed" && coarse.length > 0 && !band;
+  return [{ name: "press", label: "", unit: "kN", decimals: 1, digits: 4, value: press.force, missed: false, band, of_mesh: mesh }];
 }
 
 /** The tile of the press force: in kN, in tonnes, and where it comes from. @param {any} summary */

@@ -83,7 +83,7 @@ export class Result {
   /** @param {any} job */
   async show(job) {
     const parts = [];
-    const bar = JSON.stringify([job.id, job.state, language]);
+    const bar = JSON.stringify([job.id, job.state, job.has_checkpoint, language]);
     if (bar !== this.barOf) {
       this.bar.replaceChildren(this.head(job));
       this.measured = null; // its words are those of the language
@@ -100,7 +100,7 @@ export class Result {
     else if (job.live.section || job.live.outline) this.drawing.setComputed(job.live);
     if (job.state === "running" || job.state === "waiting") parts.push(this.progress(job));
     if (job.state === "failed" || job.reason) parts.push(this.failure(job));
-    if (job.state === "stopped") parts.push(make("p", { class: "soft" }, t(`stopped.${job.kind}`)));
+    if (job.state === "stopped") parts.push(make("p", { class: "soft" }, t(job.has_checkpoint ? "stopped.checkpoint" : "stopped")));
     if (job.state === "done" && job.summary.measures) parts.push(...bendNumbers(job, () => (this.measured ??= measuredForm(job, this.actions))));
     if (job.state === "running" && job.live.table?.length) parts.push(tableRows(job.live.table));
     const results = { flat: flatNumbers, table: tableNumbers, correct: corrected, cup: drawnNumbers, u: drawnNumbers }[/** @type {string} */ (job.parameters.work)];
@@ -123,7 +123,7 @@ export class Result {
     const button = (/** @type {string} */ what, /** @type {string} */ name = "") =>
       make("button", { type: "button", id: `do-${what}`, class: name, onclick: () => this.act(job, what) }, t(`do.${what}`));
     const actions = job.state === "running" || job.state === "waiting" ? [button("stop")]
-      : [...(job.state === "done" ? [] : [button("resume", "main")]), ...(job.kind === "bend" ? [button("again")] : []), button("remove")];
+      : [...(job.state === "done" ? [] : [button(job.has_checkpoint ? "resume" : "restart", "main")]), ...(job.kind === "bend" ? [button("again")] : []), button("remove")];
     const others = job.series ? [make("a", { class: "button", href: `#${placeOf(job.series)}` }, t("series.open"))] : [];
     const form = make("button", { type: "button", class: "narrow", onclick: () => goTo("form") }, t("to.form"));
     return make("header", {}, make("h2", {}, `${job.number} · ${titleOf(job)}`), make("div", { class: "bar" }, form, ...others, ...actions, ...this.next(job)));
@@ -153,7 +153,7 @@ export class Result {
   /** @param {any} job @param {string} what */
   async act(job, what) {
     if (what === "again") this.actions.again(job);
-    else if (what !== "remove" || window.confirm(t("remove.sure", { title: job.title }))) await this.actions.ask(job.id, what);
+    else if (what !== "remove" || window.confirm(t("remove.sure", { title: job.title }))) await this.actions.ask(job.id, what === "restart" ? "resume" : what);
     await this.refresh();
   }
 
