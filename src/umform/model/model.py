@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.elements import BodyOptions, Element, Rolling
-from umform.errors import InvalidValue
+from umform.errors import InvalidValue, NotFinite
 from umform.materials import Material
 from umform.mesh import Mesh, Selector
 from umform.mesh.numbers import unique
@@ -225,6 +225,14 @@ class Model(ShownModel):
                 value=np.shape(value),
                 cause="a row for each node, or the unknowns behind the displacement",
                 remedy=f"shape {self.system.u.shape}; u.ravel() of rows",
+            )
+        if not np.isfinite(value).all():
+            raise NotFinite(
+                "a displacement must be finite",
+                where="Model.u",
+                value=f"component {int(np.flatnonzero(~np.isfinite(value))[0])}",
+                cause="a division by zero",
+                remedy="the displacement of a converged state",
             )
         self.system.u = value
 

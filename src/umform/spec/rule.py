@@ -148,11 +148,4 @@ def _error(
 ) -> InvalidValue:
     if kind is None:
         kind = NotFinite if isinstance(value, float) and not math.isfinite(value) else InvalidValue
-    return kind(what, where=name, value=_shown(value), cause=cause, remedy=remedy)
-
-
-def _shown(value: object) -> str:
-    """A value as typed by hand: a mesh as 24x1."""
-    if isinstance(value, tuple | list):
-        return "x".join(map(str, value))
-    return str(value)
+    return kind(what, where=name, value=str(value), cause=cause, remedy=remedy)

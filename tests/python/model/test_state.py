@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import umform as uf
-from umform.errors import InvalidValue
+from umform.errors import InvalidValue, NotFinite
 from umform.model.moved_names import MOVED
 from umform.model.shown import ShownModel
 
@@ -112,6 +112,15 @@ def test_a_displacement_has_a_row_of_its_own_shape():
     model, _ = pressed()
     with pytest.raises(InvalidValue, match="three components for each node"):
         model.u = np.zeros((len(model.mesh.points), 3))
+
+
+def test_a_displacement_is_finite():
+    model, _ = pressed()
+    wrong = model.u.copy()
+    wrong[4] = np.nan
+    with pytest.raises(NotFinite, match="component 4"):
+        model.u = wrong
+    assert np.isfinite(model.u).all()
 
 
 # Names of a model ---------------------------------------------------------------------------------------------

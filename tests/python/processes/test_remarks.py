@@ -68,6 +68,7 @@ def test_a_force_far_from_the_rule_is_explained():
 
     assert said(0.9) == said(1.1) == []
     assert "24 % below" in said(0.76)[0]
+    assert "friction" in said(0.76)[0] and "friction" not in said(1.2)[0]  # it explains no larger force
     assert "20 % above" in said(1.2)[0]
     assert said(0.5, now=1.0) == []  # the force still rises
     assert said(9.0, case=AirBending(bottoming=True, die_angle=88, punch_angle=88)) == []

@@ -284,3 +284,12 @@ def test_a_function_takes_the_options_of_another_one():
 def test_a_clause_with_an_article_gets_no_other_one(name, start):
     assert parameters(uf.Move)[name].subject.startswith(start)
     assert parameters(uf.Release)["control"].subject.startswith("a prescribed displacement")
+
+
+def test_a_list_is_shown_as_it_is_and_a_mesh_as_it_is_typed():
+    with pytest.raises(InvalidValue) as wrong:
+        uf.derivatives(uf.J2, by=[1, 2])
+    assert wrong.value.value == "[1, 2]"
+    with pytest.raises(InvalidValue) as wrong:
+        FreeBending(mesh=(0, 1))
+    assert wrong.value.value == "0x1"

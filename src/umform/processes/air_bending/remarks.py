@@ -85,10 +85,12 @@ def force_apart(case: AirBending, measures: Measures) -> list[str]:
     passed = measures.force < force  # before the maximum the formula does not apply
     if case.bottoming or not passed or not middle or abs(force / middle - 1.0) <= _APART:
         return []
-    side = "below" if force < middle else "above"
+    off = f"{100.0 * abs(force / middle - 1.0):.0f}"
+    if force > middle:
+        return [f"the computed force is {off} % above the rule of the shop: choose the press by the larger value"]
     return [
-        f"the computed force is {100.0 * abs(force / middle - 1.0):.0f} % {side} the rule of the shop, which includes "
-        "friction and the higher Rm of real coils: choose the press by the larger value"
+        f"the computed force is {off} % below the rule of the shop, which includes friction and the higher Rm of real "
+        "coils: choose the press by the larger value"
     ]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -10,7 +11,7 @@ from annotated_types import Ge, Le
 
 from umform.errors import InvalidValue
 from umform.processes.rules import whole
-from umform.spec import About, Rule, check_fields, names_its_words
+from umform.spec import About, Checked, check_fields, names_its_words
 from umform.spec.types import ContactPoints, Length, Penalty, Stress
 
 #: What the numbers of this example rest on; said wherever they are shown.
@@ -27,12 +28,18 @@ MARKS = (2 / 15, 5 / 15, 10 / 15, 1.0)
 ContactRule = int | Literal["nodes"]
 #: A coordinate of the axis of the cylinder.
 _Place = Annotated[float, About("mm", cause="a missing value")]
-_TWO_COUNTS = Rule(
-    lambda mesh: len(mesh) == 2 and all(whole(count, 1) for count in mesh),
-    "a mesh has one element or more along and across the strip",
-    "zero, or one of the two numbers is missing",
-    "such as 24x1",
-)
+
+
+def _check_mesh(mesh: Sequence[int], name: str) -> None:
+    """Refuse other than two counts; they are shown as they are typed."""
+    if len(mesh) != 2 or not all(whole(count, 1) for count in mesh):
+        raise InvalidValue(
+            "a mesh has one element or more along and across the strip",
+            where=name,
+            value="x".join(map(str, mesh)),
+            cause="zero, or one of the two numbers is missing",
+            remedy="such as 24x1",
+        )
 
 
 @names_its_words
@@ -88,7 +95,7 @@ class FreeBending:
     """Number of equal increments up to the stroke; with fewer than 60 the forces are coarse."""
     unload: bool = True
     """Whether the displacement is taken back until the force is zero."""
-    mesh: Annotated[tuple[int, int], _TWO_COUNTS] = (24, 1)
+    mesh: Annotated[tuple[int, int], Checked(_check_mesh)] = (24, 1)
     """Elements along and across the strip."""
     element: str = "ANS3DEAS"
     """Element of the catalogue."""
