@@ -13,7 +13,7 @@ from umform.analysis.steps.pace import Pace
 from umform.errors import InvalidValue, NotFinite
 from umform.model.terms.control import Control
 from umform.spec import About, check_fields, names_its_words
-from umform.spec.types import Cuts, Duration, Growth, Increments
+from umform.spec.types import FARTHEST, Cuts, Duration, Growth, Increments
 
 #: One or several controls.
 Moved = Annotated[
@@ -66,12 +66,12 @@ class Move:
     def __post_init__(self) -> None:
         check_fields(self)
         for target in self.targets():
-            if not callable(target) and not (isinstance(target, int | float | np.number) and math.isfinite(target)):
+            if not callable(target) and not (isinstance(target, int | float | np.number) and abs(target) <= FARTHEST):
                 raise InvalidValue(
                     "a control is moved to a finite number or along a function",
                     where="Move, to",
                     value=target,
-                    cause="a missing value, or a division by zero",
+                    cause=f"a missing value, a division by zero, or beyond {FARTHEST:g}",
                     remedy="-15.0, or lambda fraction: -15.0 * fraction",
                 )
         if len(self.targets()) != len(self._given()):
@@ -197,11 +197,13 @@ def _check_law(control: Control, law: Law) -> None:
         table = np.asarray(law, dtype=float)
     except (TypeError, ValueError):
         table = np.empty(0)
-    if table.ndim != 2 or table.shape[1:] != (2,) or not np.isfinite(table).all() or len(set(table[:, 0])) < len(table):
+    pairs = table.ndim == 2 and table.shape[1:] == (2,)
+    if not pairs or not (np.abs(table) <= FARTHEST).all() or len(set(table[:, 0])) < len(table):
         raise InvalidValue(
             "a control follows another one by a function or a table of pairs",
             where=f"Move, follow {control.name}",
             value=law,
-            cause="not pairs (value of the first control, value of this one), or one value given twice",
+            cause="not pairs (value of the first control, value of this one), one value given twice, no number, "
+            f"or one beyond {FARTHEST:g}",
             remedy="[(0.0, -35.0), (-20.0, -60.0)] for instance",
         )

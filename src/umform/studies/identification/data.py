@@ -327,7 +327,9 @@ class MeasuredCurve:
 
 
 def _check(name: str, values: Floats, deviations: Floats) -> None:
-    numbers, wide = abs(values) <= FARTHEST, (deviations >= 1.0 / FARTHEST) & (deviations <= FARTHEST)
+    numbers = abs(values) <= FARTHEST
+    least = np.maximum(1.0, abs(values)) / FARTHEST  # squares over variances stay finite
+    wide = (deviations >= least) & (deviations <= FARTHEST)
     if not (numbers.all() and wide.all()):
         raise _unfit(name, values[~numbers][0] if not numbers.all() else deviations[~wide][0])
 
@@ -337,7 +339,8 @@ def _unfit(name: str, value: object) -> InvalidValue:
         "a measurement is a number with a positive standard deviation",
         where=name,
         value=value,
-        cause=f"an empty cell, a number beyond {FARTHEST:g}, or one that is zero and has no standard deviation",
+        cause=f"an empty cell, a number beyond {FARTHEST:g} or of as many standard deviations, or one that is zero and "
+        "has no standard deviation",
         remedy="such as 91.3+-.2; in Python 91.3, 0.2",
     )
 

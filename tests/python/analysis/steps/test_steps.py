@@ -366,6 +366,8 @@ def test_lift_off_and_zero_force_are_told_apart(build):
         (lambda pull: Move("pull", 0.1, 2), r"prescribe\(\), force\(\)"),
         (lambda pull: Move(pull, [0.1, 0.2], 2), r"Move, to[\s\S]*1 controls, 2 targets[\s\S]*a step for each value"),
         (lambda pull: Move(pull, [math.nan], 2), r"Move, to[\s\S]*nan[\s\S]*lambda"),
+        (lambda pull: Move(pull, 1e300, 2), r"beyond 1e\+50"),
+        (lambda pull: Move(pull, 0.1, 2, follow={pull: [(0.0, 1e300)]}), r"beyond 1e\+50"),
         (lambda pull: Move([], [], 2, follow={pull: [(0.0, 1.0)]}), "a step moves a control once"),
         (lambda pull: Move(pull, 0.1, 2, follow={"pull": [(0.0, 1.0)]}), "followers are controls"),
         (lambda pull: Move(pull, 0.1, 2, follow={pull: "text"}), "a table of pairs"),

@@ -233,7 +233,7 @@ def test_measurements_are_checked(tension):
         uf.MeasuredCurve("pull", "pull_force", ([1.0, 2.0], [1.0, 3.0]), [1.0, 1.0, 1.0])
     with pytest.raises(UmformError, match="positive standard deviation"):
         uf.MeasuredCurve("pull", "pull_force", ([1.0, 2.0], [1.0, "b"]))
-    huge = ((1e300, 1.0), (1.0, 1e-300))
+    huge = ((1e300, 1.0), (1.0, 1e-300), (1e50, 1e-50))
     for value, deviation in ((np.nan, 1.0), (1.0, 0.0), (0.0, None), ("a", None), (1.0, True), *huge):
         with pytest.raises(UmformError, match="positive standard deviation"):
             uf.MeasuredNumber("force", value, deviation)
