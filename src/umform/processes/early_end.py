@@ -25,7 +25,7 @@ def what_was_reached(out: Path, states: str, otherwise: Result | None = None) ->
     out : Path
         Folder of the run.
     states : str
-        File of the states.
+        File of the states, if the run keeps any.
     otherwise : Result, optional
         The result for errors that have none.
     """
@@ -34,14 +34,24 @@ def what_was_reached(out: Path, states: str, otherwise: Result | None = None) ->
     except (Exception, KeyboardInterrupt) as stop:
         reached: Result | None = getattr(stop, "result", otherwise)
         bends = {f"bend{number}.csv": done.result for number, done in enumerate(getattr(stop, "bends", ()), start=1)}
-        if reached is not None and reached.frames and len(reached) > 1:
-            bends |= {HISTORY: reached, states: reached}
+        if reached is not None and len(reached) > 1:
+            bends |= {HISTORY: reached} | ({states: reached} if reached.frames else {})
         if bends:
             say_kept(stop, [result.write(out / name) for name, result in bends.items()])
         raise
     for path in out.iterdir():
         if path.name == HISTORY or _OF_BENDS.fullmatch(path.name):
             path.unlink()
+
+
+@contextmanager
+def on_mesh(number: int, count: int) -> Iterator[None]:
+    """Say in the message of an early end which of several meshes, the coarsest first, was run."""
+    try:
+        yield
+    except (Exception, KeyboardInterrupt) as stop:
+        stop.add_note(f"  on mesh {number} of {count}, the coarsest first")
+        raise
 
 
 def say_kept(stop: BaseException, files: Sequence[Path]) -> None:

@@ -398,8 +398,10 @@ class Drawn(Outcome):
         if self.estimates:
             return ""
         text = f"values of one mesh, whose elements turn up to {self.case.turn:g} degrees"
+        if isinstance(self.case, UBend) and self.ending is None and self.angles is not None:
+            return f"{text}; two meshes give errors of this part: umform draw u --extrapolate"
         if isinstance(self.case, UBend):
-            return f"{text}; two meshes (without --coarse, or --extrapolate) give errors of this part"
+            return f"{text}; repeat with elements that turn half as far to see errors of this part"
         return f"{text}; repeat with half of --turn, and twice --around, to see errors of this part"
 
 

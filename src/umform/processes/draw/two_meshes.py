@@ -9,6 +9,7 @@ from umform.processes.draw.case import draw
 from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.outcome import FRAMES
 from umform.processes.draw.u_bend import UBend
+from umform.processes.early_end import on_mesh
 from umform.processes.extrapolation import Limit
 from umform.progress import Show, parts, progress_bar
 from umform.results.forming import FormingLimit
@@ -59,8 +60,10 @@ def extrapolated(
     other = coarser(case)
     with progress_bar(progress) as bar:
         first, last = parts(bar, "2 meshes", [1.0 / other.turn, 1.0 / case.turn])
-        coarse = draw(other, limit=limit, frames=0, solver=solver, progress=first)
-        fine = draw(case, limit=limit, frames=frames, solver=solver, progress=last)
+        with on_mesh(1, 2):
+            coarse = draw(other, limit=limit, frames=0, solver=solver, progress=first)
+        with on_mesh(2, 2):
+            fine = draw(case, limit=limit, frames=frames, solver=solver, progress=last)
     if any(drawn.ending is not None or drawn.angles is None for drawn in (coarse, fine)):
         return fine
     return replace(fine, coarser=coarse, estimates=estimates_of(coarse, fine))

@@ -12,6 +12,7 @@ from umform.processes.draw_bead.extrapolation import of_three
 from umform.processes.draw_bead.measures import Drawn
 from umform.processes.draw_bead.problem import problem_of
 from umform.processes.draw_bead.spec import FEWEST, DrawBead
+from umform.processes.early_end import on_mesh
 from umform.processes.extrapolation import FINER
 from umform.progress import Show, parts, progress_bar
 from umform.spec import check_arguments
@@ -57,8 +58,9 @@ def extrapolated(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", 
     shares = (0.5, 1.0 / FINER, 1.0)
     with progress_bar(progress) as bar:
         for part, tick in zip(shares, parts(bar, "3 meshes", shares, moves=2), strict=True):
-            mesh = replace(case, elements=case.elements * part)
-            every.append(drawn_through(mesh, frames=frames if part == 1.0 else 0, solver=solver, progress=tick))
+            mesh, kept = replace(case, elements=case.elements * part), frames if part == 1.0 else 0
+            with on_mesh(len(every) + 1, len(shares)):
+                every.append(drawn_through(mesh, frames=kept, solver=solver, progress=tick))
     return replace(every[-1], limits=of_three(every))
 
 

@@ -17,6 +17,7 @@ from umform.processes.draw.endings import Ending
 from umform.processes.draw.files import record
 from umform.processes.draw.pictures import sections
 from umform.processes.draw.two_meshes import coarser, estimates_of
+from umform.processes.early_end import what_was_reached
 from umform.processes.extrapolation import Limit, allowed_penetration
 
 STEEL = uf.J2(E=206e3, nu=0.3, hardening=uf.Swift(565.3, 0.0071, 0.259))
@@ -107,6 +108,29 @@ def test_two_meshes_are_run_and_the_finer_one_is_kept(runs):
     assert record(found)["errors"]["largest thinning"] > 0.0 and record(found)["about_errors"] == ""
     assert "not from this run" in found["largest thinning"].band.source
     assert "extrapolation" in found["theta1"].band.source
+
+
+def test_a_run_that_is_stopped_on_the_coarser_mesh_keeps_its_history(drawn, monkeypatch, tmp_path):
+    def instead(case, **how):
+        stop = KeyboardInterrupt()
+        stop.result = drawn.result
+        raise stop
+
+    monkeypatch.setattr("umform.processes.draw.two_meshes.draw", instead)
+    with pytest.raises(KeyboardInterrupt) as stopped, what_was_reached(tmp_path, "draw.vtkhdf"):
+        extrapolated(U)
+    assert [path.name for path in tmp_path.iterdir()] == ["history.csv"]
+    assert [note.strip() for note in stopped.value.__notes__] == [
+        "on mesh 1 of 2, the coarsest first",
+        f"results so far are in {tmp_path}: history.csv",
+    ]
+
+
+def test_what_gives_errors_of_a_part_of_one_mesh(drawn):
+    """Two meshes do not where the part has ended early."""
+    assert drawn.about_errors.endswith("two meshes give errors of this part: umform draw u --extrapolate")
+    torn = replace(drawn, ending=Ending("torn", "it tears", early=True))
+    assert torn.about_errors.endswith("repeat with elements that turn half as far to see errors of this part")
 
 
 def test_the_coarser_mesh_keeps_fewer_points_that_are_given():
