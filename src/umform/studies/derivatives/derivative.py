@@ -41,9 +41,11 @@ class Derivative:
 
     @property
     def unit(self) -> str:
-        """Its unit."""
+        """Its unit; lengths and stresses of decks, and those of laws, are in any unit."""
         one, other = self.response.unit, self.parameter.unit
-        return f"{one or '1'}/{other}" if other else one
+        if other:
+            return f"{one or '1'}/{other}"
+        return one and f"{one} per unit of the parameter"
 
     @property
     def relative(self) -> float | None:

@@ -18,7 +18,10 @@ from umform.processes.air_bending import AirBending
 from umform.processes.draw import Cup, draw
 from umform.processes.draw.u_bend import NUMISHEET, UBend
 from umform.results.forming import BY_PATHS, BY_STRAINS
+from umform.results.quantity import Quantity
+from umform.spec import Scalar
 from umform.studies.derivatives import derive
+from umform.studies.derivatives.derivative import Derivative
 
 EXAMPLES = Path(__file__).resolve().parents[4] / "examples" / "umat"
 COMPILER = shutil.which("gcc") or shutil.which("cc")
@@ -296,6 +299,19 @@ def test_a_umat_has_the_derivatives_of_the_metal(tmp_path):
 
 
 # Tables and files -------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("of", "by", "unit"),
+    [
+        ("degrees", "mm", "degrees/mm"),
+        ("", "mm", "1/mm"),
+        ("degrees", "", "degrees per unit of the parameter"),
+        ("", "", ""),
+    ],
+)
+def test_a_derivative_has_the_unit_of_its_response_over_that_of_its_parameter(of, by, unit):
+    assert Derivative(Quantity("angle", of, value=90.0), Scalar("material.E", 210e3, by), 1e-4).unit == unit
 
 
 def test_table_files_and_picture(beam, tmp_path):

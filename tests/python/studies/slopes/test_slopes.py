@@ -71,7 +71,7 @@ def test_a_straight_line_has_its_slope_and_no_band(found):
     assert one.value == pytest.approx(3.0)
     assert one.band == pytest.approx(0.0, abs=1e-9)
     assert one.relative == pytest.approx(30.0 / 34.0)
-    assert one.unit == "mm"
+    assert one.unit == "mm per unit of the parameter"  # a length of the test, which declares none
 
 
 def test_a_band_has_the_width_of_students_distribution(found):
