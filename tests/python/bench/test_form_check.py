@@ -11,6 +11,7 @@ from umform.bench.library import library, tools
 from umform.bench.wanted import Wanted
 from umform.processes.air_bending import AirBending
 from umform.processes.air_bending.formulas import tensile_strength
+from umform.results.quantity import Band, Quantity
 
 
 def kinds(found):
@@ -75,8 +76,12 @@ def test_the_press_is_chosen_by_the_operation_with_the_largest_force():
     press = look({"work": "hem", **HEM, "gap": 2.0})["expected"]["press"]
     assert press["operation"] == "flatten" and 606.0 < press["force"] < 1.5 * 606.0
     wanted = Wanted.read({"work": "hem", **HEM, "gap": 2.0})
-    needed = forces.largest(forces.computed_forces(wanted, wanted.case(), {"bend": 98.0, "flatten": 606.0})).over(500.0)
+    bend, flatten = (Quantity("force", value=value, band=Band(20.0, "studies")) for value in (98.0, 606.0))
+    needed = forces.largest(forces.computed_forces(wanted, wanted.case(), {"bend": bend, "flatten": flatten})).over(
+        500.0
+    )
     assert (needed["operation"], needed["basis"], needed["force"]) == ("flatten", "computed", 303.0)
+    assert needed["band"] == {"error": 10.0, "middle": None, "source": "studies"}
     tools = {"die_angle": 88.0, "punch_angle": 88.0, "angle": None}
     given = look({"work": "bottom", "force_per_metre": 800.0, "length": 2000.0, **tools})["expected"]["press"]
     assert (given["operation"], given["basis"], given["force"]) == ("bottom", "given", 1600.0)

@@ -108,8 +108,10 @@ def test_hem_is_that_of_the_library(bench, form):
     assert job["summary"]["hem"]["height"] == hem.measures.height
     [force] = [one for one in hem.quantities if one.name == "largest_force"]
     press = job["summary"]["press"]
-    assert press["operation"] == "flatten" and press["band"]["source"] == force.band.source
-    assert press["band"]["error"] / press["force"] == pytest.approx(force.error / force.best)
+    assert press["operation"] == ("bend" if "force" in form else "flatten")  # 20 kN/m are less than the first bend
+    if "force" not in form:
+        assert press["band"]["source"] == force.band.source
+        assert press["band"]["error"] / press["force"] == pytest.approx(force.error / force.best)
 
 
 @pytest.mark.parametrize("work", ["bend", "bottom", "sequence", "outside", "hem", "correct", "cup", "u"])
