@@ -171,16 +171,17 @@ def _give_back(share: Share, result: History | None) -> None:
     loads = [None if tool.load is None else gathering.displacement(tool.load.vector) for tool in share.tools]
     if whole is None:
         return
-    whole.u, whole.system.time = np.full_like(whole.u, np.nan) if u is None else u, share.system.time
+    system = whole.system
+    system.u, system.time = np.full_like(system.u, np.nan) if u is None else u, share.system.time
     for control, own in zip(whole.controls, share.controls, strict=True):
         control.value = own.value
     for tool, own_tool, vector in zip(whole.tools, share.tools, loads, strict=True):
         _give_back_tool(tool, own_tool, vector)
-    put_supports(whole.system, supports)
-    for unknown, own_unknown in zip(whole.system.unknowns, share.system.unknowns, strict=True):
+    put_supports(system, supports)
+    for unknown, own_unknown in zip(system.unknowns, share.system.unknowns, strict=True):
         unknown.value = own_unknown.value
-    whole.system.whole.elsewhere = True
-    for thing in (*whole.bodies, *whole.contacts, *whole.system.others):
+    system.whole.elsewhere = True
+    for thing in (*whole.bodies, *whole.contacts, *system.others):
         thing.elsewhere = True
         for made in ("block", "_areas", "_no_multipliers"):
             vars(thing).pop(made, None)
