@@ -219,7 +219,7 @@ test-mpi: mpi  ## tests on 1, 2 and 3 ranks with PETSc
 	$(SAY) 'Testing on 1, 2 and 3 ranks with PETSc'
 	@$(MPI)/bin/python -m pytest -q tests/mpi --timeout 900 $(ARGS)
 
-verification: pardiso  ## run the whole verification book and write docs/verification (some 12 minutes on 2 cores)
+verification: pardiso  ## run the whole verification book and write docs/verification (long)
 	$(SAY) 'Running all cases of the verification book'
 	@$(BIN)/umform verify --all --out docs/verification $(ARGS)
 	@$(if $(ARGS),,$(BIN)/python tools/readme_numbers.py)
